@@ -1,0 +1,88 @@
+//! Which edits would leave a scene that does not hold together?
+
+use std::collections::HashSet;
+
+use super::{Content, EntityId, MaterialId, Node, Role, Scene, SceneError, Subtree};
+
+impl Scene {
+    /// Whether all of a subtree can be inserted where it is to go.
+    pub(super) fn check_insertion(&self, subtree: &Subtree) -> Result<(), SceneError> {
+        if let Some(group) = subtree.parent {
+            self.check_group(group)?;
+        }
+        let above = self.depth_under(subtree.parent);
+        let (mut names, mut ids) = (HashSet::new(), HashSet::new());
+        let (mut fresh, mut counter) = (0, self.ids);
+        for (node, depth) in subtree.node.walk() {
+            self.check_node(node)?;
+            if above + depth > Self::MAX_DEPTH {
+                return Err(SceneError::TooDeep(node.name.clone()));
+            }
+            if !names.insert(node.name.as_str()) {
+                return Err(SceneError::NameTaken(node.name.clone()));
+            }
+            match node.id {
+                Some(id) if !ids.insert(id) => return Err(SceneError::IdTaken(id)),
+                Some(id) => counter.skip_past(id.index()),
+                None => fresh += 1,
+            }
+        }
+        if counter.has(fresh) { Ok(()) } else { Err(SceneError::IdsExhausted) }
+    }
+
+    /// Whether one node fits what is in the scene already, its members and place aside.
+    fn check_node(&self, node: &Node) -> Result<(), SceneError> {
+        self.check_name(&node.name)?;
+        if let Some(id) = node.id
+            && self.contains(id)
+        {
+            return Err(SceneError::IdTaken(id));
+        }
+        match node.content {
+            Content::Shape(_, material) => self.check_material(material),
+            Content::Light(_) | Content::Camera(_) | Content::Group(_) => Ok(()),
+        }
+    }
+
+    /// Whether an entity of the scene can become a member of `parent`.
+    pub(super) fn check_membership(&self, id: EntityId, parent: Option<EntityId>) -> Result<(), SceneError> {
+        let Some(group) = parent else { return Ok(()) };
+        self.check_group(group)?;
+        if self.lies_in(group, id) {
+            return Err(SceneError::Cycle { group: self.name_or_id(id), into: self.name_or_id(group) });
+        }
+        if self.depth_under(parent) + self.height(id) > Self::MAX_DEPTH {
+            return Err(SceneError::TooDeep(self.name_or_id(id)));
+        }
+        Ok(())
+    }
+
+    /// Whether a name is one, and free.
+    pub(super) fn check_name(&self, name: &str) -> Result<(), SceneError> {
+        if name.trim().is_empty() {
+            return Err(SceneError::EmptyName);
+        }
+        if self.by_name.contains_key(name) {
+            return Err(SceneError::NameTaken(name.to_owned()));
+        }
+        Ok(())
+    }
+
+    /// Whether the scene has that material.
+    pub(super) fn check_material(&self, id: MaterialId) -> Result<(), SceneError> {
+        self.find_material(id).map(|_| ()).ok_or(SceneError::UnknownMaterial(id))
+    }
+
+    fn check_group(&self, id: EntityId) -> Result<(), SceneError> {
+        match self.role(id) {
+            None => Err(SceneError::UnknownEntity(id)),
+            Some(Role::Group) => Ok(()),
+            Some(is) => Err(SceneError::NotAGroup { name: self.name_or_id(id), is }),
+        }
+    }
+
+    /// What a message calls an entity.
+    pub(super) fn name_or_id(&self, id: EntityId) -> String {
+        self.name(id).unwrap_or_else(|| id.to_string())
+    }
+}

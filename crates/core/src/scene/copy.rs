@@ -1,0 +1,93 @@
+//! How is a part of a scene, or all of it, taken out as a copy?
+
+use std::collections::HashSet;
+
+use super::{Content, EntityId, Node, Scene, Subtree};
+
+impl Scene {
+    /// A copy of an entity with its members, under the ids and names they have here.
+    #[must_use]
+    pub fn node(&self, id: EntityId) -> Option<Node> {
+        let content = if let Some((shape, material)) = self.shape(id).zip(self.material_of(id)) {
+            Content::Shape(shape, material)
+        } else if let Some(light) = self.light(id) {
+            Content::Light(light)
+        } else if let Some(camera) = self.camera(id) {
+            Content::Camera(camera)
+        } else {
+            Content::Group(
+                self.children(Some(id)).into_iter().filter_map(|member| self.node(member)).collect(),
+            )
+        };
+        Some(Node { id: Some(id), name: self.name(id)?, placement: self.placement(id)?, content })
+    }
+
+    /// A copy of an entity with its members that can be inserted beside it, as its next sibling: with new ids,
+    /// and with names that are free.
+    #[must_use]
+    pub fn duplicate(&self, id: EntityId) -> Option<Subtree> {
+        let mut node = self.node(id)?;
+        let mut taken = HashSet::new();
+        node.each_mut(&mut |copy| {
+            copy.id = None;
+            copy.name = free_name(&copy.name, |name| taken.contains(name) || self.by_name.contains_key(name));
+            taken.insert(copy.name.clone());
+        });
+        Some(Subtree { node, parent: self.parent(id), index: Some(self.index_of(id) + 1) })
+    }
+
+    /// `wish`, or where an entity has that name already, `wish` with the first free number from 2 behind it. An
+    /// empty wish stays empty, and will be refused.
+    #[must_use]
+    pub fn free_name(&self, wish: &str) -> String {
+        free_name(wish, |name| self.by_name.contains_key(name))
+    }
+
+    /// The same for materials.
+    #[must_use]
+    pub fn free_material_name(&self, wish: &str) -> String {
+        free_name(wish, |name| self.material_named(name).is_some())
+    }
+}
+
+/// "ball", "ball 2", "ball 3" ...: the first that is free. A wish that ends in such a number counts on from it.
+fn free_name(wish: &str, is_taken: impl Fn(&str) -> bool) -> String {
+    if !is_taken(wish) {
+        return wish.to_owned();
+    }
+    let numbered = wish.rsplit_once(' ').and_then(|(stem, number)| Some((stem, number.parse::<u32>().ok()?)));
+    let (stem, number) = numbered.unwrap_or((wish, 1));
+    // As many names as a scene can have entities, and one more: one of them is free.
+    (u64::from(number) + 1..)
+        .map(|number| format!("{stem} {number}"))
+        .find(|name| !is_taken(name))
+        .unwrap_or_default()
+}
+
+/// A scene of its own with the same ids, names, materials, settings, revision and log.
+impl Clone for Scene {
+    fn clone(&self) -> Self {
+        let mut copy = Self { materials: self.materials.clone(), settings: self.settings, ..Self::new() };
+        for root in &self.roots {
+            if let Some(node) = self.node(*root) {
+                copy.spawn(node, None);
+            }
+        }
+        copy.roots.clone_from(&self.roots);
+        copy.ids = self.ids;
+        copy.log.clone_from(&self.log);
+        copy.revision = self.revision;
+        copy
+    }
+}
+
+/// Scenes are equal if they have the same parts, under the same ids and names and in the same order, and the same
+/// settings, by whatever edits they got there.
+impl PartialEq for Scene {
+    fn eq(&self, other: &Self) -> bool {
+        self.roots == other.roots
+            && self.settings == other.settings
+            && self.materials().eq(other.materials())
+            && self.roots.iter().all(|&root| self.node(root) == other.node(root))
+    }
+}

@@ -1,0 +1,80 @@
+//! Why is an edit of a scene refused?
+
+use super::{EntityId, MaterialId, Role, Scene};
+
+/// Why a [`Scene`] refused an edit; the scene is then exactly as it was before.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// No such entity, or it has been removed.
+    #[error("there is no {0} in this scene")]
+    UnknownEntity(EntityId),
+    /// No such material, or it has been removed.
+    #[error("there is no {0} in this scene")]
+    UnknownMaterial(MaterialId),
+    /// A name without any letter.
+    #[error("a name must not be empty")]
+    EmptyName,
+    /// Shapes, lights, cameras and groups share one list of names.
+    #[error("the name \"{0}\" is taken by another shape, light, camera or group")]
+    NameTaken(String),
+    /// Two materials may not have one name.
+    #[error("the name \"{0}\" is taken by another material")]
+    MaterialNameTaken(String),
+    /// An inserted entity asks for an id that is in use.
+    #[error("{0} is in the scene already")]
+    IdTaken(EntityId),
+    /// An added material asks for an id that is in use.
+    #[error("{0} is in the scene already")]
+    MaterialIdTaken(MaterialId),
+    /// Every number that an id can have has been used.
+    #[error("the scene has no numbers left for new parts")]
+    IdsExhausted,
+    /// The entity has no part of this kind to change.
+    #[error("\"{name}\" is a {is}, not a {needs}")]
+    WrongRole {
+        /// The entity that was to be changed.
+        name: String,
+        /// What it is.
+        is: Role,
+        /// What it would have to be.
+        needs: Role,
+    },
+    /// Only groups have members.
+    #[error("\"{name}\" is a {is} and cannot have members; only a group can")]
+    NotAGroup {
+        /// The entity that was to become a parent.
+        name: String,
+        /// What it is.
+        is: Role,
+    },
+    /// A group may not be a member of itself, nor of a group inside it.
+    #[error("\"{group}\" cannot become a member of \"{into}\", which is {}", if group == into {"itself"} else {"inside it"})]
+    Cycle {
+        /// The group that was to be moved.
+        group: String,
+        /// Where to.
+        into: String,
+    },
+    /// Groups inside groups inside groups, further than a scene allows.
+    #[error("\"{0}\" would lie inside more than {max} groups", max = Scene::MAX_DEPTH)]
+    TooDeep(String),
+    /// A material that shapes still wear cannot be removed.
+    #[error("the material \"{material}\" is in use by \"{shape}\"{}", and_others(*.others))]
+    MaterialInUse {
+        /// The material that was to be removed.
+        material: String,
+        /// The oldest shape that has it.
+        shape: String,
+        /// How many other shapes have it.
+        others: usize,
+    },
+}
+
+fn and_others(count: usize) -> String {
+    match count {
+        0 => String::new(),
+        1 => " and 1 other shape".to_owned(),
+        _ => format!(" and {count} other shapes"),
+    }
+}

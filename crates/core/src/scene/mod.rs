@@ -1,0 +1,389 @@
+//! Where do the parts of a scene live, how are they found, and how are they changed?
+//!
+//! A [`Scene`] is a [`hecs::World`] behind stable ids. An entity is a [`Shape`], a [`Light`] or a [`Camera`] with
+//! a [`Placement`], or a group whose members name it as their [`Parent`] and move with it. Materials are shared
+//! by [`MaterialId`]. Every change is an [`Edit`] that goes through [`Scene::apply`], which checks it, answers
+//! with its inverse, and writes into the edit log what was changed; [`History`] makes undo and redo of it.
+
+mod apply;
+mod check;
+mod copy;
+mod edit;
+mod error;
+mod history;
+mod ids;
+mod materials;
+mod node;
+mod settings;
+mod tree;
+
+use std::collections::{BTreeMap, HashMap};
+
+pub use edit::{Change, ChangeKind, Edit, Subject};
+pub use error::SceneError;
+pub use history::History;
+pub use ids::{EntityId, MaterialId};
+pub use node::{Content, Node, Subtree};
+pub use settings::Settings;
+
+use crate::{Camera, Light, Material, Placement, Shape};
+use ids::Counter;
+use materials::Materials;
+
+/// What kind of entity something is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Role {
+    /// Something to be seen: a [`Shape`] that wears a material.
+    Shape,
+    /// Something that gives light: a [`Light`].
+    Light,
+    /// Something to look through: a [`Camera`].
+    Camera,
+    /// Entities that move together.
+    Group,
+}
+
+impl std::fmt::Display for Role {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Shape => "shape",
+            Self::Light => "light",
+            Self::Camera => "camera",
+            Self::Group => "group",
+        })
+    }
+}
+
+/// Component of every entity: its name, which no other entity of the scene has.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Name(pub(in crate::scene) String);
+
+impl Name {
+    /// The name.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+/// Component of every member of a group: which group. Entities at the top of the scene have none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Parent(pub(in crate::scene) EntityId);
+
+impl Parent {
+    /// The group.
+    #[must_use]
+    pub fn id(self) -> EntityId {
+        self.0
+    }
+}
+
+/// Component of every group: its members, in order.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Members(pub(in crate::scene) Vec<EntityId>);
+
+impl Members {
+    /// The ids of the members, in order.
+    #[must_use]
+    pub fn ids(&self) -> &[EntityId] {
+        &self.0
+    }
+}
+
+/// Shapes, lights, cameras, groups, materials and settings, and a log of how they were changed.
+pub struct Scene {
+    world: hecs::World,
+    entities: BTreeMap<EntityId, hecs::Entity>,
+    by_name: HashMap<String, EntityId>,
+    /// What lies in no group, in order.
+    roots: Vec<EntityId>,
+    ids: Counter,
+    materials: Materials,
+    settings: Settings,
+    log: Vec<Change>,
+    revision: u64,
+}
+
+impl Scene {
+    /// How many groups an entity can lie inside of, one in the other.
+    pub const MAX_DEPTH: usize = 64;
+
+    /// An empty scene with the default settings.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            world: hecs::World::new(),
+            entities: BTreeMap::new(),
+            by_name: HashMap::new(),
+            roots: Vec::new(),
+            ids: Counter::START,
+            materials: Materials::new(),
+            settings: Settings::default(),
+            log: Vec::new(),
+            revision: 0,
+        }
+    }
+
+    /// The store itself, to query components: every entity has its [`EntityId`], a [`Name`] and a [`Placement`];
+    /// then a [`Shape`] and a [`MaterialId`], or a [`Light`], or a [`Camera`], or [`Members`]; and a [`Parent`]
+    /// if it is in a group. The order of a query follows the history of edits: sort by id where order matters.
+    ///
+    /// For reading only: hecs would lend components for writing too, and such a change is in no log.
+    #[must_use]
+    pub fn world(&self) -> &hecs::World {
+        &self.world
+    }
+
+    /// Under what handle [`Self::world`] keeps an entity. It changes when a removal is undone.
+    #[must_use]
+    pub fn entity(&self, id: EntityId) -> Option<hecs::Entity> {
+        self.entities.get(&id).copied()
+    }
+
+    /// Whether there is such an entity.
+    #[must_use]
+    pub fn contains(&self, id: EntityId) -> bool {
+        self.entities.contains_key(&id)
+    }
+
+    /// All entities, oldest first.
+    pub fn entities(&self) -> impl ExactSizeIterator<Item = EntityId> + '_ {
+        self.entities.keys().copied()
+    }
+
+    /// The entities of one role, oldest first.
+    pub fn entities_of(&self, role: Role) -> impl Iterator<Item = EntityId> + '_ {
+        self.entities().filter(move |&id| self.role(id) == Some(role))
+    }
+
+    /// What an entity is.
+    #[must_use]
+    pub fn role(&self, id: EntityId) -> Option<Role> {
+        let entity = self.world.entity(self.entity(id)?).ok()?;
+        Some(match () {
+            () if entity.has::<Shape>() => Role::Shape,
+            () if entity.has::<Light>() => Role::Light,
+            () if entity.has::<Camera>() => Role::Camera,
+            () => Role::Group,
+        })
+    }
+
+    /// The name of an entity.
+    #[must_use]
+    pub fn name(&self, id: EntityId) -> Option<String> {
+        self.component::<Name>(id).map(|name| name.0)
+    }
+
+    /// The entity of that name.
+    #[must_use]
+    pub fn entity_named(&self, name: &str) -> Option<EntityId> {
+        self.by_name.get(name).copied()
+    }
+
+    /// The shape of a shape entity, in its own space.
+    #[must_use]
+    pub fn shape(&self, id: EntityId) -> Option<Shape> {
+        self.component(id)
+    }
+
+    /// The material that a shape entity wears.
+    #[must_use]
+    pub fn material_of(&self, id: EntityId) -> Option<MaterialId> {
+        self.component(id)
+    }
+
+    /// The light of a light entity, in its own space.
+    #[must_use]
+    pub fn light(&self, id: EntityId) -> Option<Light> {
+        self.component(id)
+    }
+
+    /// The camera of a camera entity, in its own space.
+    #[must_use]
+    pub fn camera(&self, id: EntityId) -> Option<Camera> {
+        self.component(id)
+    }
+
+    /// Where an entity stands, relative to its group or, outside any group, to the world.
+    #[must_use]
+    pub fn placement(&self, id: EntityId) -> Option<Placement> {
+        self.component(id)
+    }
+
+    /// A copy of one component, `None` without the entity or the component.
+    fn component<T: hecs::Component + Clone>(&self, id: EntityId) -> Option<T> {
+        self.world.get::<&T>(self.entity(id)?).ok().map(|component| T::clone(&component))
+    }
+
+    /// A material.
+    ///
+    /// # Panics
+    /// If it has been removed, or is of another scene; what [`Self::material_of`] gives never is. See
+    /// [`Self::find_material`] for ids that were kept.
+    #[must_use]
+    pub fn material(&self, id: MaterialId) -> &Material {
+        self.find_material(id).unwrap_or_else(|| panic!("there is no {id} in this scene"))
+    }
+
+    /// A material, `None` once it has been removed.
+    #[must_use]
+    pub fn find_material(&self, id: MaterialId) -> Option<&Material> {
+        self.materials.get(id).map(|(_, material)| material)
+    }
+
+    /// The name of a material.
+    ///
+    /// # Panics
+    /// As for [`Self::material`].
+    #[must_use]
+    pub fn material_name(&self, id: MaterialId) -> &str {
+        self.materials.get(id).unwrap_or_else(|| panic!("there is no {id} in this scene")).0
+    }
+
+    /// The material of that name.
+    #[must_use]
+    pub fn material_named(&self, name: &str) -> Option<MaterialId> {
+        self.materials.named(name)
+    }
+
+    /// All materials with their names, oldest first.
+    pub fn materials(&self) -> impl Iterator<Item = (MaterialId, &str, &Material)> {
+        self.materials.iter()
+    }
+
+    /// The shapes that wear a material, oldest first.
+    #[must_use]
+    pub fn wearers(&self, id: MaterialId) -> Vec<EntityId> {
+        let mut query = self.world.query::<(&EntityId, &MaterialId)>();
+        let mut wearers: Vec<EntityId> =
+            query.iter().filter(|(_, material)| **material == id).map(|(&entity, _)| entity).collect();
+        wearers.sort_unstable();
+        wearers
+    }
+
+    /// What holds for the scene as a whole.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// How many edits the scene has seen. Equal revisions of one scene mean that nothing has changed between.
+    #[must_use]
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// What was changed after the scene had that revision, in order; an undone edit stands here as two.
+    /// Searches by halves, and copies nothing.
+    #[must_use]
+    pub fn changes_since(&self, revision: u64) -> &[Change] {
+        &self.log[self.log.partition_point(|change| change.revision <= revision)..]
+    }
+
+    /// Forgets the log up to and with that revision, which no caller will ask about again: a log grows by one
+    /// line of 24 bytes with each changed part.
+    pub fn forget_changes(&mut self, revision: u64) {
+        self.log.drain(..self.log.partition_point(|change| change.revision <= revision));
+    }
+
+    /// The id that the next new entity gets. A batch uses it to name what it inserts.
+    #[must_use]
+    pub fn next_entity_id(&self) -> EntityId {
+        self.ids.peek_entity()
+    }
+
+    /// The id that the next new material gets. A batch uses it to name what it adds.
+    #[must_use]
+    pub fn next_material_id(&self) -> MaterialId {
+        self.materials.ids.peek_material()
+    }
+}
+
+/// Adding parts: each is one [`Edit`].
+impl Scene {
+    /// Adds a material.
+    ///
+    /// # Errors
+    /// A name that is empty or that another material has.
+    pub fn add_material(
+        &mut self,
+        name: &str,
+        material: impl Into<Material>,
+    ) -> Result<MaterialId, SceneError> {
+        let id = self.next_material_id();
+        self.apply(Edit::AddMaterial { name: name.to_owned(), material: material.into(), id: None })?;
+        Ok(id)
+    }
+
+    /// Adds a shape that wears `material`, as the last member of `parent` or at the top.
+    ///
+    /// # Errors
+    /// A name that is empty or taken, a material or parent that is not there, a parent that is no group.
+    pub fn add_shape(
+        &mut self,
+        name: &str,
+        shape: impl Into<Shape>,
+        material: MaterialId,
+        parent: Option<EntityId>,
+    ) -> Result<EntityId, SceneError> {
+        self.add(Node::shape(name, shape, material), parent)
+    }
+
+    /// Adds a light as the last member of `parent` or at the top.
+    ///
+    /// # Errors
+    /// A name that is empty or taken, a parent that is not there or is no group.
+    pub fn add_light(
+        &mut self,
+        name: &str,
+        light: impl Into<Light>,
+        parent: Option<EntityId>,
+    ) -> Result<EntityId, SceneError> {
+        self.add(Node::light(name, light), parent)
+    }
+
+    /// Adds a camera as the last member of `parent` or at the top.
+    ///
+    /// # Errors
+    /// A name that is empty or taken, a parent that is not there or is no group.
+    pub fn add_camera(
+        &mut self,
+        name: &str,
+        camera: Camera,
+        parent: Option<EntityId>,
+    ) -> Result<EntityId, SceneError> {
+        self.add(Node::camera(name, camera), parent)
+    }
+
+    /// Adds an empty group as the last member of `parent` or at the top.
+    ///
+    /// # Errors
+    /// A name that is empty or taken, a parent that is not there or is no group.
+    pub fn add_group(&mut self, name: &str, parent: Option<EntityId>) -> Result<EntityId, SceneError> {
+        self.add(Node::group(name, Vec::new()), parent)
+    }
+
+    fn add(&mut self, node: Node, parent: Option<EntityId>) -> Result<EntityId, SceneError> {
+        let id = self.next_entity_id();
+        self.apply(Edit::insert(Subtree { node, parent, index: None }))?;
+        Ok(id)
+    }
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl std::fmt::Debug for Scene {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let roots: Vec<Node> = self.roots.iter().filter_map(|&id| self.node(id)).collect();
+        f.debug_struct("Scene")
+            .field("roots", &roots)
+            .field("materials", &self.materials().collect::<Vec<_>>())
+            .field("settings", &self.settings)
+            .field("revision", &self.revision)
+            .finish_non_exhaustive()
+    }
+}

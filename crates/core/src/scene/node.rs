@@ -1,0 +1,148 @@
+//! What is inserted into a scene, and what a removal gives back: an entity with all its members.
+
+use super::{EntityId, MaterialId, Role};
+use crate::{Camera, Light, Placement, Shape};
+
+/// One entity with its members, outside any scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Node {
+    /// The id to have in the scene; `None` for a new one. An undone removal keeps its ids this way.
+    pub id: Option<EntityId>,
+    /// The name, unique among all entities of the scene.
+    pub name: String,
+    /// Where it stands, relative to its group or, outside any group, to the world.
+    pub placement: Placement,
+    /// What it is.
+    pub content: Content,
+}
+
+/// What an entity is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Content {
+    /// Something to be seen, with the material it wears.
+    Shape(Shape, MaterialId),
+    /// Something that gives light.
+    Light(Light),
+    /// Something to look through.
+    Camera(Camera),
+    /// Other entities, in order, that move with it.
+    Group(Vec<Node>),
+}
+
+/// A [`Node`] and the place in the tree of groups where it goes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Subtree {
+    /// The entity and its members.
+    pub node: Node,
+    /// The group it becomes a member of; `None` for the top of the scene.
+    pub parent: Option<EntityId>,
+    /// Its place among its siblings, from 0; `None`, or a number past the end, for the last.
+    pub index: Option<usize>,
+}
+
+impl Node {
+    /// An unmoved entity with a new id.
+    #[must_use]
+    pub fn new(name: impl Into<String>, content: Content) -> Self {
+        Self { id: None, name: name.into(), placement: Placement::IDENTITY, content }
+    }
+
+    /// A shape that wears `material`.
+    #[must_use]
+    pub fn shape(name: impl Into<String>, shape: impl Into<Shape>, material: MaterialId) -> Self {
+        Self::new(name, Content::Shape(shape.into(), material))
+    }
+
+    /// A light.
+    #[must_use]
+    pub fn light(name: impl Into<String>, light: impl Into<Light>) -> Self {
+        Self::new(name, Content::Light(light.into()))
+    }
+
+    /// A camera.
+    #[must_use]
+    pub fn camera(name: impl Into<String>, camera: Camera) -> Self {
+        Self::new(name, Content::Camera(camera))
+    }
+
+    /// A group of `members`.
+    #[must_use]
+    pub fn group(name: impl Into<String>, members: Vec<Self>) -> Self {
+        Self::new(name, Content::Group(members))
+    }
+
+    /// The same at another place.
+    #[must_use]
+    pub fn placed(self, placement: Placement) -> Self {
+        Self { placement, ..self }
+    }
+
+    /// The same under an id of the caller's choice, which the scene must not be using.
+    #[must_use]
+    pub fn with_id(self, id: EntityId) -> Self {
+        Self { id: Some(id), ..self }
+    }
+
+    /// What kind of entity this is.
+    #[must_use]
+    pub fn role(&self) -> Role {
+        match self.content {
+            Content::Shape(..) => Role::Shape,
+            Content::Light(_) => Role::Light,
+            Content::Camera(_) => Role::Camera,
+            Content::Group(_) => Role::Group,
+        }
+    }
+
+    /// The members of a group in order; empty for everything else.
+    #[must_use]
+    pub fn members(&self) -> &[Self] {
+        if let Content::Group(members) = &self.content { members } else { &[] }
+    }
+
+    /// This node, then its members and theirs, each with the number of groups of this subtree that hold it.
+    pub(super) fn walk(&self) -> impl Iterator<Item = (&Self, usize)> {
+        let mut rest = vec![(self, 0)];
+        std::iter::from_fn(move || {
+            let (node, depth) = rest.pop()?;
+            rest.extend(node.members().iter().rev().map(|member| (member, depth + 1)));
+            Some((node, depth))
+        })
+    }
+
+    /// Changes this node, then its members and theirs.
+    pub(super) fn each_mut(&mut self, change: &mut impl FnMut(&mut Self)) {
+        change(self);
+        if let Content::Group(members) = &mut self.content {
+            for member in members {
+                member.each_mut(change);
+            }
+        }
+    }
+}
+
+impl Subtree {
+    /// `node` as the last at the top of the scene.
+    #[must_use]
+    pub fn new(node: Node) -> Self {
+        Self { node, parent: None, index: None }
+    }
+
+    /// The same as the last member of a group.
+    #[must_use]
+    pub fn under(self, group: EntityId) -> Self {
+        Self { parent: Some(group), ..self }
+    }
+
+    /// The same at a place among its siblings, from 0.
+    #[must_use]
+    pub fn at(self, index: usize) -> Self {
+        Self { index: Some(index), ..self }
+    }
+}
+
+impl From<Node> for Subtree {
+    fn from(node: Node) -> Self {
+        Self::new(node)
+    }
+}
