@@ -1,0 +1,34 @@
+//! Why a value is no valid part of a scene.
+
+use std::fmt;
+
+/// A value that a part refuses: which field, what is required of it, and what it was.
+///
+/// Reads as a sentence: `radius must be greater than 0, not -1`.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{field} {requirement}, not {found}")]
+#[non_exhaustive]
+pub struct InvalidPart {
+    field: &'static str,
+    requirement: String,
+    found: String,
+}
+
+impl InvalidPart {
+    /// States that `field` does not meet `requirement` (a phrase that starts with "must"), being `found`.
+    pub fn new(field: &'static str, requirement: impl Into<String>, found: impl fmt::Display) -> Self {
+        Self { field, requirement: requirement.into(), found: found.to_string() }
+    }
+
+    /// Name of the refused field, as it is spelled in scene text.
+    #[must_use]
+    pub fn field(&self) -> &'static str {
+        self.field
+    }
+
+    /// What is required of the field: a phrase that starts with "must".
+    #[must_use]
+    pub fn requirement(&self) -> &str {
+        &self.requirement
+    }
+}

@@ -1,0 +1,124 @@
+//! A triangle mesh standing somewhere.
+
+use super::Geometry;
+use super::triangle::{cross_triangle, unit_normal};
+use crate::part::Given;
+use crate::ray::nearer;
+use crate::{
+    Aabb, Crossing, Field, FieldKind, InvalidPart, MeshSource, Part, Placement, Ray, Span, TriangleMesh,
+    Value, Values,
+};
+
+/// A mesh from a file; its triangles are stored once however often it stands somewhere.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    source: MeshSource,
+    to_world: Placement,
+    to_object: Placement,
+}
+
+impl Mesh {
+    /// Where it stands in its own space.
+    #[must_use]
+    pub fn new(source: MeshSource) -> Self {
+        Self { source, to_world: Placement::IDENTITY, to_object: Placement::IDENTITY }
+    }
+
+    /// The triangles and where they came from.
+    #[must_use]
+    pub fn source(&self) -> &MeshSource {
+        &self.source
+    }
+
+    /// The triangles, in the mesh's own space.
+    #[must_use]
+    pub fn triangles(&self) -> &TriangleMesh {
+        &self.source.mesh
+    }
+
+    /// From the mesh's own space to where it has been placed.
+    #[must_use]
+    pub fn placement(&self) -> &Placement {
+        &self.to_world
+    }
+
+    /// From where it has been placed to the mesh's own space.
+    #[must_use]
+    pub fn to_object(&self) -> &Placement {
+        &self.to_object
+    }
+
+    /// A ray of the world in the mesh's own space; `t` stays what it is.
+    #[must_use]
+    pub fn own_ray(&self, ray: &Ray) -> Ray {
+        Ray::new(self.to_object.point(ray.origin), self.to_object.vector(ray.direction))
+    }
+
+    /// Where a ray given in the mesh's own space crosses one triangle; the normals are those of the world.
+    ///
+    /// # Panics
+    /// A triangle number out of range.
+    #[must_use]
+    pub fn cross_one(&self, own: &Ray, span: Span, triangle: u32) -> Option<Crossing> {
+        let mesh = &self.source.mesh;
+        let corners = mesh.corners(triangle);
+        let (t, weights) = cross_triangle(&corners, own)?;
+        if !span.contains(t) {
+            return None;
+        }
+        let normal = unit_normal(&corners)?;
+        let shading =
+            mesh.normal_at(triangle, weights).and_then(glam::DVec3::try_normalize).unwrap_or(normal);
+        Some(Crossing {
+            t,
+            normal: self.to_world.direction(normal),
+            shading_normal: self.to_world.direction(shading),
+            facet: triangle,
+            uv: mesh.uv_at(triangle, weights),
+        })
+    }
+}
+
+impl Part for Mesh {
+    const NAME: &'static str = "mesh";
+    const DOC: &'static str = "A triangle mesh read from a file.";
+    const FIELDS: &'static [Field] =
+        &[Field::required("file", FieldKind::Mesh, "", "PLY or OBJ file, relative to the scene's folder.")];
+
+    fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
+        Ok(Self::new(given.mesh("file")?))
+    }
+
+    fn values(&self) -> Values {
+        Values::new().with("file", Value::Mesh(self.source.clone()))
+    }
+}
+
+impl Geometry for Mesh {
+    /// Tries every triangle; the tracer keeps a tree over them.
+    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
+        let own = self.own_ray(ray);
+        (0..self.source.mesh.triangles().len() as u32)
+            .filter(|&i| leaving != Some(i))
+            .map(|i| self.cross_one(&own, span, i))
+            .fold(None, nearer)
+    }
+
+    fn bounds(&self) -> Option<Aabb> {
+        let own = self.source.mesh.bounds();
+        Some(if self.to_world == Placement::IDENTITY {
+            own
+        } else {
+            Aabb::of(own.corners().map(|p| self.to_world.point(p)))
+        })
+    }
+
+    fn placed(&self, placement: &Placement) -> Self {
+        let to_world = self.to_world.then(placement);
+        Self { source: self.source.clone(), to_world, to_object: to_world.inverse() }
+    }
+
+    fn is_closed(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,104 @@
+//! The infinite plane through a point, seen from both sides.
+
+use glam::DVec3;
+
+use super::Geometry;
+use crate::part::Given;
+use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
+
+/// All points `p` with `normal · (p − point) = 0`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plane {
+    point: DVec3,
+    normal: DVec3,
+}
+
+impl Plane {
+    /// Through `point`, perpendicular to `normal` (any length).
+    ///
+    /// # Errors
+    /// A point that is not finite, a normal that is zero or not finite.
+    pub fn new(point: DVec3, normal: DVec3) -> Result<Self, InvalidPart> {
+        crate::part::make(
+            &Values::new().with("point", Value::Vector(point)).with("normal", Value::Vector(normal)),
+        )
+    }
+
+    /// A point on it.
+    #[must_use]
+    pub fn point(&self) -> DVec3 {
+        self.point
+    }
+
+    /// Its unit normal.
+    #[must_use]
+    pub fn normal(&self) -> DVec3 {
+        self.normal
+    }
+}
+
+impl Part for Plane {
+    const NAME: &'static str = "plane";
+    const DOC: &'static str = "An infinite plane, seen from both sides.";
+    const FIELDS: &'static [Field] = &[
+        Field::required("point", FieldKind::Point, "m", "A point on the plane.")
+            .or(|| Value::Vector(DVec3::ZERO)),
+        Field::required("normal", FieldKind::Direction, "", "Perpendicular to the plane.")
+            .or(|| Value::Vector(DVec3::Y)),
+    ];
+
+    fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
+        Ok(Self { point: given.point("point")?, normal: given.direction("normal")?.normalize() })
+    }
+
+    fn values(&self) -> Values {
+        Values::new().with("point", Value::Vector(self.point)).with("normal", Value::Vector(self.normal))
+    }
+}
+
+impl Geometry for Plane {
+    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
+        let t = cross_plane(self.point, self.normal, ray)?;
+        (leaving.is_none() && span.contains(t)).then(|| Crossing::flat(t, self.normal, 0))
+    }
+
+    fn bounds(&self) -> Option<Aabb> {
+        None
+    }
+
+    fn placed(&self, placement: &Placement) -> Self {
+        Self { point: placement.point(self.point), normal: placement.direction(self.normal) }
+    }
+
+    fn is_closed(&self) -> bool {
+        false
+    }
+}
+
+/// Where a ray meets the plane through `point` with a `normal` of any length; `None` when parallel to it.
+pub(super) fn cross_plane(point: DVec3, normal: DVec3, ray: &Ray) -> Option<f64> {
+    let t = normal.dot(point - ray.origin) / normal.dot(ray.direction);
+    t.is_finite().then_some(t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_met_from_both_sides() {
+        let plane = Plane::new(DVec3::Y, DVec3::Y).unwrap();
+        for (from, along) in [(3.0, -1.0), (-1.0, 1.0)] {
+            let ray = Ray::new(DVec3::Y * from, DVec3::Y * along);
+            assert_eq!(plane.cross(&ray, Span::AHEAD, None).unwrap().t, 2.0);
+        }
+    }
+
+    #[test]
+    fn nothing_is_met_behind_or_alongside() {
+        let plane = Plane::new(DVec3::Y, DVec3::Y).unwrap();
+        assert!(plane.cross(&Ray::new(DVec3::ZERO, -DVec3::Y), Span::AHEAD, None).is_none());
+        assert!(plane.cross(&Ray::new(DVec3::ZERO, DVec3::X), Span::AHEAD, None).is_none());
+        assert!(plane.cross(&Ray::new(DVec3::Y, DVec3::X), Span::AHEAD, None).is_none());
+    }
+}

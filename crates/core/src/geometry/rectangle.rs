@@ -1,0 +1,118 @@
+//! The flat rectangle, seen from both sides.
+
+use glam::{DVec2, DVec3};
+
+use super::Geometry;
+use super::plane::cross_plane;
+use crate::numeric::RIGHT_ANGLE_TOLERANCE;
+use crate::part::Given;
+use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
+
+/// The points `corner + u * edge_u + v * edge_v` with u and v in 0..=1; its normal is `edge_u × edge_v`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rectangle {
+    corner: DVec3,
+    edge_u: DVec3,
+    edge_v: DVec3,
+}
+
+impl Rectangle {
+    /// From a corner and the two edges that leave it.
+    ///
+    /// # Errors
+    /// Anything not finite, an edge of no length, or edges that are not perpendicular.
+    pub fn new(corner: DVec3, edge_u: DVec3, edge_v: DVec3) -> Result<Self, InvalidPart> {
+        let values = Values::new().with("corner", Value::Vector(corner));
+        crate::part::make(&values.with("edge-u", Value::Vector(edge_u)).with("edge-v", Value::Vector(edge_v)))
+    }
+
+    /// The corner where u = v = 0.
+    #[must_use]
+    pub fn corner(&self) -> DVec3 {
+        self.corner
+    }
+
+    /// The two edges from that corner.
+    #[must_use]
+    pub fn edges(&self) -> [DVec3; 2] {
+        [self.edge_u, self.edge_v]
+    }
+}
+
+impl Part for Rectangle {
+    const NAME: &'static str = "rectangle";
+    const DOC: &'static str = "A flat rectangle, seen from both sides.";
+    const FIELDS: &'static [Field] = &[
+        Field::required("corner", FieldKind::Point, "m", "One corner."),
+        Field::required("edge-u", FieldKind::Direction, "m", "From that corner to the next."),
+        Field::required("edge-v", FieldKind::Direction, "m", "From that corner to the other neighbour."),
+    ];
+
+    fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
+        let (edge_u, edge_v) = (given.direction("edge-u")?, given.direction("edge-v")?);
+        let cosine = edge_u.normalize().dot(edge_v.normalize());
+        if !(cosine.abs() <= RIGHT_ANGLE_TOLERANCE) {
+            return Err(InvalidPart::new("edge-v", "must be perpendicular to edge-u", edge_v));
+        }
+        if edge_u.cross(edge_v).try_normalize().is_none() {
+            return Err(InvalidPart::new("edge-v", "must span an area with edge-u", edge_v));
+        }
+        Ok(Self { corner: given.point("corner")?, edge_u, edge_v })
+    }
+
+    fn values(&self) -> Values {
+        Values::new()
+            .with("corner", Value::Vector(self.corner))
+            .with("edge-u", Value::Vector(self.edge_u))
+            .with("edge-v", Value::Vector(self.edge_v))
+    }
+}
+
+impl Geometry for Rectangle {
+    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
+        let normal = self.edge_u.cross(self.edge_v).try_normalize()?;
+        let t = cross_plane(self.corner, normal, ray)?;
+        let from_corner = ray.at(t) - self.corner;
+        let along = |edge: DVec3| from_corner.dot(edge) / edge.length_squared();
+        let uv = DVec2::new(along(self.edge_u), along(self.edge_v));
+        let inside = (0.0..=1.0).contains(&uv.x) && (0.0..=1.0).contains(&uv.y);
+        (inside && leaving.is_none() && span.contains(t))
+            .then(|| Crossing { uv, ..Crossing::flat(t, normal, 0) })
+    }
+
+    fn bounds(&self) -> Option<Aabb> {
+        let (c, u, v) = (self.corner, self.edge_u, self.edge_v);
+        Some(Aabb::of([c, c + u, c + v, c + u + v]))
+    }
+
+    fn placed(&self, placement: &Placement) -> Self {
+        Self {
+            corner: placement.point(self.corner),
+            edge_u: placement.vector(self.edge_u),
+            edge_v: placement.vector(self.edge_v),
+        }
+    }
+
+    fn is_closed(&self) -> bool {
+        false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_ends_at_its_edges() {
+        let r = Rectangle::new(DVec3::ZERO, DVec3::X * 2.0, DVec3::Y).unwrap();
+        let at = |x, y| r.cross(&Ray::new(DVec3::new(x, y, 1.0), -DVec3::Z), Span::AHEAD, None);
+        assert_eq!(at(1.0, 0.25).unwrap().uv, DVec2::new(0.5, 0.25));
+        assert!(at(2.1, 0.5).is_none() && at(1.0, -0.1).is_none());
+    }
+
+    #[test]
+    fn a_slanted_one_is_refused() {
+        let slanted = Rectangle::new(DVec3::ZERO, DVec3::X, DVec3::new(0.5, 1.0, 0.0));
+        assert_eq!(slanted.unwrap_err().field(), "edge-v");
+    }
+}

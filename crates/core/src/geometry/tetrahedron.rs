@@ -1,0 +1,114 @@
+//! The solid between four corners.
+
+use glam::DVec3;
+
+use super::Geometry;
+use super::triangle::{corner_values, cross_triangle, unit_normal};
+use crate::part::Given;
+use crate::ray::nearer;
+use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Values};
+
+/// Closed solid with four flat faces; face `i` lies opposite corner `i` and its normal points outwards.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tetrahedron {
+    corners: [DVec3; 4],
+}
+
+impl Tetrahedron {
+    /// From its corners, in any order.
+    ///
+    /// # Errors
+    /// A corner that is not finite, or corners in one plane.
+    pub fn new(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Result<Self, InvalidPart> {
+        crate::part::make(&corner_values(&[a, b, c, d]))
+    }
+
+    /// Its corners a, b, c, d.
+    #[must_use]
+    pub fn corners(&self) -> [DVec3; 4] {
+        self.corners
+    }
+
+    /// The corners of face `i`, wound so that `(q − p) × (r − p)` points outwards.
+    #[must_use]
+    pub fn face(&self, i: u32) -> [DVec3; 3] {
+        let [a, b, c, d] = self.corners;
+        let [p, q, r, opposite] = match i {
+            0 => [b, c, d, a],
+            1 => [a, c, d, b],
+            2 => [a, b, d, c],
+            _ => [a, b, c, d],
+        };
+        if (q - p).cross(r - p).dot(opposite - p) > 0.0 { [p, r, q] } else { [p, q, r] }
+    }
+}
+
+impl Part for Tetrahedron {
+    const NAME: &'static str = "tetrahedron";
+    const DOC: &'static str = "A solid with four corners and four flat faces.";
+    const FIELDS: &'static [Field] = &[
+        Field::required("a", FieldKind::Point, "m", "First corner."),
+        Field::required("b", FieldKind::Point, "m", "Second corner."),
+        Field::required("c", FieldKind::Point, "m", "Third corner."),
+        Field::required("d", FieldKind::Point, "m", "Fourth corner."),
+    ];
+
+    fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
+        let corners @ [a, b, c, d] =
+            [given.point("a")?, given.point("b")?, given.point("c")?, given.point("d")?];
+        let normal = unit_normal(&[a, b, c])
+            .ok_or_else(|| InvalidPart::new("c", "must not lie on one line with a and b", c))?;
+        if (d - a).try_normalize().is_none_or(|v| v.dot(normal) == 0.0) {
+            return Err(InvalidPart::new("d", "must not lie in one plane with a, b and c", d));
+        }
+        Ok(Self { corners })
+    }
+
+    fn values(&self) -> Values {
+        corner_values(&self.corners)
+    }
+}
+
+impl Geometry for Tetrahedron {
+    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
+        let cross_face = |i: u32| {
+            let face = self.face(i);
+            let (t, _) = cross_triangle(&face, ray)?;
+            span.contains(t).then_some(Crossing::flat(t, unit_normal(&face)?, i))
+        };
+        (0..4).filter(|&i| leaving != Some(i)).map(cross_face).fold(None, nearer)
+    }
+
+    fn bounds(&self) -> Option<Aabb> {
+        Some(Aabb::of(self.corners))
+    }
+
+    fn placed(&self, placement: &Placement) -> Self {
+        Self { corners: self.corners.map(|p| placement.point(p)) }
+    }
+
+    fn is_closed(&self) -> bool {
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_face_looks_outwards() {
+        let t = Tetrahedron::new(DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z).unwrap();
+        let middle = DVec3::splat(0.25);
+        for i in 0..4 {
+            let face = t.face(i);
+            assert!(unit_normal(&face).unwrap().dot(middle - face[0]) < 0.0, "face {i}");
+        }
+    }
+
+    #[test]
+    fn a_flat_one_is_refused() {
+        let flat = Tetrahedron::new(DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(1.0, 1.0, 0.0));
+        assert_eq!(flat.unwrap_err().field(), "d");
+    }
+}

@@ -1,0 +1,147 @@
+//! The triangles of a mesh: shared corners in `f32`, as files give them.
+
+use glam::{DVec2, DVec3};
+
+use crate::{Aabb, InvalidPart};
+
+/// Triangles over shared corners, with optional normals and texture coordinates per corner.
+///
+/// Triangles without area are kept (ids stay those of the file) and are never hit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TriangleMesh {
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    normals: Option<Vec<[f32; 3]>>,
+    uvs: Option<Vec<[f32; 2]>>,
+    bounds: Aabb,
+}
+
+impl TriangleMesh {
+    /// From corners (metres, in the mesh's own space) and triples of corner numbers.
+    ///
+    /// # Errors
+    /// No triangles, a position that is not finite, a corner number out of range, or normals or texture
+    /// coordinates that are not finite or not as many as the positions.
+    pub fn new(
+        positions: Vec<[f32; 3]>,
+        triangles: Vec<[u32; 3]>,
+        normals: Option<Vec<[f32; 3]>>,
+        uvs: Option<Vec<[f32; 2]>>,
+    ) -> Result<Self, InvalidPart> {
+        if triangles.is_empty() {
+            return Err(InvalidPart::new("triangles", "must be at least one", 0));
+        }
+        check_finite("positions", &positions, positions.len())?;
+        if let Some(index) = triangles.iter().flatten().find(|&&i| i as usize >= positions.len()) {
+            let requirement = format!("must name one of the {} corners", positions.len());
+            return Err(InvalidPart::new("triangles", requirement, index));
+        }
+        if let Some(normals) = &normals {
+            check_finite("normals", normals, positions.len())?;
+        }
+        if let Some(uvs) = &uvs {
+            check_finite("uvs", uvs, positions.len())?;
+        }
+        let bounds = Aabb::of(positions.iter().map(|&p| widen(p)));
+        Ok(Self { positions, triangles, normals, uvs, bounds })
+    }
+
+    /// Corners, metres, in the mesh's own space.
+    #[must_use]
+    pub fn positions(&self) -> &[[f32; 3]] {
+        &self.positions
+    }
+
+    /// Corner numbers of every triangle.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// Normals, as many as corners, of any length.
+    #[must_use]
+    pub fn normals(&self) -> Option<&[[f32; 3]]> {
+        self.normals.as_deref()
+    }
+
+    /// Texture coordinates, as many as corners.
+    #[must_use]
+    pub fn uvs(&self) -> Option<&[[f32; 2]]> {
+        self.uvs.as_deref()
+    }
+
+    /// The box round all corners.
+    #[must_use]
+    pub fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    /// The corners of a triangle.
+    ///
+    /// # Panics
+    /// A triangle number out of range.
+    #[must_use]
+    pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        self.triangles[triangle as usize].map(|i| widen(self.positions[i as usize]))
+    }
+
+    /// The normal at a point given by corner weights, not normalised; `None` without normals.
+    ///
+    /// # Panics
+    /// A triangle number out of range.
+    #[must_use]
+    pub fn normal_at(&self, triangle: u32, weights: [f64; 3]) -> Option<DVec3> {
+        let normals = self.normals.as_ref()?;
+        let corners = self.triangles[triangle as usize];
+        Some((0..3).map(|k| widen(normals[corners[k] as usize]) * weights[k]).sum())
+    }
+
+    /// The texture coordinates at a point given by corner weights; zero without any.
+    ///
+    /// # Panics
+    /// A triangle number out of range.
+    #[must_use]
+    pub fn uv_at(&self, triangle: u32, weights: [f64; 3]) -> DVec2 {
+        let Some(uvs) = &self.uvs else { return DVec2::ZERO };
+        let corners = self.triangles[triangle as usize];
+        let uv = |k: usize| DVec2::from(uvs[corners[k] as usize].map(f64::from));
+        (0..3).map(|k| uv(k) * weights[k]).sum()
+    }
+}
+
+fn widen(p: [f32; 3]) -> DVec3 {
+    DVec3::from(p.map(f64::from))
+}
+
+fn check_finite<const N: usize>(
+    name: &'static str,
+    rows: &[[f32; N]],
+    corners: usize,
+) -> Result<(), InvalidPart> {
+    if rows.len() != corners {
+        return Err(InvalidPart::new(name, format!("must be as many as the {corners} corners"), rows.len()));
+    }
+    match rows.iter().position(|row| !row.iter().all(|v| v.is_finite())) {
+        Some(at) => Err(InvalidPart::new(name, "must be finite", format!("{:?} at corner {at}", rows[at]))),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CORNERS: [[f32; 3]; 3] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+    #[test]
+    fn bad_meshes_are_refused() {
+        let refused = |positions: &[[f32; 3]], triangles: &[[u32; 3]]| {
+            TriangleMesh::new(positions.to_vec(), triangles.to_vec(), None, None).unwrap_err().field()
+        };
+        assert_eq!(refused(&CORNERS, &[]), "triangles");
+        assert_eq!(refused(&CORNERS, &[[0, 1, 3]]), "triangles");
+        assert_eq!(refused(&[[f32::NAN, 0.0, 0.0], CORNERS[1], CORNERS[2]], &[[0, 1, 2]]), "positions");
+        let short = TriangleMesh::new(CORNERS.to_vec(), vec![[0, 1, 2]], Some(vec![[0.0; 3]]), None);
+        assert_eq!(short.unwrap_err().field(), "normals");
+    }
+}

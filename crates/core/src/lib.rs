@@ -1,0 +1,37 @@
+//! What is in a scene: shapes, materials, lights and cameras as parts that know their own rules, placements,
+//! and the [`Scene`](scene::Scene) that stores them as components behind stable ids and an edit log.
+//!
+//! # Conventions, written once
+//! * Space is right-handed, y points up, lengths are metres, a camera looks along its own −z.
+//! * Angles are radians in this API and degrees in scene text.
+//! * A ray is `origin + t * direction`; `direction` need not be a unit vector and `t` counts in its length.
+//! * Light is linear Rec. 709. Point and spot intensity is W/sr per channel, directional light is irradiance in
+//!   W/m² at normal incidence, ambient light is radiance. A Lambert surface has the BRDF albedo/π.
+//! * Values are refused where they enter: constructors return [`InvalidPart`], and past that door nothing fails.
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test may stop at the first surprise"))]
+
+pub mod bounds;
+pub mod camera;
+pub mod color;
+pub mod error;
+pub mod geometry;
+pub mod lane;
+pub mod light;
+pub mod material;
+pub mod numeric;
+pub mod part;
+pub mod placement;
+pub mod ray;
+
+pub use bounds::Aabb;
+pub use camera::Camera;
+pub use color::Rgb;
+pub use error::InvalidPart;
+pub use geometry::{Geometry, Shape, TriangleMesh};
+pub use glam;
+pub use lane::{Coefficient, Lane, LaneMask, Triple};
+pub use light::{Arrival, Emitter, Light};
+pub use material::{Material, ShadingPoint, Surface};
+pub use part::{Field, FieldKind, Kind, MeshSource, Part, Value, Values};
+pub use placement::Placement;
+pub use ray::{Crossing, Ray, Span};

@@ -1,0 +1,133 @@
+//! Which lights there are, and what a light must answer.
+//!
+//! A light says what would arrive at a point if nothing stood in the way; it never asks whether something does.
+//! A new light is one file here, its `mod` line and its name in the list below.
+
+mod ambient;
+mod directional;
+mod point;
+mod spot;
+
+pub use ambient::AmbientLight;
+pub use directional::DirectionalLight;
+pub use point::PointLight;
+pub use spot::SpotLight;
+
+use glam::DVec3;
+
+use crate::{Field, FieldKind, Lane, Placement, Rgb, Triple, Value};
+
+/// What would arrive from a light at a point.
+#[derive(Debug, Clone, Copy)]
+pub struct Arrival<L: Lane> {
+    /// Unit vector from the point to the light.
+    pub towards: Triple<L>,
+    /// Metres to the light; infinite for a light at infinity.
+    pub distance: L,
+    /// Irradiance on a surface that faces the light, W/m² per channel.
+    pub irradiance: Triple<L>,
+    /// Where anything arrives at all; the other members mean nothing elsewhere.
+    pub lit: L::Mask,
+}
+
+/// What the tracer and the editor ask of a light.
+pub trait Emitter {
+    /// What would arrive at `point`.
+    fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L>;
+
+    /// The same light standing elsewhere.
+    #[must_use]
+    fn placed(&self, placement: &Placement) -> Self
+    where
+        Self: Sized;
+
+    /// Radiance that arrives at every point from everywhere, never shadowed.
+    fn ambient(&self) -> Rgb {
+        Rgb::BLACK
+    }
+
+    /// Where it stands, if it stands anywhere.
+    fn position(&self) -> Option<DVec3> {
+        None
+    }
+
+    /// The unit vector along which it shines, if there is one.
+    fn direction(&self) -> Option<DVec3> {
+        None
+    }
+
+    /// Whether things throw shadows in its light.
+    fn shadow(&self) -> bool;
+}
+
+crate::part::parts! {
+    $ each_light
+    /// A light, in its own space until it is [placed](Light::placed).
+    pub enum Light {
+        /// Parallel light from infinity.
+        DirectionalLight,
+        /// Light from a point, alike in all directions.
+        PointLight,
+        /// Light from a point into a cone.
+        SpotLight,
+        /// Light from everywhere.
+        AmbientLight,
+    }
+}
+
+impl Light {
+    /// See [`Emitter::arriving`].
+    #[inline(always)]
+    pub fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
+        each_light!(self, light => light.arriving(point))
+    }
+
+    /// See [`Emitter::placed`].
+    #[must_use]
+    pub fn placed(&self, placement: &Placement) -> Self {
+        each_light!(self, light => light.placed(placement).into())
+    }
+
+    /// See [`Emitter::ambient`].
+    #[must_use]
+    pub fn ambient(&self) -> Rgb {
+        each_light!(self, light => light.ambient())
+    }
+
+    /// See [`Emitter::position`].
+    #[must_use]
+    pub fn position(&self) -> Option<DVec3> {
+        each_light!(self, light => light.position())
+    }
+
+    /// See [`Emitter::direction`].
+    #[must_use]
+    pub fn direction(&self) -> Option<DVec3> {
+        each_light!(self, light => light.direction())
+    }
+
+    /// See [`Emitter::shadow`].
+    #[must_use]
+    pub fn shadow(&self) -> bool {
+        each_light!(self, light => light.shadow())
+    }
+}
+
+const SHADOW: Field =
+    Field::required("shadow", FieldKind::Flag, "", "Whether things throw shadows in this light.")
+        .or(|| Value::Flag(true));
+
+/// What arrives from a point that shines with `intensity` (W/sr) in all directions: the inverse square law.
+#[inline(always)]
+fn from_point<L: Lane>(position: Triple<L>, intensity: Triple<L>, point: Triple<L>) -> Arrival<L> {
+    let way = position - point;
+    let distance2 = way.dot(way);
+    let distance = distance2.sqrt();
+    let inverse = distance.number(1.0) / distance;
+    Arrival {
+        towards: way.scale(inverse),
+        distance,
+        irradiance: intensity.scale(inverse * inverse),
+        lit: distance.number(0.0).less(distance2),
+    }
+}

@@ -1,0 +1,133 @@
+//! Which materials there are, and what a material must answer.
+//!
+//! A material says how much of arriving light leaves towards the viewer and how much of what it mirrors; it never
+//! asks what arrives. A new material is one file here, its `mod` line and its name in the list below.
+
+mod checker;
+mod depth;
+mod matte;
+mod mirror;
+mod phong;
+
+pub use checker::Checker;
+pub use depth::Depth;
+pub use matte::Matte;
+pub use mirror::Mirror;
+pub use phong::Phong;
+
+use crate::lane::Constant3;
+use crate::{Coefficient, Field, FieldKind, Lane, Triple, Value};
+
+/// Where and from where a surface is seen.
+#[derive(Debug, Clone, Copy)]
+pub struct ShadingPoint<L: Lane> {
+    /// The point, metres, in the space of the scene.
+    pub position: Triple<L>,
+    /// Unit normal on the viewer's side.
+    pub normal: Triple<L>,
+    /// Unit vector to the viewer.
+    pub to_viewer: Triple<L>,
+    /// Metres to the viewer.
+    pub distance: L,
+}
+
+/// What the integrator asks of a material.
+pub trait Surface {
+    /// Radiance shown without any light's help.
+    #[inline(always)]
+    fn own<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
+        Triple::splat(at.distance.number(0.0))
+    }
+
+    /// Radiance shown for each unit of ambient radiance.
+    #[inline(always)]
+    fn under_ambient<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
+        Triple::splat(at.distance.number(0.0))
+    }
+
+    /// Radiance shown for each unit of irradiance (at normal incidence) from the direction `towards`, a unit vector
+    /// whose `cosine` to the normal is positive: the BRDF times the cosine.
+    #[inline(always)]
+    fn under_light<L: Lane>(&self, at: &ShadingPoint<L>, _towards: Triple<L>, _cosine: L) -> Triple<L> {
+        Triple::splat(at.distance.number(0.0))
+    }
+
+    /// Whether lights make any difference to it.
+    fn answers_light(&self) -> bool {
+        true
+    }
+
+    /// Share of what is seen that is reflected, 0..=1; the rest is the surface's own look.
+    fn reflectiveness(&self) -> Coefficient;
+
+    /// What reflected light is multiplied by, beside the reflectiveness.
+    fn reflection_color(&self) -> Constant3 {
+        crate::Rgb::WHITE.into()
+    }
+}
+
+crate::part::parts! {
+    $ each_material
+    /// A material.
+    pub enum Material {
+        /// Lambert.
+        Matte,
+        /// Blinn–Phong.
+        Phong,
+        /// Two colours in squares.
+        Checker,
+        /// Colour that fades with distance.
+        Depth,
+        /// Perfect reflection.
+        Mirror,
+    }
+}
+
+impl Material {
+    /// See [`Surface::own`].
+    #[inline(always)]
+    pub fn own<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
+        each_material!(self, material => material.own(at))
+    }
+
+    /// See [`Surface::under_ambient`].
+    #[inline(always)]
+    pub fn under_ambient<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
+        each_material!(self, material => material.under_ambient(at))
+    }
+
+    /// See [`Surface::under_light`].
+    #[inline(always)]
+    pub fn under_light<L: Lane>(&self, at: &ShadingPoint<L>, towards: Triple<L>, cosine: L) -> Triple<L> {
+        each_material!(self, material => material.under_light(at, towards, cosine))
+    }
+
+    /// See [`Surface::answers_light`].
+    #[must_use]
+    pub fn answers_light(&self) -> bool {
+        each_material!(self, material => material.answers_light())
+    }
+
+    /// See [`Surface::reflectiveness`].
+    #[must_use]
+    pub fn reflectiveness(&self) -> Coefficient {
+        each_material!(self, material => material.reflectiveness())
+    }
+
+    /// See [`Surface::reflection_color`].
+    #[must_use]
+    pub fn reflection_color(&self) -> Constant3 {
+        each_material!(self, material => material.reflection_color())
+    }
+}
+
+const REFLECTIVENESS: Field = Field::required(
+    "reflectiveness",
+    FieldKind::Fraction,
+    "",
+    "Share of what is seen that is reflected; the rest is the surface's own look.",
+)
+.or(|| Value::Number(0.0));
+
+/// 1/π: what a Lambert surface of albedo 1 sends on, per unit of irradiance.
+const LAMBERT: Coefficient = Coefficient::new(std::f64::consts::FRAC_1_PI);

@@ -1,0 +1,39 @@
+//! Which numbers decide something: every tolerance of the workspace's numerics, each with its source.
+
+/// Unit roundoff of `f32` with rounding to nearest: 2⁻²⁴.
+pub const UNIT_ROUNDOFF_F32: f64 = 1.0 / (1_u64 << 24) as f64;
+
+/// Unit roundoff of `f64` with rounding to nearest: 2⁻⁵³.
+pub const UNIT_ROUNDOFF_F64: f64 = 1.0 / (1_u64 << 53) as f64;
+
+/// Cosine of the largest deviation from a right angle that a rectangle's edges may show.
+///
+/// A rectangle is given by numbers that a person or a rotation has rounded; 10⁻⁹ is far above what rounding in
+/// `f64` leaves (about 10⁻¹⁵) and far below what can be seen.
+pub const RIGHT_ANGLE_TOLERANCE: f64 = 1e-9;
+
+/// γₙ = n·u / (1 − n·u): the relative error bound of `n` accumulated roundings in `f32`
+/// (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., lemma 3.1).
+#[must_use]
+pub const fn gamma_f32(n: u32) -> f64 {
+    let nu = n as f64 * UNIT_ROUNDOFF_F32;
+    nu / (1.0 - nu)
+}
+
+/// γₙ for `f64`, as [`gamma_f32`].
+#[must_use]
+pub const fn gamma_f64(n: u32) -> f64 {
+    let nu = n as f64 * UNIT_ROUNDOFF_F64;
+    nu / (1.0 - nu)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roundoffs_are_half_the_machine_epsilons() {
+        assert_eq!(UNIT_ROUNDOFF_F32, f64::from(f32::EPSILON) / 2.0);
+        assert_eq!(UNIT_ROUNDOFF_F64, f64::EPSILON / 2.0);
+    }
+}
