@@ -22,6 +22,7 @@ pub mod numeric;
 pub mod part;
 pub mod placement;
 pub mod ray;
+pub mod scene;
 
 pub use bounds::Aabb;
 pub use camera::Camera;
@@ -35,3 +36,7 @@ pub use material::{Material, ShadingPoint, Surface};
 pub use part::{Field, FieldKind, Kind, MeshSource, Part, Value, Values};
 pub use placement::Placement;
 pub use ray::{Crossing, Ray, Span};
+pub use scene::{
+    Change, ChangeKind, Content, Edit, EntityId, History, MaterialId, Members, Name, Node, Parent, Role,
+    Scene, SceneError, Settings, Subject, Subtree,
+};

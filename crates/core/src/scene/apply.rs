@@ -235,3 +235,288 @@ slots! {
     Placement: Group, Placement;
     Name: Group, Name;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::{Room, camera, light, matte, moved, sphere};
+    use super::*;
+    use crate::Rgb;
+    use crate::scene::Settings;
+
+    fn subjects(scene: &Scene, since: u64) -> Vec<(Subject, ChangeKind)> {
+        scene.changes_since(since).iter().map(|change| (change.subject, change.what)).collect()
+    }
+
+    #[test]
+    fn an_undone_removal_restores_ids_names_order_and_members() {
+        let r = Room::new();
+        let without = r.there_and_back(Edit::Remove(r.things));
+        assert_eq!(without.walk(), [r.floor, r.eye]);
+        assert_eq!(without.entity_named("lamp"), None);
+    }
+
+    #[test]
+    fn a_removal_logs_each_member() {
+        let mut r = Room::new();
+        let before = r.scene.revision();
+        r.scene.apply(Edit::Remove(r.things)).unwrap();
+        let gone = [r.things, r.ball, r.lamps, r.lamp].map(|id| (Subject::Entity(id), ChangeKind::Removed));
+        assert_eq!(subjects(&r.scene, before), gone);
+    }
+
+    #[test]
+    fn ids_of_what_is_gone_are_not_given_again() {
+        let mut r = Room::new();
+        let next = r.scene.next_entity_id();
+        r.scene.apply(Edit::Remove(r.eye)).unwrap();
+        assert_eq!(r.scene.add_group("new", None).unwrap(), next);
+        assert!(next > r.eye);
+    }
+
+    #[test]
+    fn a_whole_subtree_is_inserted_where_it_was_asked_for() {
+        let r = Room::new();
+        let inner = Node::group("inner", vec![Node::shape("pearl", sphere(0.1), r.grey)]);
+        let outer = Node::group("outer", vec![Node::light("star", light(1.0)), inner]);
+        let scene = r.there_and_back(Edit::insert(Subtree::new(outer).under(r.things).at(1)));
+        let names: Vec<_> = scene.walk().into_iter().filter_map(|id| scene.name(id)).collect();
+        assert_eq!(
+            names,
+            ["floor", "things", "ball", "outer", "star", "inner", "pearl", "lamps", "lamp", "eye"]
+        );
+    }
+
+    #[test]
+    fn each_value_is_set_logged_and_taken_back() {
+        let r = Room::new();
+        let settings = Settings::new(Rgb::WHITE, 2).unwrap();
+        let entity = |id| Subject::Entity(id);
+        for (edit, subject, what) in [
+            (Edit::Shape(r.ball, sphere(2.0)), entity(r.ball), ChangeKind::Shape),
+            (Edit::Light(r.lamp, light(9.0)), entity(r.lamp), ChangeKind::Light),
+            (Edit::Camera(r.eye, camera(0.3)), entity(r.eye), ChangeKind::Camera),
+            (Edit::Placement(r.things, moved(1.0, 2.0, 3.0)), entity(r.things), ChangeKind::Placement),
+            (Edit::MaterialOf(r.ball, r.grey), entity(r.ball), ChangeKind::Material),
+            (Edit::Parent(r.ball, None), entity(r.ball), ChangeKind::Parent),
+            (Edit::Order(r.eye, 0), entity(r.eye), ChangeKind::Order),
+            (Edit::Name(r.ball, "globe".into()), entity(r.ball), ChangeKind::Name),
+            (Edit::Material(r.grey, matte(0.1)), Subject::Material(r.grey), ChangeKind::Value),
+            (Edit::RemoveMaterial(r.grey), Subject::Material(r.grey), ChangeKind::Removed),
+            (Edit::RenameMaterial(r.grey, "ash".into()), Subject::Material(r.grey), ChangeKind::Name),
+            (Edit::Settings(settings), Subject::Settings, ChangeKind::Value),
+        ] {
+            let scene = r.there_and_back(edit.clone());
+            assert_ne!(scene, r.scene, "{edit:?}");
+            assert_eq!(subjects(&scene, r.scene.revision()), [(subject, what)], "{edit:?}");
+        }
+    }
+
+    #[test]
+    fn a_moved_member_stands_last_and_returns_to_its_place() {
+        let r = Room::new();
+        let scene = r.there_and_back(Edit::Parent(r.floor, Some(r.things)));
+        assert_eq!(scene.children(Some(r.things)), [r.ball, r.lamps, r.floor]);
+        assert_eq!(scene.children(None), [r.things, r.eye]);
+        assert_eq!(scene.parent(r.floor), Some(r.things));
+        let again = r.there_and_back(Edit::Parent(r.floor, None));
+        assert_eq!(again.children(None), [r.things, r.eye, r.floor]);
+    }
+
+    #[test]
+    fn a_place_past_the_end_is_the_last() {
+        let r = Room::new();
+        let scene = r.there_and_back(Edit::Order(r.floor, 99));
+        assert_eq!(scene.children(None), [r.things, r.eye, r.floor]);
+    }
+
+    #[test]
+    fn a_group_cannot_join_itself_or_its_members() {
+        let r = Room::new();
+        let error = r.refusal(Edit::Parent(r.things, Some(r.lamps)));
+        assert_eq!(error.to_string(), "\"things\" cannot become a member of \"lamps\", which is inside it");
+        let error = r.refusal(Edit::Parent(r.things, Some(r.things)));
+        assert_eq!(error.to_string(), "\"things\" cannot become a member of \"things\", which is itself");
+    }
+
+    #[test]
+    fn only_a_group_takes_members() {
+        let r = Room::new();
+        let error = r.refusal(Edit::Parent(r.floor, Some(r.ball)));
+        assert_eq!(error.to_string(), "\"ball\" is a shape and cannot have members; only a group can");
+        let new = Subtree::new(Node::group("new", vec![])).under(r.lamp);
+        assert!(matches!(r.refusal(Edit::insert(new)), SceneError::NotAGroup { is: Role::Light, .. }));
+    }
+
+    #[test]
+    fn names_are_not_empty_and_not_shared() {
+        let r = Room::new();
+        assert_eq!(r.refusal(Edit::Name(r.ball, " \t".into())), SceneError::EmptyName);
+        assert_eq!(r.refusal(Edit::Name(r.ball, "lamp".into())), SceneError::NameTaken("lamp".into()));
+        let twins = vec![Node::group("twin", vec![]), Node::group("twin", vec![])];
+        let error = r.refusal(Edit::insert(Node::group("new", twins)));
+        assert_eq!(error, SceneError::NameTaken("twin".into()));
+        assert_eq!(
+            r.refusal(Edit::RenameMaterial(r.grey, "white".into())),
+            SceneError::MaterialNameTaken("white".into())
+        );
+        let add = Edit::AddMaterial { name: String::new(), material: matte(0.0), id: None };
+        assert_eq!(r.refusal(add), SceneError::EmptyName);
+    }
+
+    #[test]
+    fn a_name_may_be_set_again_or_be_that_of_a_material() {
+        let r = Room::new();
+        r.there_and_back(Edit::Name(r.ball, "ball".into()));
+        r.there_and_back(Edit::Name(r.ball, "white".into()));
+        r.there_and_back(Edit::RenameMaterial(r.grey, "grey".into()));
+    }
+
+    #[test]
+    fn an_id_in_use_is_refused() {
+        let r = Room::new();
+        let same = Node::group("new", vec![Node::light("star", light(1.0)).with_id(r.ball)]);
+        assert_eq!(r.refusal(Edit::insert(same)), SceneError::IdTaken(r.ball));
+        let id = EntityId::from_index(70).unwrap();
+        let twice = Node::group("new", vec![Node::group("inner", vec![]).with_id(id)]).with_id(id);
+        assert_eq!(r.refusal(Edit::insert(twice)), SceneError::IdTaken(id));
+        let add = Edit::AddMaterial { name: "new".into(), material: matte(0.0), id: Some(r.white) };
+        assert_eq!(r.refusal(add), SceneError::MaterialIdTaken(r.white));
+    }
+
+    #[test]
+    fn new_ids_stay_clear_of_chosen_ones() {
+        let mut r = Room::new();
+        let chosen = r.scene.next_entity_id();
+        let members = vec![Node::group("chosen", vec![]).with_id(chosen)];
+        r.scene.apply(Edit::insert(Node::group("new", members))).unwrap();
+        assert_eq!(r.scene.entity_named("chosen"), Some(chosen));
+        assert!(r.scene.entity_named("new") > Some(chosen));
+    }
+
+    #[test]
+    fn a_scene_without_numbers_left_refuses_new_parts() {
+        let mut r = Room::new();
+        let last = Node::group("last", vec![]).with_id(EntityId::from_index(u32::MAX).unwrap());
+        r.scene.apply(Edit::insert(last)).unwrap();
+        assert_eq!(r.refusal(Edit::insert(Node::group("one more", vec![]))), SceneError::IdsExhausted);
+        let id = MaterialId::from_index(u32::MAX);
+        r.scene.apply(Edit::AddMaterial { name: "last".into(), material: matte(0.0), id }).unwrap();
+        let more = Edit::AddMaterial { name: "one more".into(), material: matte(0.0), id: None };
+        assert_eq!(r.refusal(more), SceneError::IdsExhausted);
+    }
+
+    #[test]
+    fn what_is_not_there_is_named() {
+        let mut r = Room::new();
+        let gone = r.scene.add_group("gone", None).unwrap();
+        let red = r.scene.add_material("red", matte(0.0)).unwrap();
+        r.scene.apply(Edit::Remove(gone)).unwrap();
+        r.scene.apply(Edit::RemoveMaterial(red)).unwrap();
+        let new = || Node::light("new", light(1.0));
+        for edit in [
+            Edit::Remove(gone),
+            Edit::Shape(gone, sphere(1.0)),
+            Edit::Placement(gone, moved(0.0, 0.0, 0.0)),
+            Edit::Parent(gone, None),
+            Edit::Parent(r.ball, Some(gone)),
+            Edit::Order(gone, 0),
+            Edit::Name(gone, "back".into()),
+            Edit::insert(Subtree::new(new()).under(gone)),
+        ] {
+            assert_eq!(r.refusal(edit), SceneError::UnknownEntity(gone));
+        }
+        for edit in [
+            Edit::MaterialOf(r.ball, red),
+            Edit::Material(red, matte(0.2)),
+            Edit::RemoveMaterial(red),
+            Edit::RenameMaterial(red, "back".into()),
+            Edit::insert(Node::shape("new", sphere(1.0), red)),
+        ] {
+            assert_eq!(r.refusal(edit), SceneError::UnknownMaterial(red));
+        }
+        assert_eq!(SceneError::UnknownMaterial(red).to_string(), "there is no material 3 in this scene");
+    }
+
+    #[test]
+    fn an_entity_cannot_get_what_its_role_has_not() {
+        let r = Room::new();
+        let error = r.refusal(Edit::Light(r.ball, light(1.0)));
+        assert_eq!(error.to_string(), "\"ball\" is a shape, not a light");
+        assert!(matches!(r.refusal(Edit::MaterialOf(r.lamp, r.white)), SceneError::WrongRole { .. }));
+        assert!(matches!(r.refusal(Edit::Shape(r.things, sphere(1.0))), SceneError::WrongRole { .. }));
+        assert!(matches!(r.refusal(Edit::Camera(r.floor, camera(1.0))), SceneError::WrongRole { .. }));
+    }
+
+    #[test]
+    fn a_material_in_use_stays() {
+        let r = Room::new();
+        let error = r.refusal(Edit::RemoveMaterial(r.white));
+        assert_eq!(error.to_string(), "the material \"white\" is in use by \"floor\" and 1 other shape");
+    }
+
+    #[test]
+    fn groups_nest_as_far_as_stated_and_no_further() {
+        let nested = |levels: usize| {
+            let innermost = Node::group(format!("level {levels}"), vec![]);
+            (0..levels).rev().fold(innermost, |node, i| Node::group(format!("level {i}"), vec![node]))
+        };
+        let r = Room::new();
+        r.there_and_back(Edit::insert(nested(Scene::MAX_DEPTH)));
+        let error = r.refusal(Edit::insert(nested(Scene::MAX_DEPTH + 1)));
+        assert_eq!(error, SceneError::TooDeep(format!("level {}", Scene::MAX_DEPTH + 1)));
+        let mut r = r;
+        r.scene.apply(Edit::insert(nested(Scene::MAX_DEPTH))).unwrap();
+        let top = r.scene.entity_named("level 0").unwrap();
+        assert_eq!(r.refusal(Edit::Parent(top, Some(r.things))), SceneError::TooDeep("level 0".into()));
+    }
+
+    #[test]
+    fn a_refused_batch_leaves_nothing_of_its_first_edits() {
+        let r = Room::new();
+        let error = r.refusal(Edit::Batch(vec![
+            Edit::AddMaterial { name: "red".into(), material: matte(0.0), id: None },
+            Edit::MaterialOf(r.ball, r.scene.next_material_id()),
+            Edit::Remove(r.lamps),
+            Edit::Parent(r.ball, None),
+            Edit::Batch(vec![Edit::Name(r.ball, "lamp".into()), Edit::insert(Node::group("new", vec![]))]),
+            Edit::Name(r.floor, "new".into()),
+        ]));
+        assert_eq!(error, SceneError::NameTaken("new".into()));
+    }
+
+    #[test]
+    fn a_batch_is_one_revision_and_is_taken_back_whole() {
+        let r = Room::new();
+        let (material, group) = (r.scene.next_material_id(), r.scene.next_entity_id());
+        let scene = r.there_and_back(Edit::Batch(vec![
+            Edit::AddMaterial { name: "red".into(), material: matte(0.0), id: None },
+            Edit::insert(Node::group("new", vec![])),
+            Edit::Parent(r.ball, Some(group)),
+            Edit::MaterialOf(r.ball, material),
+        ]));
+        assert_eq!(scene.material_name(scene.material_of(r.ball).unwrap()), "red");
+        let revisions: Vec<_> = scene.changes_since(r.scene.revision()).iter().map(|c| c.revision).collect();
+        assert_eq!(revisions, [scene.revision(); 4]);
+        assert_eq!(scene.revision(), r.scene.revision() + 1);
+    }
+
+    #[test]
+    fn an_empty_batch_is_no_edit() {
+        let mut r = Room::new();
+        let before = r.scene.revision();
+        r.scene.apply(Edit::Batch(vec![])).unwrap();
+        assert_eq!(r.scene.revision(), before);
+    }
+
+    #[test]
+    fn a_forgotten_part_of_the_log_leaves_the_rest() {
+        let mut r = Room::new();
+        let before = r.scene.revision();
+        r.scene.apply(Edit::Order(r.eye, 0)).unwrap();
+        r.scene.forget_changes(before);
+        assert_eq!(subjects(&r.scene, 0), [(Subject::Entity(r.eye), ChangeKind::Order)]);
+        r.scene.forget_changes(u64::MAX);
+        assert_eq!(r.scene.changes_since(0), []);
+        assert_eq!(r.scene.revision(), before + 1);
+    }
+}

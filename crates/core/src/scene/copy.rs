@@ -91,3 +91,73 @@ impl PartialEq for Scene {
             && self.roots.iter().all(|&root| self.node(root) == other.node(root))
     }
 }
+
+impl std::fmt::Debug for Scene {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let roots: Vec<Node> = self.roots.iter().filter_map(|&id| self.node(id)).collect();
+        f.debug_struct("Scene")
+            .field("roots", &roots)
+            .field("materials", &self.materials().collect::<Vec<_>>())
+            .field("settings", &self.settings)
+            .field("revision", &self.revision)
+            .finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::{Room, light, matte};
+    use super::super::{Edit, Subtree};
+
+    #[test]
+    fn a_duplicate_stands_beside_its_original_under_free_names() {
+        let mut r = Room::new();
+        let copy = r.scene.duplicate(r.things).unwrap();
+        r.scene.apply(Edit::insert(copy)).unwrap();
+        let names: Vec<_> = r.scene.walk().into_iter().filter_map(|id| r.scene.name(id)).collect();
+        let expected = "floor, things, ball, lamps, lamp, things 2, ball 2, lamps 2, lamp 2, eye";
+        assert_eq!(names.join(", "), expected);
+    }
+
+    #[test]
+    fn a_duplicate_has_the_parts_of_its_original() {
+        let mut r = Room::new();
+        let copy = r.scene.duplicate(r.ball).unwrap();
+        assert_eq!(copy, Subtree { node: copy.node.clone(), parent: Some(r.things), index: Some(1) });
+        r.scene.apply(Edit::insert(copy)).unwrap();
+        let twin = r.scene.entity_named("ball 2").unwrap();
+        assert_eq!(r.scene.shape(twin), r.scene.shape(r.ball));
+        assert_eq!(r.scene.material_of(twin), Some(r.white));
+    }
+
+    #[test]
+    fn free_names_count_on() {
+        let mut r = Room::new();
+        assert_eq!(r.scene.free_name("cup"), "cup");
+        for expected in ["lamp 2", "lamp 3", "lamp 4"] {
+            let name = r.scene.free_name(if expected == "lamp 4" { "lamp 2" } else { "lamp" });
+            assert_eq!(name, expected);
+            r.scene.add_light(&name, light(1.0), None).unwrap();
+        }
+        assert_eq!(r.scene.free_material_name("white"), "white 2");
+    }
+
+    #[test]
+    fn a_clone_is_equal_and_apart() {
+        let mut r = Room::new();
+        let clone = r.scene.clone();
+        assert_eq!(clone, r.scene);
+        assert_eq!(clone.changes_since(0), r.scene.changes_since(0));
+        r.scene.apply(Edit::Material(r.grey, matte(0.1))).unwrap();
+        assert_ne!(clone, r.scene);
+    }
+
+    #[test]
+    fn what_it_prints_names_every_part() {
+        let r = Room::new();
+        let text = format!("{:?}", r.scene);
+        for name in ["floor", "things", "ball", "lamps", "lamp", "eye", "white", "grey"] {
+            assert!(text.contains(&format!("\"{name}\"")), "{name} in {text}");
+        }
+    }
+}

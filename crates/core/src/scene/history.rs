@@ -198,3 +198,158 @@ fn keep_unset(edit: Edit, slots: &HashSet<Slot>, kept: &mut Vec<Edit>) {
         edit => kept.push(edit),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Node;
+    use super::super::fixture::{Room, light, matte, moved, sphere};
+    use super::*;
+
+    fn undo_all(history: &mut History, scene: &mut Scene) -> usize {
+        std::iter::from_fn(|| history.undo(scene).then_some(())).count()
+    }
+
+    #[test]
+    fn undo_and_redo_walk_through_the_states() {
+        let mut r = Room::new();
+        let mut history = History::new();
+        let mut states = vec![r.scene.clone()];
+        for edit in [
+            Edit::Remove(r.lamps),
+            Edit::Shape(r.ball, sphere(3.0)),
+            Edit::insert(Node::light("star", light(2.0))),
+            Edit::Name(r.ball, "lamp".into()),
+        ] {
+            history.apply(&mut r.scene, edit).unwrap();
+            states.push(r.scene.clone());
+        }
+        for state in states.iter().rev().skip(1) {
+            assert!(history.undo(&mut r.scene));
+            assert_eq!(&r.scene, state);
+        }
+        assert!(!history.undo(&mut r.scene) && !history.can_undo());
+        for state in states.iter().skip(1) {
+            assert!(history.redo(&mut r.scene));
+            assert_eq!(&r.scene, state);
+        }
+        assert!(!history.redo(&mut r.scene) && !history.can_redo());
+    }
+
+    #[test]
+    fn a_new_step_ends_what_could_be_redone() {
+        let mut r = Room::new();
+        let mut history = History::new();
+        history.apply(&mut r.scene, Edit::Remove(r.eye)).unwrap();
+        history.undo(&mut r.scene);
+        assert!(history.can_redo());
+        history.apply(&mut r.scene, Edit::Remove(r.floor)).unwrap();
+        assert!(!history.can_redo());
+    }
+
+    #[test]
+    fn a_drag_is_one_step_of_fixed_size() {
+        let mut r = Room::new();
+        let mut history = History::new();
+        let before = r.scene.clone();
+        for x in 1..50 {
+            let at = moved(f64::from(x), 0.0, 0.0);
+            let both = vec![Edit::Placement(r.ball, at), Edit::Placement(r.lamp, at)];
+            history.apply_continuing(&mut r.scene, Edit::Batch(both), 7).unwrap();
+        }
+        assert_eq!(history.done.len(), 1);
+        assert_eq!(history.done[0].edits.len(), 1);
+        let dragged = r.scene.clone();
+        assert!(history.undo(&mut r.scene));
+        assert_eq!(r.scene, before);
+        assert!(history.redo(&mut r.scene));
+        assert_eq!(r.scene, dragged);
+    }
+
+    #[test]
+    fn another_key_or_an_end_starts_a_new_step() {
+        let mut r = Room::new();
+        let mut history = History::new();
+        let edit = |x| Edit::Placement(r.ball, moved(x, 0.0, 0.0));
+        history.apply_continuing(&mut r.scene, edit(1.0), 1).unwrap();
+        history.apply_continuing(&mut r.scene, edit(2.0), 2).unwrap();
+        history.end_step();
+        history.apply_continuing(&mut r.scene, edit(3.0), 2).unwrap();
+        history.apply(&mut r.scene, edit(4.0)).unwrap();
+        history.apply_continuing(&mut r.scene, edit(5.0), 2).unwrap();
+        history.apply_continuing(&mut r.scene, edit(6.0), 2).unwrap();
+        assert_eq!(undo_all(&mut history, &mut r.scene), 5);
+    }
+
+    #[test]
+    fn a_drag_that_touches_more_and_more_is_taken_back_whole() {
+        let mut r = Room::new();
+        let mut history = History::new();
+        let before = r.scene.clone();
+        let new = r.scene.next_material_id();
+        for edit in [
+            Edit::MaterialOf(r.ball, r.grey),
+            Edit::Placement(r.ball, moved(1.0, 0.0, 0.0)),
+            Edit::Batch(vec![
+                Edit::AddMaterial { name: "red".into(), material: matte(0.0), id: None },
+                Edit::MaterialOf(r.ball, new),
+            ]),
+            Edit::MaterialOf(r.ball, r.white),
+            Edit::Material(new, matte(0.7)),
+            Edit::RemoveMaterial(new),
+        ] {
+            history.apply_continuing(&mut r.scene, edit, 1).unwrap();
+        }
+        let after = r.scene.clone();
+        assert!(history.undo(&mut r.scene));
+        assert_eq!(r.scene, before);
+        assert!(history.redo(&mut r.scene));
+        assert_eq!(r.scene, after);
+        assert_eq!(undo_all(&mut history, &mut r.scene), 1);
+    }
+
+    #[test]
+    fn a_refused_edit_is_no_step() {
+        let mut r = Room::new();
+        let mut history = History::new();
+        let good = Edit::Placement(r.ball, moved(1.0, 0.0, 0.0));
+        history.apply_continuing(&mut r.scene, good.clone(), 1).unwrap();
+        history.apply_continuing(&mut r.scene, Edit::RemoveMaterial(r.white), 1).unwrap_err();
+        history.apply(&mut r.scene, Edit::RemoveMaterial(r.white)).unwrap_err();
+        history.apply_continuing(&mut r.scene, good, 1).unwrap();
+        assert_eq!(undo_all(&mut history, &mut r.scene), 1);
+    }
+
+    #[test]
+    fn it_knows_the_saved_state_again() {
+        let mut r = Room::new();
+        let mut history = History::new();
+        let edit = |x| Edit::Placement(r.ball, moved(x, 0.0, 0.0));
+        assert!(history.is_saved());
+        history.apply_continuing(&mut r.scene, edit(1.0), 1).unwrap();
+        assert!(!history.is_saved());
+        history.mark_saved();
+        history.apply_continuing(&mut r.scene, edit(2.0), 1).unwrap();
+        assert!(!history.is_saved());
+        history.undo(&mut r.scene);
+        assert!(history.is_saved());
+        history.undo(&mut r.scene);
+        assert!(!history.is_saved());
+        history.redo(&mut r.scene);
+        assert!(history.is_saved());
+        history.undo(&mut r.scene);
+        history.apply(&mut r.scene, edit(1.0)).unwrap();
+        assert!(!history.is_saved());
+    }
+
+    #[test]
+    fn a_step_that_no_longer_fits_the_scene_is_not_undone() {
+        let mut r = Room::new();
+        let mut history = History::new();
+        history.apply(&mut r.scene, Edit::Remove(r.eye)).unwrap();
+        r.scene.add_group("eye", None).unwrap();
+        let before = r.scene.clone();
+        assert!(!history.undo(&mut r.scene));
+        assert_eq!(r.scene, before);
+        assert!(history.can_undo() && !history.can_redo());
+    }
+}

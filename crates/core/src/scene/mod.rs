@@ -5,11 +5,15 @@
 //! by [`MaterialId`]. Every change is an [`Edit`] that goes through [`Scene::apply`], which checks it, answers
 //! with its inverse, and writes into the edit log what was changed; [`History`] makes undo and redo of it.
 
+mod add;
 mod apply;
 mod check;
+mod component;
 mod copy;
 mod edit;
 mod error;
+#[cfg(test)]
+mod fixture;
 mod history;
 mod ids;
 mod materials;
@@ -19,6 +23,7 @@ mod tree;
 
 use std::collections::{BTreeMap, HashMap};
 
+pub use component::{Members, Name, Parent, Role};
 pub use edit::{Change, ChangeKind, Edit, Subject};
 pub use error::SceneError;
 pub use history::History;
@@ -29,66 +34,6 @@ pub use settings::Settings;
 use crate::{Camera, Light, Material, Placement, Shape};
 use ids::Counter;
 use materials::Materials;
-
-/// What kind of entity something is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Role {
-    /// Something to be seen: a [`Shape`] that wears a material.
-    Shape,
-    /// Something that gives light: a [`Light`].
-    Light,
-    /// Something to look through: a [`Camera`].
-    Camera,
-    /// Entities that move together.
-    Group,
-}
-
-impl std::fmt::Display for Role {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Shape => "shape",
-            Self::Light => "light",
-            Self::Camera => "camera",
-            Self::Group => "group",
-        })
-    }
-}
-
-/// Component of every entity: its name, which no other entity of the scene has.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Name(pub(in crate::scene) String);
-
-impl Name {
-    /// The name.
-    #[must_use]
-    pub fn as_str(&self) -> &str {
-        &self.0
-    }
-}
-
-/// Component of every member of a group: which group. Entities at the top of the scene have none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Parent(pub(in crate::scene) EntityId);
-
-impl Parent {
-    /// The group.
-    #[must_use]
-    pub fn id(self) -> EntityId {
-        self.0
-    }
-}
-
-/// Component of every group: its members, in order.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Members(pub(in crate::scene) Vec<EntityId>);
-
-impl Members {
-    /// The ids of the members, in order.
-    #[must_use]
-    pub fn ids(&self) -> &[EntityId] {
-        &self.0
-    }
-}
 
 /// Shapes, lights, cameras, groups, materials and settings, and a log of how they were changed.
 pub struct Scene {
@@ -299,91 +244,8 @@ impl Scene {
     }
 }
 
-/// Adding parts: each is one [`Edit`].
-impl Scene {
-    /// Adds a material.
-    ///
-    /// # Errors
-    /// A name that is empty or that another material has.
-    pub fn add_material(
-        &mut self,
-        name: &str,
-        material: impl Into<Material>,
-    ) -> Result<MaterialId, SceneError> {
-        let id = self.next_material_id();
-        self.apply(Edit::AddMaterial { name: name.to_owned(), material: material.into(), id: None })?;
-        Ok(id)
-    }
-
-    /// Adds a shape that wears `material`, as the last member of `parent` or at the top.
-    ///
-    /// # Errors
-    /// A name that is empty or taken, a material or parent that is not there, a parent that is no group.
-    pub fn add_shape(
-        &mut self,
-        name: &str,
-        shape: impl Into<Shape>,
-        material: MaterialId,
-        parent: Option<EntityId>,
-    ) -> Result<EntityId, SceneError> {
-        self.add(Node::shape(name, shape, material), parent)
-    }
-
-    /// Adds a light as the last member of `parent` or at the top.
-    ///
-    /// # Errors
-    /// A name that is empty or taken, a parent that is not there or is no group.
-    pub fn add_light(
-        &mut self,
-        name: &str,
-        light: impl Into<Light>,
-        parent: Option<EntityId>,
-    ) -> Result<EntityId, SceneError> {
-        self.add(Node::light(name, light), parent)
-    }
-
-    /// Adds a camera as the last member of `parent` or at the top.
-    ///
-    /// # Errors
-    /// A name that is empty or taken, a parent that is not there or is no group.
-    pub fn add_camera(
-        &mut self,
-        name: &str,
-        camera: Camera,
-        parent: Option<EntityId>,
-    ) -> Result<EntityId, SceneError> {
-        self.add(Node::camera(name, camera), parent)
-    }
-
-    /// Adds an empty group as the last member of `parent` or at the top.
-    ///
-    /// # Errors
-    /// A name that is empty or taken, a parent that is not there or is no group.
-    pub fn add_group(&mut self, name: &str, parent: Option<EntityId>) -> Result<EntityId, SceneError> {
-        self.add(Node::group(name, Vec::new()), parent)
-    }
-
-    fn add(&mut self, node: Node, parent: Option<EntityId>) -> Result<EntityId, SceneError> {
-        let id = self.next_entity_id();
-        self.apply(Edit::insert(Subtree { node, parent, index: None }))?;
-        Ok(id)
-    }
-}
-
 impl Default for Scene {
     fn default() -> Self {
         Self::new()
-    }
-}
-
-impl std::fmt::Debug for Scene {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let roots: Vec<Node> = self.roots.iter().filter_map(|&id| self.node(id)).collect();
-        f.debug_struct("Scene")
-            .field("roots", &roots)
-            .field("materials", &self.materials().collect::<Vec<_>>())
-            .field("settings", &self.settings)
-            .field("revision", &self.revision)
-            .finish_non_exhaustive()
     }
 }

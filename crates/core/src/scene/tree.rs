@@ -1,7 +1,7 @@
 //! Who is a member of which group, in what order, and where does that put things in the world?
 
 use super::{EntityId, Members, Parent, Role, Scene};
-use crate::{Aabb, Light, Placement, Shape};
+use crate::{Aabb, Camera, Light, Placement, Shape};
 
 impl Scene {
     /// The members of a group, or what lies at the top of the scene, in order. Empty for what is no group.
@@ -65,6 +65,13 @@ impl Scene {
         Some(self.light(id)?.placed(&self.world_placement(id)?))
     }
 
+    /// The camera of a camera entity, in world space. `None` also where its groups take it further away than
+    /// numbers reach.
+    #[must_use]
+    pub fn world_camera(&self, id: EntityId) -> Option<Camera> {
+        self.camera(id)?.placed(&self.world_placement(id)?).ok()
+    }
+
     /// The box, in world space, round a shape or round all bounded shapes in a group. `None` for what has no
     /// ends, such as a plane, and for what has no shape at all.
     #[must_use]
@@ -121,5 +128,87 @@ impl Scene {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::fixture::{Room, camera, matte, moved, sphere};
+    use super::super::{Edit, Node, Subtree};
+    use crate::Placement;
+
+    #[test]
+    fn a_walk_meets_groups_before_members_and_siblings_in_order() {
+        let r = Room::new();
+        assert_eq!(r.scene.walk(), [r.floor, r.things, r.ball, r.lamps, r.lamp, r.eye]);
+    }
+
+    #[test]
+    fn own_placement_comes_before_those_of_the_groups() {
+        let mut r = Room::new();
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let turned = Placement::IDENTITY.turned(DVec3::ZERO, DVec3::Y, quarter).unwrap();
+        r.scene.apply(Edit::Placement(r.things, turned)).unwrap();
+        r.scene.apply(Edit::Placement(r.ball, moved(1.0, 2.0, 0.0))).unwrap();
+        let at = r.scene.world_placement(r.ball).unwrap().point(DVec3::ZERO);
+        assert!(at.distance(DVec3::new(0.0, 2.0, -1.0)) < 1e-15, "{at}");
+    }
+
+    #[test]
+    fn placements_of_nested_groups_add_up() {
+        let mut r = Room::new();
+        for id in [r.things, r.lamps, r.lamp] {
+            r.scene.apply(Edit::Placement(id, moved(1.0, 0.0, 0.0))).unwrap();
+        }
+        let at = r.scene.world_placement(r.lamp).unwrap().translation();
+        assert_eq!(at, DVec3::new(3.0, 0.0, 0.0));
+        assert_eq!(r.scene.world_light(r.lamp).unwrap().position(), Some(at));
+    }
+
+    #[test]
+    fn bounds_of_a_group_hold_its_bounded_members_where_they_stand() {
+        let mut r = Room::new();
+        r.scene.apply(Edit::Parent(r.floor, Some(r.things))).unwrap();
+        r.scene.add_shape("pearl", sphere(0.5), r.white, Some(r.lamps)).unwrap();
+        r.scene.apply(Edit::Placement(r.lamps, moved(10.0, 0.0, 0.0))).unwrap();
+        let bounds = r.scene.world_bounds(r.things).unwrap();
+        assert!((bounds.min - DVec3::NEG_ONE).abs().max_element() < 1e-12, "{bounds:?}");
+        assert!((bounds.max - DVec3::new(10.5, 1.0, 1.0)).abs().max_element() < 1e-12, "{bounds:?}");
+    }
+
+    #[test]
+    fn what_has_no_ends_or_no_shape_has_no_bounds() {
+        let r = Room::new();
+        for id in [r.floor, r.lamp, r.lamps, r.eye] {
+            assert_eq!(r.scene.world_bounds(id), None, "{id}");
+        }
+    }
+
+    #[test]
+    fn the_main_camera_is_the_first_in_the_tree_and_not_the_oldest() {
+        let mut r = Room::new();
+        assert_eq!(r.scene.main_camera(), Some(r.eye));
+        let side = Subtree::new(Node::camera("side", camera(0.5))).at(0);
+        r.scene.apply(Edit::insert(side)).unwrap();
+        assert_eq!(r.scene.main_camera(), r.scene.entity_named("side"));
+    }
+
+    #[test]
+    fn an_unknown_entity_has_nothing() {
+        let mut r = Room::new();
+        r.scene.apply(Edit::Remove(r.things)).unwrap();
+        assert!(r.scene.role(r.ball).is_none() && r.scene.name(r.ball).is_none());
+        assert!(r.scene.world_placement(r.ball).is_none() && r.scene.world_bounds(r.ball).is_none());
+        assert!(r.scene.parent(r.ball).is_none() && r.scene.children(Some(r.things)).is_empty());
+    }
+
+    #[test]
+    fn wearers_are_listed_by_age() {
+        let mut r = Room::new();
+        assert_eq!(r.scene.wearers(r.white), [r.floor, r.ball]);
+        let red = r.scene.add_material("red", matte(0.2)).unwrap();
+        assert!(r.scene.wearers(red).is_empty());
     }
 }

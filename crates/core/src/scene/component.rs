@@ -1,0 +1,63 @@
+//! What does a scene store of an entity, beside its id, its placement and the part that it is?
+
+use super::EntityId;
+
+/// What kind of entity something is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Role {
+    /// Something to be seen: a [`Shape`](crate::Shape) that wears a material.
+    Shape,
+    /// Something that gives light: a [`Light`](crate::Light).
+    Light,
+    /// Something to look through: a [`Camera`](crate::Camera).
+    Camera,
+    /// Entities that move together.
+    Group,
+}
+
+impl std::fmt::Display for Role {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Shape => "shape",
+            Self::Light => "light",
+            Self::Camera => "camera",
+            Self::Group => "group",
+        })
+    }
+}
+
+/// Component of every entity: its name, which no other entity of the scene has.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Name(pub(super) String);
+
+impl Name {
+    /// The name.
+    #[must_use]
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+/// Component of every member of a group: which group. Entities at the top of the scene have none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Parent(pub(super) EntityId);
+
+impl Parent {
+    /// The group.
+    #[must_use]
+    pub fn id(self) -> EntityId {
+        self.0
+    }
+}
+
+/// Component of every group: its members, in order.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Members(pub(super) Vec<EntityId>);
+
+impl Members {
+    /// The ids of the members, in order.
+    #[must_use]
+    pub fn ids(&self) -> &[EntityId] {
+        &self.0
+    }
+}
