@@ -1,0 +1,31 @@
+//! What is drawn over a traced picture so that one sees what a picture alone does not show: light cones, marks of
+//! lights, axes, the ground grid, bounds of the selection, cameras.
+//!
+//! An [`Overlay`] reads a scene and a camera and draws, antialiased, onto a [`Layer`]; the layer is blended over the
+//! picture. Lines behind a traced surface, told by a [`DepthField`], are fainter and dashed; what is behind the eye
+//! is cut off. What is drawn can be clicked ([`Overlay::mark_at`]) and dragged ([`Overlay::ring_at`],
+//! [`Overlay::drag_ring`]). A gizmo is one file under `gizmo/` and one line in its list.
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test may stop at the first surprise"))]
+
+mod canvas;
+mod cone;
+mod depth;
+mod gizmo;
+mod glow;
+mod grip;
+mod hair;
+mod hull;
+mod layer;
+mod overlay;
+mod pixel;
+mod projection;
+mod sight;
+mod stage;
+mod tint;
+
+pub use depth::DepthField;
+pub use grip::{Ring, RingGrip};
+pub use layer::{Layer, blend_over};
+pub use overlay::{Overlay, OverlayStyle};
+pub use projection::{Projected, Projection};
+pub use tiny_skia::{IntRect, Pixmap};

@@ -1,0 +1,214 @@
+//! Where does a point of the world stand in the picture, and which part of a line or an area can be seen at all?
+//!
+//! Everything is clipped in camera space, before the division by depth: against a near plane and against the four
+//! sides of the picture with a margin. What lies behind the eye is therefore cut off and never mirrored, and no
+//! number that reaches the painter is infinite or far outside the picture.
+
+use catoptra_core::Camera;
+use catoptra_core::glam::DVec3;
+
+/// Nearest depth drawn, in metres along the camera's forward axis. Far below anything one can aim at, far above the
+/// rounding of coordinates within ten thousand kilometres of the eye.
+const NEAR: f64 = 1e-3;
+
+/// How far outside the picture lines still run, in pixels, so that their ends and casings never show at its border.
+const MARGIN: f64 = 64.0;
+
+/// A camera and the picture it is seen in: from world metres to pixels and back.
+///
+/// Pixels count from the top left corner of the picture; the centre of the first pixel is (0.5, 0.5). A picture of
+/// zero width or height shows nothing: every function here answers `None` or an empty list for it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Projection {
+    eye: DVec3,
+    right: DVec3,
+    up: DVec3,
+    forward: DVec3,
+    width: f64,
+    height: f64,
+    focal: f64,
+}
+
+/// A point of the world as it stands in the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Projected {
+    /// Pixels from the left border; may lie outside the picture.
+    pub x: f64,
+    /// Pixels from the top border; may lie outside the picture.
+    pub y: f64,
+    /// Metres from the eye, along the ray through that pixel; positive.
+    pub distance: f64,
+}
+
+/// An end of a clipped line: pixels, and the inverse of the depth, which is linear along the line in the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Spot {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    pub(crate) inverse_depth: f64,
+}
+
+impl Spot {
+    /// The spot a fraction `s` of the way, in the picture, from `self` to `end`.
+    pub(crate) fn towards(self, end: Spot, s: f64) -> Spot {
+        let mix = |a: f64, b: f64| a + (b - a) * s;
+        Spot {
+            x: mix(self.x, end.x),
+            y: mix(self.y, end.y),
+            inverse_depth: mix(self.inverse_depth, end.inverse_depth),
+        }
+    }
+
+    /// Pixels between two spots.
+    pub(crate) fn pixels_to(self, other: Spot) -> f64 {
+        (other.x - self.x).hypot(other.y - self.y)
+    }
+}
+
+impl Projection {
+    /// The projection of `camera` onto a picture of `width` x `height` pixels.
+    pub fn new(camera: &Camera, width: u32, height: u32) -> Self {
+        let (width, height) = (f64::from(width), f64::from(height));
+        Self {
+            eye: camera.eye(),
+            right: camera.right(),
+            up: camera.up(),
+            forward: camera.forward(),
+            width,
+            height,
+            focal: 0.5 * height / (0.5 * camera.fov()).tan(),
+        }
+    }
+
+    /// The eye, in world metres.
+    pub fn eye(&self) -> DVec3 {
+        self.eye
+    }
+
+    /// Width of the picture in pixels.
+    pub fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// Height of the picture in pixels.
+    pub fn height(&self) -> f64 {
+        self.height
+    }
+
+    /// Where `point` stands in the picture; `None` when it is not in front of the eye or not finite.
+    pub fn project(&self, point: DVec3) -> Option<Projected> {
+        let seen = self.to_camera(point);
+        let spot = self.spot(seen)?;
+        Some(Projected { x: spot.x, y: spot.y, distance: seen.length() })
+    }
+
+    /// Direction of the ray through a pixel, in world space, with a forward component of 1 (not unit length).
+    pub fn direction(&self, x: f64, y: f64) -> DVec3 {
+        let (across, upward) = self.slopes(x, y);
+        self.forward + self.right * across + self.up * upward
+    }
+
+    /// Metres, across the line of sight, that one pixel spans at `point`; `None` when the point is not in front.
+    ///
+    /// Marks of a constant size in the picture are measured with this.
+    pub fn metres_per_pixel(&self, point: DVec3) -> Option<f64> {
+        let seen = self.to_camera(point);
+        self.spot(seen).map(|_| seen.z / self.focal)
+    }
+
+    /// The part of the segment from `start` to `end` that can be seen, in pixels; `None` when no part can.
+    pub(crate) fn segment(&self, start: DVec3, end: DVec3) -> Option<[Spot; 2]> {
+        let (start, end) = (self.to_camera(start), self.to_camera(end));
+        if !(start.is_finite() && end.is_finite()) {
+            return None;
+        }
+        let (mut first, mut last) = (0.0_f64, 1.0_f64);
+        for side in 0..SIDES {
+            let (from, to) = (self.inside(side, start), self.inside(side, end));
+            if from < 0.0 && to < 0.0 {
+                return None;
+            }
+            if from < 0.0 {
+                first = first.max(from / (from - to));
+            } else if to < 0.0 {
+                last = last.min(from / (from - to));
+            }
+        }
+        if !(first <= last) {
+            return None;
+        }
+        Some([self.spot(start.lerp(end, first))?, self.spot(start.lerp(end, last))?])
+    }
+
+    /// The visible part of a flat convex polygon, as the corners of a polygon in pixels; empty when nothing is seen.
+    pub(crate) fn polygon(&self, corners: &[DVec3]) -> Vec<Spot> {
+        let mut seen: Vec<DVec3> = corners.iter().map(|&corner| self.to_camera(corner)).collect();
+        if !seen.iter().all(|corner| corner.is_finite()) {
+            return Vec::new();
+        }
+        for side in 0..SIDES {
+            seen = self.cut(side, &seen);
+        }
+        seen.into_iter().filter_map(|corner| self.spot(corner)).collect()
+    }
+
+    /// Metres from the eye per metre of depth, on the ray through a pixel: 1 in the centre, more towards the corners.
+    pub(crate) fn slant(&self, x: f64, y: f64) -> f64 {
+        let (across, upward) = self.slopes(x, y);
+        (1.0 + across * across + upward * upward).sqrt()
+    }
+
+    fn slopes(&self, x: f64, y: f64) -> (f64, f64) {
+        ((x - 0.5 * self.width) / self.focal, (0.5 * self.height - y) / self.focal)
+    }
+
+    fn to_camera(&self, point: DVec3) -> DVec3 {
+        let offset = point - self.eye;
+        DVec3::new(offset.dot(self.right), offset.dot(self.up), offset.dot(self.forward))
+    }
+
+    fn spot(&self, seen: DVec3) -> Option<Spot> {
+        // A corner cut at the near plane may be rounded to just before it, hence half of NEAR here.
+        if !(seen.z >= 0.5 * NEAR && self.width > 0.0 && self.height > 0.0) {
+            return None;
+        }
+        let spot = Spot {
+            x: 0.5 * self.width + self.focal * (seen.x / seen.z),
+            y: 0.5 * self.height - self.focal * (seen.y / seen.z),
+            inverse_depth: seen.z.recip(),
+        };
+        (spot.x.is_finite() && spot.y.is_finite() && spot.inverse_depth > 0.0).then_some(spot)
+    }
+
+    /// How far inside one side of the view a point of camera space lies; negative outside.
+    fn inside(&self, side: usize, seen: DVec3) -> f64 {
+        let wide = (0.5 * self.width + MARGIN) / self.focal;
+        let high = (0.5 * self.height + MARGIN) / self.focal;
+        match side {
+            0 => seen.z - NEAR,
+            1 => wide * seen.z + seen.x,
+            2 => wide * seen.z - seen.x,
+            3 => high * seen.z + seen.y,
+            _ => high * seen.z - seen.y,
+        }
+    }
+
+    /// Sutherland and Hodgman 1974: the part of a convex polygon inside one side.
+    fn cut(&self, side: usize, corners: &[DVec3]) -> Vec<DVec3> {
+        let mut kept = Vec::with_capacity(corners.len() + 1);
+        for (index, &corner) in corners.iter().enumerate() {
+            let next = corners[(index + 1) % corners.len()];
+            let (here, there) = (self.inside(side, corner), self.inside(side, next));
+            if here >= 0.0 {
+                kept.push(corner);
+            }
+            if (here < 0.0) != (there < 0.0) {
+                kept.push(corner.lerp(next, here / (here - there)));
+            }
+        }
+        kept
+    }
+}
+
+/// The near plane and the four sides of the picture.
+const SIDES: usize = 5;
