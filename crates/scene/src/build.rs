@@ -1,0 +1,161 @@
+//! How a scene is built from what its text says: materials first, then entities group by group.
+
+use std::collections::HashMap;
+
+use catoptra_core::scene::{Content, Edit, EntityId, MaterialId, Node, Scene, Subtree};
+
+use crate::outline::{Item, Outline, Part, Word};
+use crate::report::{Complaints, line_and_column};
+use crate::words;
+
+/// The part of a scene that a node stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Id {
+    Settings,
+    Material(MaterialId),
+    Entity(EntityId),
+}
+
+/// Builds the scene, and answers with what each item of the outline has become. If anything is wrong it goes to
+/// `complaints`, and the scene is not whole.
+pub(crate) fn build(outline: &Outline, text: &str, complaints: &mut Complaints) -> (Scene, Vec<Id>) {
+    let mut builder = Builder {
+        scene: Scene::new(),
+        text,
+        complaints,
+        first: HashMap::new(),
+        materials: HashMap::new(),
+        names: Vec::new(),
+        ids: vec![None; outline.items.len()],
+    };
+    builder.check_names(outline);
+    builder.add_materials(outline);
+    builder.add_entities(outline);
+    let ids = builder.ids.into_iter().map(|id| id.unwrap_or(Id::Settings)).collect();
+    (builder.scene, ids)
+}
+
+struct Builder<'a> {
+    scene: Scene,
+    text: &'a str,
+    complaints: &'a mut Complaints,
+    /// Where every name was first given; materials have names of their own.
+    first: HashMap<(bool, &'a str), usize>,
+    materials: HashMap<&'a str, MaterialId>,
+    /// Names of all materials, those that could not be made too.
+    names: Vec<&'a str>,
+    ids: Vec<Option<Id>>,
+}
+
+impl<'a> Builder<'a> {
+    fn check_names(&mut self, outline: &'a Outline) {
+        let mut settings: Option<usize> = None;
+        for item in &outline.items {
+            match &item.name {
+                Some(name) if !name.value.trim().is_empty() => self.check_name(item, name),
+                None if matches!(item.part, Some(Part::Settings(_))) => {
+                    if let Some(first) = settings {
+                        self.again(item.word.clone(), "settings are given twice".into(), first);
+                    }
+                    settings.get_or_insert(item.span.start);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn check_name(&mut self, item: &Item, name: &'a Word) {
+        let key = (item.sort.is_entity(), name.value.as_str());
+        if let Some(&first) = self.first.get(&key) {
+            let whose = if key.0 { "shape, light, camera or group" } else { "material" };
+            let message = format!("the name \"{}\" is taken by another {whose}", name.value);
+            self.again(name.span.clone(), message, first);
+            return;
+        }
+        self.first.insert(key, item.span.start);
+        if !key.0 {
+            self.names.push(&name.value);
+        }
+    }
+
+    fn again(&mut self, span: crate::outline::Span, message: String, first: usize) {
+        let (line, _) = line_and_column(self.text, first);
+        self.complaints.add_with(span, message, format!("the first stands in line {line}"));
+    }
+
+    fn add_materials(&mut self, outline: &'a Outline) {
+        for (i, item) in outline.items.iter().enumerate() {
+            let (Some(Part::Material(material)), Some(name)) = (&item.part, &item.name) else { continue };
+            match self.scene.add_material(&name.value, material.clone()) {
+                Ok(id) => {
+                    self.ids[i] = Some(Id::Material(id));
+                    self.materials.insert(&name.value, id);
+                }
+                Err(error) => self.refused(item, &error),
+            }
+        }
+    }
+
+    fn add_entities(&mut self, outline: &Outline) {
+        for (i, item) in outline.items.iter().enumerate() {
+            let Some(part) = &item.part else {
+                self.check_material(item);
+                continue;
+            };
+            let content = match part {
+                Part::Material(_) => continue,
+                Part::Settings(settings) => {
+                    if let Err(error) = self.scene.apply(Edit::Settings(*settings)) {
+                        self.refused(item, &error);
+                    }
+                    self.ids[i] = Some(Id::Settings);
+                    continue;
+                }
+                Part::Shape(shape) => match self.check_material(item) {
+                    Some(material) => Content::Shape(shape.clone(), material),
+                    None => continue,
+                },
+                Part::Light(light) => Content::Light(light.clone()),
+                Part::Camera(camera) => Content::Camera(camera.clone()),
+                Part::Group => Content::Group(Vec::new()),
+            };
+            self.insert(i, item, content);
+        }
+    }
+
+    fn insert(&mut self, place: usize, item: &Item, content: Content) {
+        // The members of a group that was refused are left out: the group has been complained about.
+        let parent = match item.parent.map(|parent| self.ids[parent]) {
+            None => None,
+            Some(Some(Id::Entity(parent))) => Some(parent),
+            Some(_) => return,
+        };
+        let name = item.name.as_ref().map(|name| name.value.clone()).unwrap_or_default();
+        let node = Node::new(name, content).placed(item.placement);
+        let id = self.scene.next_entity_id();
+        match self.scene.apply(Edit::insert(Subtree { node, parent, index: None })) {
+            Ok(_) => self.ids[place] = Some(Id::Entity(id)),
+            Err(error) => self.refused(item, &error),
+        }
+    }
+
+    /// The material that a shape names, if it is there.
+    fn check_material(&mut self, item: &Item) -> Option<MaterialId> {
+        let word = item.material.as_ref()?;
+        let found = self.materials.get(word.value.as_str()).copied();
+        if found.is_none() && !word.value.is_empty() && !self.names.contains(&word.value.as_str()) {
+            let help = words::hint(&word.value, &self.names, "materials");
+            let message = format!("there is no material \"{}\"", word.value);
+            self.complaints.add_with(word.span.clone(), message, help);
+        }
+        found
+    }
+
+    /// Passes on what the scene refuses, unless the text was complained about already.
+    fn refused(&mut self, item: &Item, error: &catoptra_core::scene::SceneError) {
+        if self.complaints.count() == 0 {
+            let span = item.name.as_ref().map_or(item.word.clone(), |name| name.span.clone());
+            self.complaints.add(span, error.to_string());
+        }
+    }
+}

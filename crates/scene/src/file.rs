@@ -1,0 +1,188 @@
+//! How a scene and its text are held together: loading, following edits, saving.
+
+use std::path::{Path, PathBuf};
+
+use catoptra_core::scene::Scene;
+use catoptra_core::{Shape, Value};
+
+use crate::atomic;
+use crate::build::{self, Id};
+use crate::outline::Outline;
+use crate::read::{self, LONGEST, Meshes};
+use crate::report::{Complaints, SceneTextError};
+use crate::write::{self, Splice};
+
+/// The text of a scene, kept so that saving changes only what has changed.
+///
+/// Belongs to the [`Scene`] it was loaded with (or made for), whose ids it remembers.
+#[derive(Debug, Clone)]
+pub struct SceneFile {
+    path: Option<PathBuf>,
+    text: String,
+    outline: Outline,
+    /// What every item of the outline stands for.
+    ids: Vec<Id>,
+    meshes: Meshes,
+}
+
+/// A scene that could not be saved; what was on the disk before is there still.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[error("{}: cannot be written: {cause}", path.display())]
+#[diagnostic(code(catoptra::save))]
+pub struct SaveError {
+    path: PathBuf,
+    #[source]
+    cause: std::io::Error,
+}
+
+/// Reads a scene file. Meshes are looked for relative to its folder.
+///
+/// # Errors
+/// A file that cannot be read or is no valid scene, with all that is wrong in it.
+pub fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
+    let unreadable = |cause| SceneTextError::unreadable(path, cause);
+    let length = std::fs::metadata(path).map_err(unreadable)?.len();
+    if length > LONGEST as u64 {
+        let message = format!("is longer than {} MiB, too long for scene text", LONGEST >> 20);
+        return Err(SceneTextError::unusable(path, message));
+    }
+    let bytes = std::fs::read(path).map_err(|cause| SceneTextError::unreadable(path, cause))?;
+    let name = path.display().to_string();
+    let text = String::from_utf8(bytes).map_err(|e| not_utf8(&e, &name))?;
+    let (scene, mut file) = parse(&text, &name, Some(path.parent().unwrap_or(Path::new(""))))?;
+    file.path = Some(path.to_owned());
+    Ok((scene, file))
+}
+
+/// Reads scene text that `name` stands for in messages; `base` is the folder at which relative mesh paths start.
+///
+/// # Errors
+/// Text that is no valid scene, with all that is wrong in it.
+pub fn parse(text: &str, name: &str, base: Option<&Path>) -> Result<(Scene, SceneFile), SceneTextError> {
+    let mut complaints = Complaints::new();
+    let mut meshes = Meshes::new(base);
+    let outline = read::read(text, &mut meshes, &mut complaints);
+    let (scene, ids) = build::build(&outline, text, &mut complaints);
+    if complaints.count() > 0 {
+        return Err(complaints.into_error(name, text));
+    }
+    Ok((scene, SceneFile { path: None, text: text.to_owned(), outline, ids, meshes }))
+}
+
+fn not_utf8(error: &std::string::FromUtf8Error, name: &str) -> SceneTextError {
+    let valid = error.utf8_error().valid_up_to();
+    let text = String::from_utf8_lossy(error.as_bytes());
+    let mut complaints = Complaints::new();
+    let message = format!("byte {valid} of the file is no UTF-8 text");
+    complaints.add_with(valid..valid + 3, message, "save the file as UTF-8");
+    complaints.into_error(name, &text)
+}
+
+impl SceneFile {
+    /// Text for a scene that has none yet.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let mut file = Self {
+            path: None,
+            text: String::new(),
+            outline: Outline::default(),
+            ids: Vec::new(),
+            meshes: Meshes::new(None),
+        };
+        file.update(scene);
+        file
+    }
+
+    /// The file it was loaded from or saved to last.
+    #[must_use]
+    pub fn path(&self) -> Option<&Path> {
+        self.path.as_deref()
+    }
+
+    /// The text, as of the last [`Self::update`].
+    #[must_use]
+    pub fn text(&self) -> String {
+        self.text.clone()
+    }
+
+    /// Makes the text say what the scene holds, changing only what has changed. Comments, order, blank lines and the
+    /// spelling of numbers that did not change stay; a node goes with its line and the comment behind it.
+    pub fn update(&mut self, scene: &Scene) {
+        self.know_meshes(scene);
+        if self.follow(scene).is_none() {
+            // No text that we wrote ourselves could be read again: begin anew rather than lose an edit.
+            self.text.clear();
+            self.outline = Outline::default();
+            self.ids.clear();
+            let _ = self.follow(scene);
+        }
+    }
+
+    /// Updates the text and writes it to `path`, whole or not at all.
+    ///
+    /// Mesh paths are written as they are in the scene: saved to another folder, the scene needs its meshes there.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn save(&mut self, scene: &Scene, path: &Path) -> Result<(), SaveError> {
+        self.update(scene);
+        atomic::write(path, |out| std::io::Write::write_all(out, self.text.as_bytes()))
+            .map_err(|cause| SaveError { path: path.to_owned(), cause })?;
+        self.path = Some(path.to_owned());
+        Ok(())
+    }
+
+    /// A changed text is read again, but its meshes are not.
+    fn know_meshes(&mut self, scene: &Scene) {
+        for shape in scene.entities().filter_map(|id| scene.shape(id)) {
+            if let Shape::Mesh(_) = &shape {
+                for (_, value) in shape.values().iter() {
+                    if let Value::Mesh(source) = value {
+                        self.meshes.know(source);
+                    }
+                }
+            }
+        }
+    }
+
+    fn follow(&mut self, scene: &Scene) -> Option<()> {
+        self.splice(write::edit(&self.text, &self.outline, &self.ids, scene))?;
+        // Every call settles at least one node.
+        for _ in 0..=self.ids.len() + scene.entities().len() + 2 {
+            let splices = write::arrange(&self.text, &self.outline, &self.ids, scene);
+            if splices.is_empty() {
+                break;
+            }
+            self.splice(splices)?;
+        }
+        self.splice(write::remove(&self.text, &self.outline, &self.ids, scene))
+    }
+
+    /// Changes the text and reads it again; `None` if it does not say then what it should.
+    fn splice(&mut self, splices: Vec<Splice>) -> Option<()> {
+        if splices.is_empty() {
+            return Some(());
+        }
+        let starts: Vec<usize> = self.outline.items.iter().map(|item| item.span.start).collect();
+        let (text, moved, new) = write::apply(&self.text, splices, &starts);
+        let mut complaints = Complaints::new();
+        let outline = read::read(&text, &mut self.meshes, &mut complaints);
+        if complaints.count() > 0 {
+            return None;
+        }
+        let mut kept = moved.iter().zip(&self.ids).filter_map(|(at, id)| at.map(|at| (at, *id))).peekable();
+        let mut new = new.into_iter();
+        let mut ids = Vec::with_capacity(outline.items.len());
+        for item in &outline.items {
+            ids.push(match kept.next_if(|(at, _)| *at == item.span.start) {
+                Some((_, id)) => id,
+                None => new.next()?,
+            });
+        }
+        if kept.next().is_some() || new.next().is_some() {
+            return None;
+        }
+        (self.text, self.outline, self.ids) = (text, outline, ids);
+        Some(())
+    }
+}

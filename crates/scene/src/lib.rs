@@ -1,0 +1,27 @@
+//! How scenes, meshes and pictures go into files and come out of them.
+//!
+//! * [`load`] and [`parse`] read scene text (KDL; `scenes/README.md` documents it) into a
+//!   [`Scene`](catoptra_core::scene::Scene) and a [`SceneFile`] that keeps the text; [`SceneFile::save`] writes back
+//!   only what has changed. The grammar follows the lists of kinds in the core: a new shape, light or material is
+//!   read and written without a change here.
+//! * [`mesh`] reads triangle meshes, [`image`] reads and writes PNG pictures.
+//!
+//! Whatever a file holds, reading it ends in a value or in an error that says what, where and what to do: never in a
+//! panic. Files are written whole or not at all.
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test may stop at the first surprise"))]
+
+mod atomic;
+mod build;
+mod file;
+pub mod image;
+pub mod mesh;
+mod outline;
+mod read;
+mod report;
+mod scan;
+mod state;
+mod words;
+mod write;
+
+pub use file::{SaveError, SceneFile, load, parse};
+pub use report::{Complaint, SceneTextError};

@@ -1,0 +1,87 @@
+//! Why a mesh file is refused, and where in it.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// Where in a mesh file something stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Place {
+    /// The file as a whole.
+    File,
+    /// A line of a text file (or of a binary file's header), counted from 1.
+    Line(usize),
+    /// A byte of a binary file, counted from 0.
+    Byte(usize),
+}
+
+/// A mesh file that cannot be used. Reads `bunny.ply:12: …` or `bunny.ply, byte 1024: …`.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[error("{}{}: {message}", path.display(), at(*place))]
+#[diagnostic(code(catoptra::mesh))]
+pub struct MeshError {
+    path: PathBuf,
+    place: Place,
+    message: String,
+    #[source]
+    cause: Option<std::io::Error>,
+}
+
+impl MeshError {
+    pub(super) fn new(path: &Path, fault: Fault) -> Self {
+        Self { path: path.to_owned(), place: fault.place, message: fault.message, cause: None }
+    }
+
+    pub(super) fn unreadable(path: &Path, cause: std::io::Error) -> Self {
+        let message = format!("cannot be read: {cause}");
+        Self { path: path.to_owned(), place: Place::File, message, cause: Some(cause) }
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn file(&self) -> &Path {
+        &self.path
+    }
+
+    /// Where in the file.
+    #[must_use]
+    pub fn place(&self) -> Place {
+        self.place
+    }
+
+    /// The line, from 1, where the file is text.
+    #[must_use]
+    pub fn line(&self) -> Option<usize> {
+        match self.place {
+            Place::Line(line) => Some(line),
+            Place::File | Place::Byte(_) => None,
+        }
+    }
+
+    /// What is wrong, without the place.
+    #[must_use]
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+}
+
+fn at(place: Place) -> String {
+    match place {
+        Place::File => String::new(),
+        Place::Line(line) => format!(":{line}"),
+        Place::Byte(byte) => format!(", byte {byte}"),
+    }
+}
+
+/// An error before it knows its file.
+#[derive(Debug)]
+pub(super) struct Fault {
+    place: Place,
+    message: String,
+}
+
+impl Fault {
+    pub(super) fn new(place: Place, message: impl fmt::Display) -> Self {
+        Self { place, message: message.to_string() }
+    }
+}

@@ -1,0 +1,194 @@
+//! What scene text says, and where in the text it says it: the ground for building a scene and for changing the text.
+
+use std::ops::Range;
+
+use catoptra_core::scene::Settings;
+use catoptra_core::{Camera, Field, InvalidPart, Kind, Light, Material, Placement, Shape, Values};
+
+/// A place in the text, in bytes.
+pub(crate) type Span = Range<usize>;
+
+/// The kinds that a node can be of: every kind that the core lists, groups and settings.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Sort {
+    Settings,
+    Material(&'static Kind<Material>),
+    Shape(&'static Kind<Shape>),
+    Light(&'static Kind<Light>),
+    Camera,
+    Group,
+}
+
+/// The word for a group of entities.
+pub(crate) const GROUP: &str = "group";
+
+impl Sort {
+    /// The sort of node that a word stands for.
+    pub(crate) fn named(word: &str) -> Option<Self> {
+        if let Some(kind) = Shape::kind_named(word) {
+            return Some(Self::Shape(kind));
+        }
+        if let Some(kind) = Light::kind_named(word) {
+            return Some(Self::Light(kind));
+        }
+        if let Some(kind) = Material::kind_named(word) {
+            return Some(Self::Material(kind));
+        }
+        match word {
+            GROUP => Some(Self::Group),
+            _ if word == Camera::KIND.name => Some(Self::Camera),
+            _ if word == Settings::KIND.name => Some(Self::Settings),
+            _ => None,
+        }
+    }
+
+    /// Every word that [`Self::named`] knows; without materials and settings where those cannot stand.
+    pub(crate) fn words(in_group: bool) -> Vec<&'static str> {
+        let mut words: Vec<&'static str> = Shape::KINDS.iter().map(|k| k.name).collect();
+        words.extend(Light::KINDS.iter().map(|k| k.name));
+        words.extend([Camera::KIND.name, GROUP]);
+        if !in_group {
+            words.extend(Material::KINDS.iter().map(|k| k.name));
+            words.push(Settings::KIND.name);
+        }
+        words
+    }
+
+    /// Its word.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Settings => Settings::KIND.name,
+            Self::Material(kind) => kind.name,
+            Self::Shape(kind) => kind.name,
+            Self::Light(kind) => kind.name,
+            Self::Camera => Camera::KIND.name,
+            Self::Group => GROUP,
+        }
+    }
+
+    /// Its fields.
+    pub(crate) fn fields(self) -> &'static [Field] {
+        match self {
+            Self::Settings => Settings::KIND.fields,
+            Self::Material(kind) => kind.fields,
+            Self::Shape(kind) => kind.fields,
+            Self::Light(kind) => kind.fields,
+            Self::Camera => Camera::KIND.fields,
+            Self::Group => &[],
+        }
+    }
+
+    /// Makes the part from its values.
+    pub(crate) fn make(self, values: &Values) -> Result<Part, InvalidPart> {
+        Ok(match self {
+            Self::Settings => Part::Settings((Settings::KIND.make)(values)?),
+            Self::Material(kind) => Part::Material((kind.make)(values)?),
+            Self::Shape(kind) => Part::Shape((kind.make)(values)?),
+            Self::Light(kind) => Part::Light((kind.make)(values)?),
+            Self::Camera => Part::Camera((Camera::KIND.make)(values)?),
+            Self::Group => Part::Group,
+        })
+    }
+
+    /// Whether it is an entity: it stands somewhere, can be placed and can lie in a group.
+    pub(crate) fn is_entity(self) -> bool {
+        matches!(self, Self::Shape(_) | Self::Light(_) | Self::Camera | Self::Group)
+    }
+}
+
+/// What a node makes.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Part {
+    Settings(Settings),
+    Material(Material),
+    Shape(Shape),
+    Light(Light),
+    Camera(Camera),
+    Group,
+}
+
+impl Part {
+    /// The sort of node that makes it.
+    pub(crate) fn sort(&self) -> Sort {
+        match self {
+            Self::Settings(_) => Sort::Settings,
+            Self::Material(material) => Sort::Material(material.kind()),
+            Self::Shape(shape) => Sort::Shape(shape.kind()),
+            Self::Light(light) => Sort::Light(light.kind()),
+            Self::Camera(_) => Sort::Camera,
+            Self::Group => Sort::Group,
+        }
+    }
+
+    /// Its values by field name.
+    pub(crate) fn values(&self) -> Values {
+        match self {
+            Self::Settings(settings) => settings.values(),
+            Self::Material(material) => material.values(),
+            Self::Shape(shape) => shape.values(),
+            Self::Light(light) => light.values(),
+            Self::Camera(camera) => catoptra_core::Part::values(camera),
+            Self::Group => Values::new(),
+        }
+    }
+}
+
+/// A word of the text, and where it stands with its quotes.
+#[derive(Debug, Clone)]
+pub(crate) struct Word {
+    pub(crate) value: String,
+    pub(crate) span: Span,
+}
+
+/// Where a field is written.
+#[derive(Debug, Clone)]
+pub(crate) struct FieldText {
+    pub(crate) field: &'static Field,
+    /// The child node or the property.
+    pub(crate) span: Span,
+    /// Its values.
+    pub(crate) values: Vec<Span>,
+    /// Whether it is a property of its node.
+    pub(crate) property: bool,
+}
+
+/// One step of a placement, as written.
+#[derive(Debug, Clone)]
+pub(crate) struct StepText {
+    pub(crate) span: Span,
+    pub(crate) numbers: Vec<Span>,
+    pub(crate) is_move: bool,
+    /// The placement before this step.
+    pub(crate) before: Placement,
+}
+
+/// A node: a material, an entity or the settings.
+#[derive(Debug, Clone)]
+pub(crate) struct Item {
+    pub(crate) sort: Sort,
+    /// The whole node, without space before or after.
+    pub(crate) span: Span,
+    /// The word for its kind.
+    pub(crate) word: Span,
+    /// The end of its last word before a block.
+    pub(crate) head_end: usize,
+    /// Its name; settings have none.
+    pub(crate) name: Option<Word>,
+    /// The material that a shape wears.
+    pub(crate) material: Option<Word>,
+    pub(crate) fields: Vec<FieldText>,
+    pub(crate) steps: Vec<StepText>,
+    pub(crate) placement: Placement,
+    /// The values of its fields, as far as they could be read.
+    pub(crate) given: Values,
+    /// What it makes; `None` if that was complained about.
+    pub(crate) part: Option<Part>,
+    /// The group that it is a member of, as its place in [`Outline::items`].
+    pub(crate) parent: Option<usize>,
+}
+
+/// All nodes of a text, in order: a group stands before its members.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Outline {
+    pub(crate) items: Vec<Item>,
+}

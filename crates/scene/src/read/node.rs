@@ -1,0 +1,234 @@
+//! How a node is read: its kind, its name, its fields, its placement and, for a group, its members.
+
+use catoptra_core::{Placement, Values};
+use kdl::{KdlEntry, KdlNode};
+
+use super::placement::STEPS;
+use super::value::{fits_property, value_span};
+use super::{Reader, hint_for_word, span_of};
+use crate::outline::{FieldText, Item, Sort, Span, Word};
+use crate::report::line_and_column;
+use crate::words;
+
+/// The property that names the material of a shape.
+pub(crate) const MATERIAL: &str = "material";
+
+impl Reader<'_> {
+    /// Reads a node at the top or, with `parent`, in a group, and everything in it.
+    pub(super) fn read_node(&mut self, node: &KdlNode, parent: Option<usize>) {
+        self.refuse_annotations(node);
+        let word = node.name().value();
+        let word_span = span_of(node.name().span());
+        let in_group = parent.is_some();
+        let sort = match Sort::named(word) {
+            Some(sort) if !in_group || sort.is_entity() => sort,
+            Some(_) => {
+                let help = "put it at the top, outside of any group";
+                self.complaints.add_with(word_span, format!("a {word} cannot stand in a group"), help);
+                return;
+            }
+            None => {
+                let help = hint_for_word(word, in_group);
+                self.complaints.add_with(word_span, format!("unknown word \"{word}\""), help);
+                return;
+            }
+        };
+        let mut item = self.new_item(node, sort, parent);
+        let complaints = self.complaints.count();
+        self.read_head(node, &mut item);
+        let place = self.outline.items.len();
+        let members = self.read_children(node, &mut item);
+        if self.complaints.count() == complaints {
+            self.make(&mut item);
+        }
+        self.outline.items.push(item);
+        for member in members {
+            self.read_node(member, Some(place));
+        }
+    }
+
+    fn new_item(&self, node: &KdlNode, sort: Sort, parent: Option<usize>) -> Item {
+        let span = span_of(node.span());
+        let word = span_of(node.name().span());
+        let last = node.entries().iter().map(|e| span_of(e.span()).end).max();
+        Item {
+            sort,
+            span: span.start..span.start + self.text[span].trim_end().len(),
+            head_end: last.unwrap_or(word.end),
+            word,
+            name: None,
+            material: None,
+            fields: Vec::new(),
+            steps: Vec::new(),
+            placement: Placement::IDENTITY,
+            given: Values::new(),
+            part: None,
+            parent,
+        }
+    }
+
+    /// Reads the name and the properties.
+    fn read_head(&mut self, node: &KdlNode, item: &mut Item) {
+        for entry in node.entries() {
+            match entry.name().map(kdl::KdlIdentifier::value) {
+                None => self.read_name(entry, item),
+                Some(MATERIAL) if matches!(item.sort, Sort::Shape(_)) => self.read_material(entry, item),
+                Some(property) => self.read_property(property, entry, item),
+            }
+        }
+        let word = item.sort.word();
+        if item.name.is_none() && !matches!(item.sort, Sort::Settings) {
+            let help = format!("write {word} \"some name\" …");
+            self.complaints.add_with(item.word.clone(), format!("this {word} needs a name"), help);
+        }
+        if item.material.is_none() && matches!(item.sort, Sort::Shape(_)) {
+            let help = format!("write {word} … {MATERIAL}=\"name of a material\"");
+            self.complaints.add_with(item.word.clone(), format!("this {word} needs a material"), help);
+        }
+    }
+
+    fn read_name(&mut self, entry: &KdlEntry, item: &mut Item) {
+        let span = value_span(entry);
+        let word = item.sort.word();
+        match entry.value().as_string() {
+            _ if matches!(item.sort, Sort::Settings) => {
+                self.complaints.add(span, "settings have no name, and their values stand in a block");
+            }
+            _ if item.name.is_some() => {
+                let help = "numbers stand in the block of the node, after the word for what they are";
+                self.complaints.add_with(span, format!("a {word} has only one name before its block"), help);
+            }
+            None => {
+                let written = &self.text[span.clone()];
+                let message = format!("the name of a {word} stands in quotes, {written} does not");
+                self.complaints.add(span, message);
+                item.name = Some(Word { value: String::new(), span: value_span(entry) });
+            }
+            Some(name) => {
+                if name.trim().is_empty() {
+                    self.complaints.add(span.clone(), "a name must not be empty");
+                }
+                item.name = Some(Word { value: name.to_owned(), span });
+            }
+        }
+    }
+
+    fn read_material(&mut self, entry: &KdlEntry, item: &mut Item) {
+        let span = value_span(entry);
+        let value = entry.value().as_string().unwrap_or_default().to_owned();
+        if !entry.value().is_string() {
+            self.complaints.add(span.clone(), "material needs the name of a material in quotes");
+        } else if item.material.is_some() {
+            self.complaints.add(span.clone(), "material is given twice");
+        }
+        item.material = Some(Word { value, span });
+    }
+
+    fn read_property(&mut self, name: &str, entry: &KdlEntry, item: &mut Item) {
+        let span = span_of(entry.span());
+        match item.sort.fields().iter().find(|f| f.name == name) {
+            None => self.unknown(name, entry.name().map_or(span, |n| span_of(n.span())), item.sort),
+            Some(field) if !fits_property(field.kind) => {
+                let help = format!("write it in the block of the node: {name} x y z");
+                self.complaints.add_with(span, format!("{name} takes three numbers"), help);
+            }
+            Some(field) => self.read_field(FieldText { field, span, values: Vec::new(), property: true }, &[entry], item),
+        }
+    }
+
+    /// Reads the fields and the steps of the block; answers with the members of a group, to be read later.
+    fn read_children<'n>(&mut self, node: &'n KdlNode, item: &mut Item) -> Vec<&'n KdlNode> {
+        let mut members = Vec::new();
+        for child in node.children().map(kdl::KdlDocument::nodes).unwrap_or_default() {
+            let word = child.name().value();
+            let name_span = span_of(child.name().span());
+            if let Some(field) = item.sort.fields().iter().find(|f| f.name == word) {
+                let span = span_of(child.span());
+                let span = span.start..span.start + self.text[span].trim_end().len();
+                let entries = self.arguments(child);
+                self.refuse_block(child);
+                self.read_field(FieldText { field, span, values: Vec::new(), property: false }, &entries, item);
+            } else if item.sort.is_entity() && STEPS.iter().any(|(step, ..)| *step == word) {
+                self.read_step(child, item);
+            } else if matches!(item.sort, Sort::Group) {
+                members.push(child);
+            } else if Sort::named(word).is_some_and(Sort::is_entity) {
+                let message = format!("a {} cannot have members; only a group can", item.sort.word());
+                self.complaints.add(name_span, message);
+            } else {
+                self.unknown(word, name_span, item.sort);
+            }
+        }
+        members
+    }
+
+    /// Reads the values of a field, `written` but for them.
+    fn read_field(&mut self, mut written: FieldText, entries: &[&KdlEntry], item: &mut Item) {
+        let field = written.field;
+        if let Some(before) = item.fields.iter().find(|f| f.field.name == field.name) {
+            let (line, _) = line_and_column(self.text, before.span.start);
+            let help = format!("the first stands in line {line}");
+            self.complaints.add_with(written.span, format!("{} is given twice", field.name), help);
+            return;
+        }
+        if let Some(value) = self.read_value(field, entries, written.span.clone()) {
+            item.given.set(field.name, value);
+        }
+        written.values = entries.iter().map(|e| value_span(e)).collect();
+        item.fields.push(written);
+    }
+
+    /// Makes the part, or passes on why the core refuses it.
+    fn make(&mut self, item: &mut Item) {
+        match item.sort.make(&item.given) {
+            Ok(part) => item.part = Some(part),
+            Err(invalid) => {
+                let written = item.fields.iter().find(|f| f.field.name == invalid.field());
+                let span = written.map_or(item.word.clone(), |f| f.span.clone());
+                if written.is_some() || !missing(item, invalid.field()) {
+                    self.complaints.add(span, invalid.to_string());
+                } else {
+                    let (word, field) = (item.sort.word(), invalid.field());
+                    self.complaints.add_with(span, format!("this {word} needs a {field}"), needs(item.sort));
+                }
+            }
+        }
+    }
+
+    fn unknown(&mut self, name: &str, span: Span, sort: Sort) {
+        let mut known: Vec<&str> = sort.fields().iter().map(|f| f.name).collect();
+        if matches!(sort, Sort::Shape(_)) {
+            known.push(MATERIAL);
+        }
+        if sort.is_entity() {
+            known.extend(STEPS.iter().map(|(step, ..)| *step));
+        }
+        let message = format!("a {} has no \"{name}\"", sort.word());
+        self.complaints.add_with(span, message, words::hint(name, &known, "what it has"));
+    }
+
+    fn refuse_block(&mut self, node: &KdlNode) {
+        if let Some(first) = node.children().and_then(|c| c.nodes().first()) {
+            let message = format!("{} has values, and no block", node.name().value());
+            self.complaints.add(span_of(first.name().span()), message);
+        }
+    }
+
+    pub(super) fn refuse_annotations(&mut self, node: &KdlNode) {
+        let annotations = node.ty().into_iter().chain(node.entries().iter().filter_map(KdlEntry::ty));
+        for annotation in annotations {
+            let message = "type annotations in parentheses have no meaning in a scene";
+            self.complaints.add_with(span_of(annotation.span()), message, "leave the parentheses away");
+        }
+    }
+}
+
+fn missing(item: &Item, field: &str) -> bool {
+    item.sort.fields().iter().any(|f| f.name == field && f.default.is_none())
+}
+
+/// What has to be given, for hints.
+fn needs(sort: Sort) -> String {
+    let required: Vec<&str> = sort.fields().iter().filter(|f| f.default.is_none()).map(|f| f.name).collect();
+    format!("a {} must be given {}", sort.word(), required.join(", "))
+}

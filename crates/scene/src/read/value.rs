@@ -1,0 +1,140 @@
+//! How the value of a field is read from the values of a KDL node.
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Field, FieldKind, Rgb, Value};
+use kdl::{KdlEntry, KdlValue};
+
+use super::{Reader, span_of};
+use crate::outline::Span;
+use crate::words;
+
+/// How many values a kind of field takes: the numbers allowed, and in words.
+fn arity(kind: FieldKind) -> (&'static [usize], &'static str) {
+    match kind {
+        FieldKind::Point | FieldKind::Direction => (&[3], "three numbers"),
+        FieldKind::Color | FieldKind::Quantity => (&[3, 1], "three numbers (red green blue) or one (grey)"),
+        FieldKind::Choice(_) => (&[1], "one word"),
+        FieldKind::Mesh => (&[1], "the path of a mesh file"),
+        FieldKind::Flag => (&[1], "#true or #false"),
+        FieldKind::Angle => (&[1], "one number (degrees)"),
+        FieldKind::Number | FieldKind::Length | FieldKind::Count | FieldKind::Fraction => (&[1], "one number"),
+    }
+}
+
+/// Whether a field of that kind can be written as a property.
+pub(super) fn fits_property(kind: FieldKind) -> bool {
+    arity(kind).0.contains(&1)
+}
+
+/// The bytes of an entry's value, without the name of a property or a type annotation.
+pub(super) fn value_span(entry: &KdlEntry) -> Span {
+    let span = span_of(entry.span());
+    let length = entry.format().map_or(span.len(), |format| format.value_repr.len());
+    span.end.saturating_sub(length).max(span.start)..span.end
+}
+
+impl Reader<'_> {
+    /// Reads the value of a field from its entries; `span` stands for the field as a whole.
+    pub(super) fn read_value(&mut self, field: &Field, entries: &[&KdlEntry], span: Span) -> Option<Value> {
+        let (counts, words) = arity(field.kind);
+        if !counts.contains(&entries.len()) {
+            let found = entries.len();
+            self.complaints.add(span, format!("{} takes {words}, not {found} value{}", field.name, plural(found)));
+            return None;
+        }
+        match field.kind {
+            FieldKind::Flag => self.read_flag(field, entries[0]),
+            FieldKind::Choice(choices) => self.read_choice(field, choices, entries[0]),
+            FieldKind::Mesh => self.read_mesh(field, entries[0]),
+            FieldKind::Point | FieldKind::Direction => {
+                let [x, y, z] = self.read_three(field.name, entries)?;
+                Some(Value::Vector(DVec3::new(x, y, z)))
+            }
+            FieldKind::Color | FieldKind::Quantity if entries.len() == 1 => {
+                self.read_number(field.name, entries[0]).map(|v| Value::Color(Rgb::grey(v)))
+            }
+            FieldKind::Color | FieldKind::Quantity => {
+                let [r, g, b] = self.read_three(field.name, entries)?;
+                Some(Value::Color(Rgb::new(r, g, b)))
+            }
+            FieldKind::Angle => self.read_number(field.name, entries[0]).map(|v| Value::Number(v.to_radians())),
+            FieldKind::Number | FieldKind::Length | FieldKind::Count | FieldKind::Fraction => {
+                self.read_number(field.name, entries[0]).map(Value::Number)
+            }
+        }
+    }
+
+    /// Three numbers; every one of them that is wrong is complained about.
+    pub(super) fn read_three(&mut self, name: &str, entries: &[&KdlEntry]) -> Option<[f64; 3]> {
+        let numbers: Vec<Option<f64>> = entries.iter().map(|entry| self.read_number(name, entry)).collect();
+        match numbers[..] {
+            [Some(x), Some(y), Some(z)] => Some([x, y, z]),
+            _ => None,
+        }
+    }
+
+    /// A finite number.
+    pub(super) fn read_number(&mut self, name: &str, entry: &KdlEntry) -> Option<f64> {
+        let value = match entry.value() {
+            KdlValue::Integer(v) => *v as f64,
+            KdlValue::Float(v) => *v,
+            KdlValue::String(_) | KdlValue::Bool(_) | KdlValue::Null => {
+                self.expect("a number", name, entry);
+                return None;
+            }
+        };
+        if value.is_finite() {
+            return Some(value);
+        }
+        let span = value_span(entry);
+        let written = &self.text[span.clone()];
+        self.complaints.add(span, format!("{name} needs finite numbers, not {written}"));
+        None
+    }
+
+    fn read_flag(&mut self, field: &Field, entry: &KdlEntry) -> Option<Value> {
+        let flag = entry.value().as_bool();
+        if flag.is_none() {
+            self.expect("#true or #false", field.name, entry);
+        }
+        flag.map(Value::Flag)
+    }
+
+    fn read_choice(&mut self, field: &Field, choices: &[&str], entry: &KdlEntry) -> Option<Value> {
+        let Some(word) = entry.value().as_string() else {
+            self.expect("a word", field.name, entry);
+            return None;
+        };
+        if choices.contains(&word) {
+            return Some(Value::Word(word.to_owned()));
+        }
+        let message = format!("{} is one of {}, not \"{word}\"", field.name, choices.join(", "));
+        self.complaints.add_with(value_span(entry), message, words::hint(word, choices, "choices"));
+        None
+    }
+
+    fn read_mesh(&mut self, field: &Field, entry: &KdlEntry) -> Option<Value> {
+        let Some(path) = entry.value().as_string() else {
+            self.expect("a path in quotes", field.name, entry);
+            return None;
+        };
+        match self.meshes.get(path) {
+            Ok(source) => Some(Value::Mesh(source)),
+            Err(message) => {
+                let help = "the path of a mesh is relative to the folder of the scene file";
+                self.complaints.add_with(value_span(entry), message, help);
+                None
+            }
+        }
+    }
+
+    fn expect(&mut self, what: &str, name: &str, entry: &KdlEntry) {
+        let span = value_span(entry);
+        let written = &self.text[span.clone()];
+        self.complaints.add(span, format!("{name} needs {what}, not {written}"));
+    }
+}
+
+pub(super) fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}

@@ -1,0 +1,242 @@
+//! Why scene text is refused: what, where (file, line, column), and what to do about it.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use miette::{Diagnostic, LabeledSpan, NamedSource, Severity, SourceCode};
+
+/// More complaints about one text than this are counted, not told.
+const MOST: usize = 50;
+
+/// One thing that is wrong in scene text.
+#[derive(Debug, Clone)]
+pub struct Complaint {
+    message: String,
+    help: Option<String>,
+    span: Range<usize>,
+    line: usize,
+    column: usize,
+    place: String,
+    source: Arc<NamedSource<String>>,
+}
+
+impl Complaint {
+    /// What is wrong, in one sentence.
+    #[must_use]
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn hint(&self) -> Option<&str> {
+        self.help.as_deref()
+    }
+
+    /// Line, from 1.
+    #[must_use]
+    pub fn line(&self) -> usize {
+        self.line
+    }
+
+    /// Column in characters, from 1.
+    #[must_use]
+    pub fn column(&self) -> usize {
+        self.column
+    }
+
+    /// The bytes of the text that it is about.
+    #[must_use]
+    pub fn span(&self) -> Range<usize> {
+        self.span.clone()
+    }
+
+    /// The line of the text that it is about, without its end.
+    #[must_use]
+    pub fn source_line(&self) -> &str {
+        let text = self.source.inner();
+        text.split('\n').nth(self.line - 1).unwrap_or_default().trim_end_matches('\r')
+    }
+}
+
+impl fmt::Display for Complaint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}:{}: {}", self.place, self.line, self.column, self.message)
+    }
+}
+
+impl std::error::Error for Complaint {}
+
+impl Diagnostic for Complaint {
+    fn severity(&self) -> Option<Severity> {
+        Some(Severity::Error)
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        Some(&*self.source)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let label = LabeledSpan::new_with_span(Some("here".to_owned()), self.span.clone());
+        Some(Box::new(std::iter::once(label)))
+    }
+}
+
+/// Scene text that cannot be used: every complaint about it, or why its file cannot be read.
+///
+/// Displays as the first complaint, `room.kdl:3:5: radius must be greater than 0, not -1`, and how many follow.
+/// As a [`Diagnostic`] it shows the source lines, marks and hints of all of them.
+#[derive(Debug)]
+pub struct SceneTextError {
+    name: String,
+    complaints: Vec<Complaint>,
+    untold: usize,
+    /// Why the file cannot be read at all; there are no complaints then.
+    unreadable: Option<(String, Option<std::io::Error>)>,
+}
+
+impl SceneTextError {
+    pub(crate) fn unreadable(path: &Path, cause: std::io::Error) -> Self {
+        let message = format!("cannot be read: {cause}");
+        Self { unreadable: Some((message, Some(cause))), ..Self::named(path.display().to_string()) }
+    }
+
+    pub(crate) fn unusable(path: &Path, message: String) -> Self {
+        Self { unreadable: Some((message, None)), ..Self::named(path.display().to_string()) }
+    }
+
+    fn named(name: String) -> Self {
+        Self { name, complaints: Vec::new(), untold: 0, unreadable: None }
+    }
+
+    /// The file, or the name that the text was given.
+    #[must_use]
+    pub fn file(&self) -> &Path {
+        Path::new(&self.name)
+    }
+
+    /// Line of the first complaint, from 1; `None` if the file could not be read.
+    #[must_use]
+    pub fn line(&self) -> Option<usize> {
+        self.complaints.first().map(Complaint::line)
+    }
+
+    /// Column of the first complaint in characters, from 1; `None` if the file could not be read.
+    #[must_use]
+    pub fn column(&self) -> Option<usize> {
+        self.complaints.first().map(Complaint::column)
+    }
+
+    /// What is wrong, in the order of the text.
+    #[must_use]
+    pub fn complaints(&self) -> &[Complaint] {
+        &self.complaints
+    }
+
+    /// The first complaint's hint.
+    #[must_use]
+    pub fn hint(&self) -> Option<&str> {
+        self.complaints.first().and_then(Complaint::hint)
+    }
+}
+
+impl fmt::Display for SceneTextError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.unreadable, self.complaints.as_slice()) {
+            (Some((message, _)), _) => write!(f, "{}: {message}", self.name),
+            (None, [first, rest @ ..]) => match rest.len() + self.untold {
+                0 => write!(f, "{first}"),
+                1 => write!(f, "{first} (and 1 more error)"),
+                more => write!(f, "{first} (and {more} more errors)"),
+            },
+            (None, []) => write!(f, "{}: cannot be used", self.name),
+        }
+    }
+}
+
+impl std::error::Error for SceneTextError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        self.unreadable.as_ref().and_then(|(_, cause)| cause.as_ref()).map(|cause| cause as _)
+    }
+}
+
+impl Diagnostic for SceneTextError {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new("catoptra::scene"))
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.complaints.first().and_then(Diagnostic::help)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.complaints.first().and_then(Diagnostic::source_code)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        self.complaints.first().and_then(Diagnostic::labels)
+    }
+
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        let rest = self.complaints.get(1..).filter(|rest| !rest.is_empty())?;
+        Some(Box::new(rest.iter().map(|complaint| complaint as &dyn Diagnostic)))
+    }
+}
+
+/// Collects complaints about one text.
+pub(crate) struct Complaints {
+    found: Vec<(Range<usize>, String, Option<String>)>,
+}
+
+impl Complaints {
+    pub(crate) fn new() -> Self {
+        Self { found: Vec::new() }
+    }
+
+    /// Notes that something is wrong with `span` of the text.
+    pub(crate) fn add(&mut self, span: Range<usize>, message: impl Into<String>) {
+        self.found.push((span, message.into(), None));
+    }
+
+    /// The same, with a hint.
+    pub(crate) fn add_with(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
+        self.found.push((span, message.into(), Some(help.into())));
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.found.len()
+    }
+
+    /// All of them in the order of the text, with their lines and columns.
+    pub(crate) fn into_error(mut self, name: &str, text: &str) -> SceneTextError {
+        self.found.sort_by_key(|(span, ..)| span.start);
+        let untold = self.found.len().saturating_sub(MOST);
+        let source = Arc::new(NamedSource::new(name, text.to_owned()));
+        let place: String = PathBuf::from(name).display().to_string();
+        let complaints = self.found.into_iter().take(MOST).map(|(span, message, help)| {
+            let start = floor(text, span.start);
+            let span = start..floor(text, span.end.max(start));
+            let (line, column) = line_and_column(text, start);
+            Complaint { message, help, span, line, column, place: place.clone(), source: Arc::clone(&source) }
+        });
+        SceneTextError { name: name.to_owned(), complaints: complaints.collect(), untold, unreadable: None }
+    }
+}
+
+fn floor(text: &str, at: usize) -> usize {
+    text.floor_char_boundary(at.min(text.len()))
+}
+
+/// Line and column (in characters), both from 1, of a byte of the text.
+pub(crate) fn line_and_column(text: &str, at: usize) -> (usize, usize) {
+    let before = &text[..floor(text, at)];
+    let line = before.matches('\n').count() + 1;
+    let start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (line, before[start..].chars().count() + 1)
+}

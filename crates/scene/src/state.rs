@@ -1,0 +1,51 @@
+//! What a scene holds now for a node of the text.
+
+use catoptra_core::Placement;
+use catoptra_core::scene::{EntityId, Scene};
+
+use crate::build::Id;
+use crate::outline::Part;
+
+/// Name, part, material and placement of one node as the scene has them.
+#[derive(Debug)]
+pub(crate) struct State {
+    pub(crate) part: Part,
+    /// Empty for settings, which have none.
+    pub(crate) name: String,
+    /// Name of the material that a shape wears.
+    pub(crate) material: Option<String>,
+    pub(crate) placement: Placement,
+}
+
+impl State {
+    /// What the scene holds; `None` if it is gone.
+    pub(crate) fn of(scene: &Scene, id: Id) -> Option<Self> {
+        match id {
+            Id::Settings => Some(Self::unplaced(Part::Settings(*scene.settings()), String::new())),
+            Id::Material(id) => {
+                let material = scene.find_material(id)?.clone();
+                Some(Self::unplaced(Part::Material(material), scene.material_name(id).to_owned()))
+            }
+            Id::Entity(id) => Self::of_entity(scene, id),
+        }
+    }
+
+    fn unplaced(part: Part, name: String) -> Self {
+        Self { part, name, material: None, placement: Placement::IDENTITY }
+    }
+
+    fn of_entity(scene: &Scene, id: EntityId) -> Option<Self> {
+        let part = scene
+            .shape(id)
+            .map(Part::Shape)
+            .or_else(|| scene.light(id).map(Part::Light))
+            .or_else(|| scene.camera(id).map(Part::Camera))
+            .unwrap_or(Part::Group);
+        Some(Self {
+            part,
+            name: scene.name(id)?,
+            material: scene.material_of(id).map(|material| scene.material_name(material).to_owned()),
+            placement: scene.placement(id)?,
+        })
+    }
+}

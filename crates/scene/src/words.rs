@@ -1,0 +1,51 @@
+//! Which known word did somebody mean who wrote an unknown one?
+
+/// The known word nearest to `written`, if one is near enough to be meant: at most a third of its letters differ
+/// (a swapped pair counts as one), or it is the same but for case, or a part of it.
+pub(crate) fn nearest<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let lower = written.to_lowercase();
+    let distance = |word: &str| {
+        let word = word.to_lowercase();
+        if written.chars().count() >= 3 && (word.contains(&lower) || lower.contains(&word)) {
+            return 1;
+        }
+        strsim::damerau_levenshtein(&lower, &word)
+    };
+    // A text much longer than any word was no slip of the finger, and would be slow to compare.
+    if written.is_empty() || written.len() > 64 {
+        return None;
+    }
+    let near = known.into_iter().map(|word| (distance(word), word)).min_by_key(|(d, _)| *d)?;
+    (near.0 <= (near.1.chars().count() / 3).max(1)).then_some(near.1)
+}
+
+/// "did you mean …?" where a word is near, else the list of what there is.
+pub(crate) fn hint(written: &str, known: &[&str], what: &str) -> String {
+    match nearest(written, known.iter().copied()) {
+        Some(word) => format!("did you mean \"{word}\"?"),
+        None if known.is_empty() => format!("there are no {what}"),
+        None if known.len() > 40 => format!("there are {} {what}, none of them near to that", known.len()),
+        None => format!("{what}: {}", known.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const KNOWN: [&str; 4] = ["sphere", "plane", "point-light", "spot-light"];
+
+    #[test]
+    fn a_slip_of_the_finger_finds_its_word() {
+        assert_eq!(nearest("shpere", KNOWN), Some("sphere"));
+        assert_eq!(nearest("Plane", KNOWN), Some("plane"));
+        assert_eq!(nearest("spotlight", KNOWN), Some("spot-light"));
+        assert_eq!(nearest("point", KNOWN), Some("point-light"));
+    }
+
+    #[test]
+    fn another_word_finds_none() {
+        assert_eq!(nearest("torus", KNOWN), None);
+        assert_eq!(nearest("", KNOWN), None);
+    }
+}

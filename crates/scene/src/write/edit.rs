@@ -1,0 +1,142 @@
+//! How the nodes that are in the text already follow the scene: names, values, materials, placements.
+
+use catoptra_core::scene::Scene;
+use catoptra_core::{Field, Value};
+
+use super::layout::{self, INDENT};
+use super::splice::Splice;
+use super::value::{quoted, words};
+use super::{node, placement};
+use crate::build::Id;
+use crate::outline::{FieldText, Item, Outline, Part};
+use crate::scan;
+use crate::state::State;
+
+/// The splices that make every node say what the scene holds; nodes of things that are gone are left alone.
+pub(crate) fn edit(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -> Vec<Splice> {
+    let mut splices = Vec::new();
+    for (item, &id) in outline.items.iter().zip(ids) {
+        if let Some(now) = State::of(scene, id) {
+            edit_item(text, item, &now, &mut splices);
+        }
+    }
+    splices
+}
+
+fn edit_item(text: &str, item: &Item, now: &State, splices: &mut Vec<Splice>) {
+    let word = now.part.sort().word();
+    if word != item.sort.word() {
+        splices.push(Splice::new(item.word.clone(), word));
+    }
+    if let Some(name) = item.name.as_ref().filter(|name| name.value != now.name) {
+        splices.push(Splice::new(name.span.clone(), quoted(&now.name)));
+    }
+    if let (Some(old), Some(new)) = (&item.material, &now.material)
+        && old.value != *new
+    {
+        splices.push(Splice::new(old.span.clone(), quoted(new)));
+    }
+    let mut lines = edit_fields(text, item, &now.part, splices);
+    let steps = placement::edit(text, item, &now.placement, splices);
+    if matches!(now.part, Part::Group) {
+        put_at_start(text, item, &steps, splices);
+    } else {
+        lines.extend(steps);
+    }
+    put_at_end(text, item, &lines, splices);
+}
+
+/// Changes and removes fields; answers with the lines of those that are new.
+fn edit_fields(text: &str, item: &Item, now: &Part, splices: &mut Vec<Splice>) -> Vec<String> {
+    let before = item.part.as_ref().map(Part::values).unwrap_or_default();
+    let values = now.values();
+    let fields = now.sort().fields();
+    for written in item.fields.iter().filter(|w| !fields.iter().any(|f| f.name == w.field.name)) {
+        splices.push(removal(text, written));
+    }
+    let mut lines = Vec::new();
+    for field in fields {
+        let written = item.fields.iter().find(|w| w.field.name == field.name);
+        match (written, values.get(field.name)) {
+            (Some(written), None) => splices.push(removal(text, written)),
+            (Some(_), Some(new)) if before.get(field.name) == Some(new) => {}
+            (Some(written), Some(new)) => {
+                let old = before.get(field.name);
+                lines.extend(edit_field(text, written, field, old, new, splices));
+            }
+            (None, Some(new)) => lines.extend(node::field_line(field, new)),
+            (None, None) => {}
+        }
+    }
+    lines
+}
+
+/// Replaces the words of a field that differ. A grey given by one number that is no grey any more needs three;
+/// where those do not fit (a property) the field becomes a new line.
+fn edit_field(
+    text: &str,
+    written: &FieldText,
+    field: &'static Field,
+    old: Option<&Value>,
+    new: &Value,
+    splices: &mut Vec<Splice>,
+) -> Option<String> {
+    let mut after = words(field.kind, new);
+    if written.values.len() == 1 && after.iter().all(|word| *word == after[0]) {
+        after.truncate(1);
+    }
+    if after.len() != written.values.len() {
+        if written.property {
+            splices.push(removal(text, written));
+            return Some(format!("{} {}", field.name, after.join(" ")));
+        }
+        let (first, last) = (written.values.first()?, written.values.last()?);
+        splices.push(Splice::new(first.start..last.end, after.join(" ")));
+        return None;
+    }
+    let before = old.map(|old| words(field.kind, old)).unwrap_or_default();
+    for (i, (word, span)) in after.iter().zip(&written.values).enumerate() {
+        if before.get(i) != Some(word) {
+            splices.push(Splice::new(span.clone(), word.as_str()));
+        }
+    }
+    None
+}
+
+fn removal(text: &str, written: &FieldText) -> Splice {
+    if written.property {
+        // The space before it goes with it.
+        let before = &text[..written.span.start];
+        Splice::new(before.trim_end_matches([' ', '\t']).len()..written.span.end, "")
+    } else {
+        Splice::new(layout::whole_node(text, &written.span), "")
+    }
+}
+
+fn put_at_start(text: &str, item: &Item, lines: &[String], splices: &mut Vec<Splice>) {
+    match layout::gap_at_start(text, item) {
+        _ if lines.is_empty() => {}
+        Some(gap) => splices.push(Splice::new(gap.at..gap.at, gap.fill(text, &lines.join("\n")))),
+        None => put_at_end(text, item, lines, splices),
+    }
+}
+
+fn put_at_end(text: &str, item: &Item, lines: &[String], splices: &mut Vec<Splice>) {
+    if lines.is_empty() {
+        return;
+    }
+    let lines = lines.join("\n");
+    match layout::gap_at_end(text, item) {
+        Some(gap) => splices.push(Splice::new(gap.at..gap.at, gap.fill(text, &lines))),
+        None => splices.push(new_block(text, item, &lines)),
+    }
+}
+
+/// A block for a node that has none, with lines in it.
+pub(super) fn new_block(text: &str, item: &Item, lines: &str) -> Splice {
+    debug_assert!(scan::block_of(text, item.span.clone()).is_none(), "a node has one block");
+    let newline = layout::newline(text);
+    let outer = layout::indent_at(text, item.span.start);
+    let inner: String = lines.lines().map(|line| format!("{outer}{INDENT}{line}{newline}")).collect();
+    Splice::new(item.head_end..item.head_end, format!(" {{{newline}{inner}{outer}}}"))
+}

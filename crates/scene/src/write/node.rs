@@ -1,0 +1,82 @@
+//! The text of nodes that are new.
+
+use catoptra_core::scene::{EntityId, Scene};
+use catoptra_core::{Field, Value};
+
+use super::layout::INDENT;
+use super::placement;
+use super::value::{quoted, words};
+use crate::build::Id;
+use crate::outline::Part;
+use crate::read::MATERIAL;
+use crate::state::State;
+
+/// The line of a field; `None` where the value is what it is when the field is left out.
+pub(super) fn field_line(field: &Field, value: &Value) -> Option<String> {
+    if field.default.is_some_and(|default| default() == *value) {
+        return None;
+    }
+    Some(format!("{} {}", field.name, words(field.kind, value).join(" ")))
+}
+
+/// New nodes: their lines, indented from nothing, and what they stand for.
+#[derive(Debug, Default)]
+pub(super) struct Nodes {
+    pub(super) lines: String,
+    pub(super) ids: Vec<Id>,
+}
+
+impl Nodes {
+    /// Adds settings or a material.
+    pub(super) fn add(&mut self, scene: &Scene, id: Id) {
+        self.add_at(scene, id, &|_| false, 0);
+    }
+
+    /// Adds an entity and, of its members, those for which `is_new` holds.
+    pub(super) fn add_entity(&mut self, scene: &Scene, id: EntityId, is_new: &dyn Fn(EntityId) -> bool) {
+        self.add_at(scene, Id::Entity(id), is_new, 0);
+    }
+
+    fn add_at(&mut self, scene: &Scene, id: Id, is_new: &dyn Fn(EntityId) -> bool, depth: usize) {
+        let Some(state) = State::of(scene, id) else { return };
+        self.ids.push(id);
+        let outer = INDENT.repeat(depth);
+        let mut lines = field_lines(&state.part);
+        lines.extend(placement::steps(&state.placement));
+        let members: Vec<EntityId> = match id {
+            Id::Entity(group) => scene.children(Some(group)).into_iter().filter(|&m| is_new(m)).collect(),
+            Id::Material(_) | Id::Settings => Vec::new(),
+        };
+        self.lines.push_str(&format!("{outer}{}", head(&state)));
+        if lines.is_empty() && members.is_empty() {
+            self.lines.push('\n');
+            return;
+        }
+        self.lines.push_str(" {\n");
+        for line in lines {
+            self.lines.push_str(&format!("{outer}{INDENT}{line}\n"));
+        }
+        for member in members {
+            self.add_at(scene, Id::Entity(member), is_new, depth + 1);
+        }
+        self.lines.push_str(&format!("{outer}}}\n"));
+    }
+}
+
+/// The words of a node before its block.
+fn head(state: &State) -> String {
+    let mut head = state.part.sort().word().to_owned();
+    if !matches!(state.part, Part::Settings(_)) {
+        head = format!("{head} {}", quoted(&state.name));
+    }
+    match &state.material {
+        Some(material) => format!("{head} {MATERIAL}={}", quoted(material)),
+        None => head,
+    }
+}
+
+fn field_lines(part: &Part) -> Vec<String> {
+    let values = part.values();
+    let line = |field: &Field| values.get(field.name).and_then(|value| field_line(field, value));
+    part.sort().fields().iter().filter_map(line).collect()
+}

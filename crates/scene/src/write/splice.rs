@@ -1,0 +1,66 @@
+//! Pieces of text that are replaced, all at once.
+
+use crate::build::Id;
+use crate::outline::Span;
+
+/// A piece of the text and what comes in its place.
+#[derive(Debug, Clone)]
+pub(crate) struct Splice {
+    pub(crate) range: Span,
+    pub(crate) text: String,
+    /// What the nodes in the new text stand for, in their order.
+    pub(crate) ids: Vec<Id>,
+}
+
+impl Splice {
+    pub(crate) fn new(range: Span, text: impl Into<String>) -> Self {
+        Self { range, text: text.into(), ids: Vec::new() }
+    }
+}
+
+/// Applies splices that do not overlap. Answers with the new text, where each place of `kept` has gone (`None` if
+/// it was replaced), and the ids of the new nodes with the places at which their text begins.
+pub(crate) fn apply(text: &str, mut splices: Vec<Splice>, kept: &[usize]) -> (String, Vec<Option<usize>>, Vec<Id>) {
+    splices.sort_by_key(|s| (s.range.start, s.range.end));
+    let mut out = String::with_capacity(text.len());
+    let mut from = 0;
+    for splice in &splices {
+        // An overlap would be a mistake of ours; the earlier splice then stands.
+        if splice.range.start < from {
+            continue;
+        }
+        out.push_str(&text[from..splice.range.start]);
+        out.push_str(&splice.text);
+        from = splice.range.end;
+    }
+    out.push_str(&text[from..]);
+    let moved = kept.iter().map(|&at| follow(&splices, at)).collect();
+    (out, moved, splices.into_iter().flat_map(|s| s.ids).collect())
+}
+
+/// Where a place of the old text stands in the new.
+fn follow(splices: &[Splice], at: usize) -> Option<usize> {
+    let mut moved = at;
+    for splice in splices.iter().take_while(|s| s.range.start <= at) {
+        if splice.range.contains(&at) {
+            // A node whose first word is replaced still begins where it began.
+            return (splice.range.start == at && splice.ids.is_empty() && !splice.text.is_empty()).then_some(moved);
+        }
+        moved = moved + splice.text.len() - splice.range.len();
+    }
+    Some(moved)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_follow_the_text() {
+        let splices = vec![Splice::new(6..8, "xyz"), Splice::new(0..1, ""), Splice::new(3..3, "--")];
+        let (text, moved, _) = apply("0123456789", splices, &[0, 1, 3, 5, 7, 9]);
+        assert_eq!(text, "12--345xyz89");
+        let at = |c: char| text.find(c);
+        assert_eq!(moved, [None, at('1'), at('3'), at('5'), None, at('9')]);
+    }
+}

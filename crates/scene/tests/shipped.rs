@@ -1,0 +1,67 @@
+//! Do all scene files in `scenes/` load, come back from a save as they were, and stay what the documentation says?
+
+use std::path::{Path, PathBuf};
+
+use catoptra_core::scene::Settings;
+use catoptra_core::{Camera, Field, Light, Material, Shape};
+use catoptra_scene::{load, parse};
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
+}
+
+fn shipped() -> Vec<PathBuf> {
+    let mut files: Vec<PathBuf> = ["seed", "gallery"]
+        .iter()
+        .flat_map(|name| std::fs::read_dir(folder().join(name)).unwrap())
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|ending| ending == "kdl"))
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn every_shipped_scene_loads_and_has_a_camera() {
+    let files = shipped();
+    assert!(files.len() >= 11, "only {} scenes", files.len());
+    for path in files {
+        let (scene, _) = load(&path).unwrap_or_else(|e| panic!("{:?}", miette::Report::new(e)));
+        assert!(scene.main_camera().is_some(), "{}", path.display());
+    }
+}
+
+#[test]
+fn saving_without_an_edit_changes_no_byte() {
+    for path in shipped() {
+        let (scene, mut file) = load(&path).unwrap();
+        file.update(&scene);
+        assert_eq!(file.text(), std::fs::read_to_string(&path).unwrap(), "{}", path.display());
+    }
+}
+
+#[test]
+fn the_welcome_scene_needs_no_other_file() {
+    let text = std::fs::read_to_string(folder().join("gallery/welcome.kdl")).unwrap();
+    parse(&text, "welcome.kdl", None).unwrap();
+}
+
+#[test]
+fn every_kind_and_field_is_documented() {
+    let readme = std::fs::read_to_string(folder().join("README.md")).unwrap();
+    let kinds: Vec<(&str, &[Field])> = Shape::KINDS
+        .iter()
+        .map(|k| (k.name, k.fields))
+        .chain(Light::KINDS.iter().map(|k| (k.name, k.fields)))
+        .chain(Material::KINDS.iter().map(|k| (k.name, k.fields)))
+        .chain([(Camera::KIND.name, Camera::KIND.fields), (Settings::KIND.name, Settings::KIND.fields)])
+        .collect();
+    for (kind, fields) in kinds {
+        let heading = format!("### `{kind}`");
+        let Some((_, section)) = readme.split_once(&heading) else { panic!("{kind} has no section") };
+        let section = section.split("\n##").next().unwrap_or_default();
+        for field in fields {
+            assert!(section.contains(&format!("| `{}` |", field.name)), "{kind} lacks {}", field.name);
+        }
+    }
+}
