@@ -12,6 +12,13 @@ pub const UNIT_ROUNDOFF_F64: f64 = 1.0 / (1_u64 << 53) as f64;
 /// `f64` leaves (about 10⁻¹⁵) and far below what can be seen.
 pub const RIGHT_ANGLE_TOLERANCE: f64 = 1e-9;
 
+/// Rounding in the edges of a flat shape: each coordinate of an edge may be off by this times the largest coordinate
+/// of a corner, summed over the edge's three components.
+///
+/// Two corners that were rounded when they were written down, and their difference: 3 roundings of at most that
+/// size, √3 of it in length: 5.2, and the products that follow stay below 8.
+pub const EDGE_ROUNDING: f64 = 8.0 * UNIT_ROUNDOFF_F64;
+
 /// γₙ = n·u / (1 − n·u): the relative error bound of `n` accumulated roundings in `f32`
 /// (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., lemma 3.1).
 #[must_use]

@@ -63,6 +63,10 @@ impl Part for Cuboid {
 impl Geometry for Cuboid {
     fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
         let own = Ray::new(self.to_object.point(ray.origin), self.to_object.vector(ray.direction));
+        if !own.is_valid() {
+            // A slab that NaN leaves undecided must not count as crossed.
+            return None;
+        }
         let ends = slabs(&self.bounds, &own)?;
         let (t, facet) = ends.into_iter().find(|&(t, facet)| span.contains(t) && leaving != Some(facet))?;
         let outwards = if facet % 2 == 0 { -1.0 } else { 1.0 };

@@ -10,6 +10,8 @@ use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray,
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plane {
     point: DVec3,
+    /// The normal as it was given.
+    upwards: DVec3,
     normal: DVec3,
 }
 
@@ -48,11 +50,12 @@ impl Part for Plane {
     ];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
-        Ok(Self { point: given.point("point")?, normal: given.direction("normal")?.normalize() })
+        let upwards = given.direction("normal")?;
+        Ok(Self { point: given.point("point")?, upwards, normal: upwards.normalize() })
     }
 
     fn values(&self) -> Values {
-        Values::new().with("point", Value::Vector(self.point)).with("normal", Value::Vector(self.normal))
+        Values::new().with("point", Value::Vector(self.point)).with("normal", Value::Vector(self.upwards))
     }
 }
 
@@ -67,7 +70,8 @@ impl Geometry for Plane {
     }
 
     fn placed(&self, placement: &Placement) -> Self {
-        Self { point: placement.point(self.point), normal: placement.direction(self.normal) }
+        let upwards = placement.direction(self.upwards);
+        Self { point: placement.point(self.point), upwards, normal: upwards.normalize() }
     }
 
     fn is_closed(&self) -> bool {
@@ -75,10 +79,12 @@ impl Geometry for Plane {
     }
 }
 
-/// Where a ray meets the plane through `point` with a `normal` of any length; `None` when parallel to it.
+/// Where a ray meets the plane through `point` with a `normal` of any length; `None` when parallel to it, or not
+/// [valid](Ray::is_valid).
 pub(super) fn cross_plane(point: DVec3, normal: DVec3, ray: &Ray) -> Option<f64> {
-    let t = normal.dot(point - ray.origin) / normal.dot(ray.direction);
-    t.is_finite().then_some(t)
+    let along = normal.dot(ray.direction);
+    let t = normal.dot(point - ray.origin) / along;
+    (t.is_finite() && along.is_finite()).then_some(t)
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::Geometry;
-use super::triangle::{corner_values, cross_triangle, unit_normal};
+use super::triangle::{check_area, corner_values, cross_triangle, unit_normal};
+use crate::numeric::EDGE_ROUNDING;
 use crate::part::Given;
 use crate::ray::nearer;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Values};
@@ -56,9 +57,12 @@ impl Part for Tetrahedron {
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         let corners @ [a, b, c, d] =
             [given.point("a")?, given.point("b")?, given.point("c")?, given.point("d")?];
-        let normal = unit_normal(&[a, b, c])
-            .ok_or_else(|| InvalidPart::new("c", "must not lie on one line with a and b", c))?;
-        if (d - a).try_normalize().is_none_or(|v| v.dot(normal) == 0.0) {
+        check_area(&[a, b, c])?;
+        let [u, v, w] = [b - a, c - a, d - a];
+        let faces = u.length() * v.length() + v.length() * w.length() + w.length() * u.length();
+        let largest = corners.map(|p| p.abs().max_element()).into_iter().fold(0.0, f64::max);
+        let volume = u.cross(v).dot(w).abs();
+        if !(volume > EDGE_ROUNDING * largest * faces && volume.is_finite()) {
             return Err(InvalidPart::new("d", "must not lie in one plane with a, b and c", d));
         }
         Ok(Self { corners })

@@ -1,8 +1,9 @@
 //! The flat triangle, seen from both sides, and the crossing that every shape made of triangles shares.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::Geometry;
+use crate::numeric::EDGE_ROUNDING;
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
@@ -39,9 +40,7 @@ impl Part for Triangle {
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         let corners = [given.point("a")?, given.point("b")?, given.point("c")?];
-        if unit_normal(&corners).is_none() {
-            return Err(InvalidPart::new("c", "must not lie on one line with a and b", corners[2]));
-        }
+        check_area(&corners)?;
         Ok(Self { corners })
     }
 
@@ -73,28 +72,60 @@ impl Geometry for Triangle {
 }
 
 /// Where a ray meets a triangle, edges and corners included: `t`, and the weights of the three corners, which sum
-/// to one. `None` for a miss, a ray within the triangle's plane, a triangle without area, or NaN.
+/// to one. `None` for a miss, a ray within the triangle's plane, a triangle without area, or a ray that is not
+/// [valid](Ray::is_valid).
 ///
-/// The three edge values are scalar triple products without fused operations, so that two triangles which share an
-/// edge compute its value with exactly opposite signs: no ray passes between them.
+/// Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: corners are sheared so that the
+/// ray becomes an axis, which rounds a corner alike in all triangles that share it. An edge value is then the
+/// difference of two products, each rounded once: as rounding keeps order, its sign is never wrong, at worst 0,
+/// and 0 counts as inside. So no ray passes between triangles that share an edge or a corner.
 #[must_use]
 pub fn cross_triangle(corners: &[DVec3; 3], ray: &Ray) -> Option<(f64, [f64; 3])> {
     let [a, b, c] = corners.map(|p| p - ray.origin);
-    let weights = [c.cross(b), a.cross(c), b.cross(a)].map(|n| n.dot(ray.direction));
+    let [p, q, r] = sheared([a, b, c], ray.direction);
+    let edge = |v: DVec2, w: DVec2| v.x * w.y - v.y * w.x;
+    let weights = [edge(r, q), edge(p, r), edge(q, p)];
     let one_side = weights.iter().all(|&w| w >= 0.0) || weights.iter().all(|&w| w <= 0.0);
     let sum = weights[0] + weights[1] + weights[2];
     if !one_side || sum == 0.0 {
         return None;
     }
     let normal = (b - a).cross(c - a);
-    let t = normal.dot(a) / normal.dot(ray.direction);
-    t.is_finite().then(|| (t, weights.map(|w| w / sum)))
+    let along = normal.dot(ray.direction);
+    let t = normal.dot(a) / along;
+    (t.is_finite() && along.is_finite()).then(|| (t, weights.map(|w| w / sum)))
+}
+
+/// Where points lie across the ray through the origin along `direction`, moved along its largest component.
+fn sheared(points: [DVec3; 3], direction: DVec3) -> [DVec2; 3] {
+    let size = direction.abs();
+    let along = if size.x > size.y.max(size.z) {
+        0
+    } else if size.y > size.z {
+        1
+    } else {
+        2
+    };
+    let (x, y) = ((along + 1) % 3, (along + 2) % 3);
+    let shear = DVec2::new(direction[x], direction[y]) / direction[along];
+    points.map(|p| DVec2::new(p[x], p[y]) - shear * p[along])
 }
 
 /// Unit normal `(b − a) × (c − a)`; `None` without area.
 pub(super) fn unit_normal(corners: &[DVec3; 3]) -> Option<DVec3> {
     let [a, b, c] = corners;
     (b - a).cross(c - a).try_normalize()
+}
+
+/// Refuses corners that lie on one line, but for what rounding makes of it.
+pub(super) fn check_area([a, b, c]: &[DVec3; 3]) -> Result<(), InvalidPart> {
+    let (u, v) = (b - a, c - a);
+    let largest = [a, b, c].map(|p| p.abs().max_element()).into_iter().fold(0.0, f64::max);
+    let area = u.cross(v).length();
+    if area > EDGE_ROUNDING * largest * (u.length() + v.length()) && area.is_finite() {
+        return Ok(());
+    }
+    Err(InvalidPart::new("c", "must not lie on one line with a and b", c))
 }
 
 /// Corners as values named a, b, c, d.
