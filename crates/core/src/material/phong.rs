@@ -1,7 +1,9 @@
 //! The glossy surface: Phong's model with Blinn's half vector, classic and energy-normalised.
 //!
-//! Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977; normalisation (n + 8) / 8π
-//! after Akenine-Möller, Haines and Hoffman, *Real-Time Rendering*, 3rd ed., section 7.6.
+//! Blinn, "Models of light reflection for computer synthesized pictures", SIGGRAPH 1977. The normalised lobe is
+//! divided by its integral over the half sphere for light along the normal, 8π (2^(−n/2) + n) / ((n + 2) (n + 4)),
+//! so that a white one then gives back all the light, and less from the side; the usual (n + 8) / 8π
+//! (Akenine-Möller, Haines and Hoffman, *Real-Time Rendering*, 3rd ed., section 7.6) gives back up to 7.5 % more.
 
 use std::f64::consts::PI;
 
@@ -13,7 +15,7 @@ use crate::{Coefficient, Field, FieldKind, InvalidPart, Lane, Part, Rgb, Triple,
 /// Ambient, diffuse and specular parts. With θ the angle between the normal and the half vector and i that of the
 /// light, one unit of irradiance shows
 /// * classic: `(diffuse cos i + specular cosⁿ θ) / π`,
-/// * normalised: `(diffuse / π + specular (n + 8) / 8π cosⁿ θ) cos i`.
+/// * normalised: `(diffuse / π + specular (n + 2) (n + 4) / (8π (2^(−n/2) + n)) cosⁿ θ) cos i`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phong {
     ambient: Constant3,
@@ -21,7 +23,7 @@ pub struct Phong {
     specular: Constant3,
     shininess: Coefficient,
     normalised: bool,
-    /// What cosⁿ θ is multiplied by: 1/π or (n + 8) / 8π.
+    /// What cosⁿ θ is multiplied by: 1/π or the normalisation.
     lobe: Coefficient,
     reflectiveness: Coefficient,
 }
@@ -47,7 +49,7 @@ impl Part for Phong {
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         let shininess = given.not_negative("shininess")?;
         let normalised = given.choice("model")? == 1;
-        let lobe = if normalised { (shininess + 8.0) / (8.0 * PI) } else { 1.0 / PI };
+        let lobe = if normalised { normalisation(shininess) } else { 1.0 / PI };
         Ok(Self {
             ambient: given.color("ambient")?.into(),
             diffuse: given.color("diffuse")?.into(),
@@ -68,6 +70,11 @@ impl Part for Phong {
             .with("model", Value::Word(MODELS[usize::from(self.normalised)].to_owned()))
             .with("reflectiveness", Value::Number(self.reflectiveness.wide))
     }
+}
+
+/// One over what cosⁿ θ cos i gives in all, for light along the normal.
+fn normalisation(n: f64) -> f64 {
+    (n + 2.0) * ((n + 4.0) / (8.0 * PI * ((-n / 2.0).exp2() + n)))
 }
 
 impl Surface for Phong {
