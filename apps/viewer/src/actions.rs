@@ -1,0 +1,234 @@
+//! What does each command and each gesture do to the viewer?
+
+use std::path::Path;
+
+use catoptra_core::Value;
+use catoptra_core::scene::{Edit, EntityId, Role};
+use catoptra_raster::{Ring, RingGrip};
+use catoptra_tracer::pick;
+
+use crate::camera_control::{self, NOTCH, ORBIT_PER_PIXEL};
+use crate::input::{Drag, Gesture, Mode};
+use crate::keys::Command;
+use crate::tracing::Frame;
+use crate::viewer::Viewer;
+
+/// How far a turntable drag turns the objects, in degrees per pixel.
+const TURN_PER_PIXEL: f64 = 0.3;
+
+/// The share of the distance to the target that an arrow key moves the camera.
+const STEP: f64 = 0.05;
+
+/// The target is pushed ahead when the camera comes nearer than this share of the scene's size.
+const NEAREST: f64 = 0.02;
+
+/// The step keys of drags; panels use keys with this bit clear.
+const DRAG_KEY: u64 = 1 << 63;
+
+/// Does what a key asks for; `true` when the window is to close.
+pub(crate) fn run(viewer: &mut Viewer, command: Command) -> bool {
+    viewer.stale.panel = true;
+    match command {
+        Command::Quit => return true,
+        Command::Help => viewer.shown.help = !viewer.shown.help,
+        Command::Panel => viewer.shown.panel = !viewer.shown.panel,
+        Command::FrameAll => frame_all(viewer),
+        Command::FrameSelected => frame_selected(viewer),
+        Command::ResetCamera => viewer.adopt(viewer.through.or(viewer.document.scene().main_camera())),
+        Command::NextCamera => next_camera(viewer),
+        Command::Step(right, up) => {
+            let camera = camera_control::step(&viewer.camera, f64::from(right) * STEP, f64::from(up) * STEP);
+            viewer.look(camera);
+        }
+        Command::ToggleMode => {
+            viewer.settings.mode = viewer.settings.mode.other();
+            viewer.notify(format!(
+                "{}: drag to {}",
+                viewer.settings.mode.name(),
+                dragging(viewer.settings.mode)
+            ));
+        }
+        Command::ToggleOverlays => {
+            viewer.shown.overlays = !viewer.shown.overlays;
+            viewer.stale.overlay = true;
+        }
+        Command::Escape => escape(viewer),
+        Command::Delete => delete(viewer),
+        Command::Undo => undo(viewer),
+        Command::Redo => redo(viewer),
+        Command::Save => save(viewer),
+        Command::Picture => viewer.picture_wanted = true,
+    }
+    false
+}
+
+fn dragging(mode: Mode) -> &'static str {
+    match mode {
+        Mode::Orbit => "move the camera round",
+        Mode::Turntable => "turn the objects about the origin",
+    }
+}
+
+fn frame_all(viewer: &mut Viewer) {
+    let everything = viewer.everything();
+    if everything.is_empty() {
+        viewer.notify("nothing here has an end: back to the scene's camera");
+        viewer.adopt(viewer.document.scene().main_camera());
+    } else {
+        viewer.frame(everything);
+    }
+}
+
+fn frame_selected(viewer: &mut Viewer) {
+    let bounds = viewer.selection.and_then(|id| viewer.document.scene().world_bounds(id));
+    match bounds {
+        Some(bounds) => viewer.frame(bounds),
+        None => viewer.notify("select something that has an end first"),
+    }
+}
+
+fn next_camera(viewer: &mut Viewer) {
+    let cameras: Vec<EntityId> = viewer.document.scene().entities_of(Role::Camera).collect();
+    let now = viewer.through.and_then(|id| cameras.iter().position(|c| *c == id));
+    let Some(next) = cameras.get(now.map_or(0, |i| (i + 1) % cameras.len())).copied() else {
+        return viewer.notify("the scene has no camera");
+    };
+    viewer.adopt(Some(next));
+    let name = viewer.document.scene().name(next).unwrap_or_default();
+    viewer.notify(format!("camera {name}"));
+}
+
+fn escape(viewer: &mut Viewer) {
+    if viewer.error.take().is_none() {
+        if viewer.shown.help {
+            viewer.shown.help = false;
+        } else {
+            viewer.select(None);
+        }
+    }
+}
+
+fn delete(viewer: &mut Viewer) {
+    if let Some(id) = viewer.selection {
+        viewer.edit(Edit::Remove(id));
+    }
+}
+
+fn undo(viewer: &mut Viewer) {
+    if viewer.document.undo() {
+        viewer.notify("undone");
+    } else {
+        viewer.notify("nothing to undo");
+    }
+}
+
+fn redo(viewer: &mut Viewer) {
+    if viewer.document.redo() {
+        viewer.notify("redone");
+    } else {
+        viewer.notify("nothing to redo");
+    }
+}
+
+fn save(viewer: &mut Viewer) {
+    match viewer.document.save() {
+        Ok(path) => viewer.notify(format!("saved {}", path.display())),
+        Err(problem) => viewer.notify(problem),
+    }
+}
+
+/// Writes the picture as it was traced, without overlays, under a free name in the current folder.
+pub(crate) fn write_picture(viewer: &mut Viewer, frame: &Frame) {
+    viewer.picture_wanted = false;
+    let path = crate::document::free_name(Path::new("."), &viewer.document.name(), "png");
+    let rgb: Vec<u8> =
+        frame.pixels.data.iter().flat_map(|p| [(p >> 16) as u8, (p >> 8) as u8, *p as u8]).collect();
+    let written = catoptra_scene::image::write_png(&path, frame.pixels.width, frame.pixels.height, &rgb);
+    match written {
+        Ok(()) => viewer.notify(format!("wrote {}", path.display())),
+        Err(problem) => viewer.notify(format!("{} was not written: {problem}", path.display())),
+    }
+}
+
+/// Does what the pointer asks for.
+pub(crate) fn gesture(viewer: &mut Viewer, gesture: Gesture) {
+    match gesture {
+        Gesture::None => {}
+        Gesture::Click(x, y) => click(viewer, x, y),
+        Gesture::Dragged { drag, by, to } => drag_by(viewer, drag, by, to),
+        Gesture::Ended(_) => {
+            viewer.document.end_step();
+            viewer.stale.panel = true;
+        }
+    }
+}
+
+fn click(viewer: &mut Viewer, x: f64, y: f64) {
+    let mark = viewer.overlay(&viewer.camera, &[]).mark_at(x, y);
+    let found = mark.or_else(|| pick(&viewer.snapshot, &viewer.view(), x, y).map(|hit| hit.entity));
+    viewer.select(found);
+}
+
+fn drag_by(viewer: &mut Viewer, drag: Drag, by: (f64, f64), to: (f64, f64)) {
+    match drag {
+        Drag::Orbit => {
+            let (yaw, pitch) = (-by.0 * ORBIT_PER_PIXEL, by.1 * ORBIT_PER_PIXEL);
+            viewer.look(camera_control::orbit(&viewer.camera, yaw, pitch));
+        }
+        Drag::Pan => viewer.look(camera_control::pan(&viewer.camera, by, f64::from(viewer.size.1))),
+        Drag::Turn => turn_objects(viewer, by),
+        Drag::Ring(grip) => drag_ring(viewer, grip, to),
+    }
+}
+
+/// Turns all objects about the origin: shapes and groups with shapes at the top of the scene. Lights and cameras
+/// stay, those in such a group excepted.
+fn turn_objects(viewer: &mut Viewer, by: (f64, f64)) {
+    let (about_y, about_x) = ((by.0 * TURN_PER_PIXEL).to_radians(), (by.1 * TURN_PER_PIXEL).to_radians());
+    let scene = viewer.document.scene();
+    let turned =
+        |id: EntityId| Some(Edit::Placement(id, scene.placement(id)?.seed_turned(about_y, about_x).ok()?));
+    let objects = scene.children(None).into_iter().filter(|id| is_object(viewer, *id));
+    let edits: Vec<Edit> = objects.filter_map(turned).collect();
+    viewer.edit_on(Edit::Batch(edits), DRAG_KEY);
+}
+
+fn is_object(viewer: &Viewer, id: EntityId) -> bool {
+    let scene = viewer.document.scene();
+    match scene.role(id) {
+        Some(Role::Shape) => true,
+        Some(Role::Group) => scene.children(Some(id)).into_iter().any(|member| is_object(viewer, member)),
+        _ => false,
+    }
+}
+
+fn drag_ring(viewer: &mut Viewer, grip: RingGrip, to: (f64, f64)) {
+    let Some(angle) = viewer.overlay(&viewer.camera, &[]).drag_ring(grip, to.0, to.1) else { return };
+    let field = match grip.ring {
+        Ring::Inner => "inner",
+        Ring::Outer => "outer",
+    };
+    let Some(light) = viewer.document.scene().light(grip.light) else { return };
+    match light.with(field, Value::Number(angle)) {
+        Ok(light) => viewer.edit_on(Edit::Light(grip.light, light), DRAG_KEY | u64::from(grip.light.index())),
+        Err(refusal) => viewer.notify(refusal.to_string()),
+    }
+    viewer.select(Some(grip.light));
+}
+
+/// The wheel was turned by that many notches, away from the person counted positive.
+pub(crate) fn wheel(viewer: &mut Viewer, notches: f64, ctrl: bool) {
+    let to_pointer = (viewer.settings.mode == Mode::Orbit) != ctrl;
+    let focus = camera_control::focus(&viewer.camera);
+    let camera = if to_pointer {
+        let (x, y) = viewer.pointer.at;
+        let hit = pick(&viewer.snapshot, &viewer.view(), x, y).map(|hit| hit.point);
+        let ray = viewer.camera.ray(x, y, viewer.size.0.max(1), viewer.size.1.max(1));
+        let point = hit.unwrap_or_else(|| ray.at(focus));
+        camera_control::zoom_to(&viewer.camera, point, (1.0 - NOTCH).powf(notches))
+    } else {
+        let nearest = NEAREST * viewer.everything().size().length().max(0.1);
+        camera_control::dolly(&viewer.camera, notches * NOTCH * focus.max(nearest), nearest)
+    };
+    viewer.look(camera);
+}

@@ -1,0 +1,201 @@
+//! What happens when? Events of the window, finished frames and opened files become changes of the viewer; whatever
+//! went stale is asked for once the events are through; then the loop sleeps.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+use catoptra_raster::Layer;
+use catoptra_tracer::Pool;
+use winit::application::ApplicationHandler;
+use winit::event::{StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
+use winit::keyboard::ModifiersState;
+use winit::window::WindowId;
+
+use crate::frame_worker::{Finished, FrameWorker};
+use crate::loader::{self, Opened, Outcome};
+use crate::options::Options;
+use crate::screen::Screen;
+use crate::status::Meter;
+use crate::tracing::{Frame, PoolTracing};
+use crate::viewer::Viewer;
+
+/// What other threads wake the window for.
+pub(crate) enum Wake {
+    /// A frame was finished.
+    Frame,
+    /// A file was read.
+    Opened(Outcome),
+}
+
+/// The running viewer.
+pub(crate) struct App {
+    pub(crate) options: Options,
+    pub(crate) viewer: Viewer,
+    pub(crate) pool: Arc<Pool>,
+    pub(crate) worker: FrameWorker<PoolTracing>,
+    pub(crate) screen: Option<Screen>,
+    pub(crate) modifiers: ModifiersState,
+    /// The frame in the window.
+    pub(crate) shown: Option<Finished<Frame>>,
+    /// The number of the newest request.
+    pub(crate) asked: u64,
+    pub(crate) layer: Layer,
+    pub(crate) meter: Meter,
+    pub(crate) last_frame: Option<Instant>,
+    pub(crate) status_due: Option<Instant>,
+    pub(crate) shown_title: String,
+    /// The window has to be presented as a whole.
+    pub(crate) exposed: bool,
+    /// Whether the pointer was last seen over the picture.
+    pub(crate) over_picture: bool,
+    pub(crate) closing: bool,
+    /// Why the viewer had to stop.
+    pub(crate) failure: Option<String>,
+    proxy: EventLoopProxy<Wake>,
+    ticket: u64,
+}
+
+impl App {
+    /// A viewer that shows `opened` until the file of the options is read.
+    pub(crate) fn new(
+        options: Options,
+        opened: Opened,
+        pool: Arc<Pool>,
+        proxy: EventLoopProxy<Wake>,
+    ) -> Self {
+        let wake = proxy.clone();
+        let worker = FrameWorker::start(PoolTracing { pool: Arc::clone(&pool) }, move || {
+            // The loop may have ended; then no one waits for the frame.
+            let _ = wake.send_event(Wake::Frame);
+        });
+        let mut app = Self {
+            viewer: Viewer::new(opened),
+            pool,
+            worker,
+            screen: None,
+            modifiers: ModifiersState::empty(),
+            shown: None,
+            asked: 0,
+            layer: Layer::new(),
+            meter: Meter::default(),
+            last_frame: None,
+            status_due: None,
+            shown_title: String::new(),
+            exposed: true,
+            over_picture: false,
+            closing: false,
+            failure: None,
+            proxy,
+            ticket: 0,
+            options,
+        };
+        if let Some(file) = app.options.file.clone() {
+            app.open(file);
+        }
+        app
+    }
+
+    /// Starts to read a file; the scene shown stays until it is there.
+    pub(crate) fn open(&mut self, file: PathBuf) {
+        self.ticket += 1;
+        self.viewer.notify(format!("opening {}", file.display()));
+        let proxy = self.proxy.clone();
+        loader::open(file, self.ticket, Arc::clone(&self.pool), move |outcome| {
+            // The loop may have ended; then no one waits for the file.
+            let _ = proxy.send_event(Wake::Opened(outcome));
+        });
+    }
+
+    fn opened(&mut self, outcome: Outcome) {
+        if outcome.ticket != self.ticket {
+            return;
+        }
+        match outcome.result {
+            Ok(opened) => {
+                self.viewer.show(*opened);
+                self.viewer.notify(format!("opened {}", outcome.path.display()));
+            }
+            Err(report) => {
+                self.viewer.notify(format!("{} was not opened", outcome.path.display()));
+                self.viewer.error = Some(report);
+            }
+        }
+    }
+
+    /// Follows the scene and asks for a new picture if one is due.
+    pub(crate) fn settle(&mut self) {
+        self.viewer.follow_scene();
+        let (width, height) = self.viewer.size;
+        if self.viewer.stale.trace && width > 0 && height > 0 {
+            self.viewer.stale.trace = false;
+            self.asked = self.worker.submit(self.viewer.request());
+        }
+    }
+
+    /// When the loop has to wake without an event.
+    fn next_due(&self) -> Option<Instant> {
+        let egui = self.screen.as_ref().and_then(|screen| screen.due);
+        [egui, self.status_due].into_iter().flatten().min()
+    }
+
+    fn request_redraw(&self) {
+        if let Some(screen) = &self.screen {
+            screen.window.request_redraw();
+        }
+    }
+
+    fn fail(&mut self, event_loop: &ActiveEventLoop, why: String) {
+        self.failure = Some(why);
+        event_loop.exit();
+    }
+}
+
+impl ApplicationHandler<Wake> for App {
+    fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
+        if matches!(cause, StartCause::ResumeTimeReached { .. }) {
+            self.request_redraw();
+        }
+    }
+
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        if self.screen.is_none() {
+            match Screen::open(event_loop, self.options.size) {
+                Ok(screen) => self.screen = Some(screen),
+                Err(why) => self.fail(event_loop, why),
+            }
+        }
+    }
+
+    fn user_event(&mut self, _: &ActiveEventLoop, event: Wake) {
+        match event {
+            Wake::Frame => self.request_redraw(),
+            Wake::Opened(outcome) => self.opened(outcome),
+        }
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        match event {
+            WindowEvent::CloseRequested => self.closing = true,
+            WindowEvent::RedrawRequested => {
+                if let Err(why) = self.redraw() {
+                    self.fail(event_loop, why);
+                }
+            }
+            event => self.handle(&event),
+        }
+    }
+
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        if self.closing {
+            return event_loop.exit();
+        }
+        self.settle();
+        self.write_picture_if_wanted();
+        if self.viewer.stale.overlay || self.viewer.stale.panel {
+            self.request_redraw();
+        }
+        event_loop.set_control_flow(self.next_due().map_or(ControlFlow::Wait, ControlFlow::WaitUntil));
+    }
+}

@@ -1,0 +1,140 @@
+//! Who gets an event of the window: egui or the picture?
+
+use egui::Pos2;
+use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
+use winit::keyboard::{Key, NamedKey};
+use winit::window::CursorIcon;
+
+use crate::actions;
+use crate::app::App;
+use crate::input::{Button, Mode};
+use crate::keys::{self, Command};
+use crate::screen::Screen;
+
+/// Pixels of a touchpad that make one notch of a wheel.
+const PIXELS_PER_NOTCH: f64 = 50.0;
+
+impl App {
+    /// Takes in an event of the window.
+    pub(crate) fn handle(&mut self, event: &WindowEvent) {
+        let Some(mut screen) = self.screen.take() else { return };
+        self.handle_on(&mut screen, event);
+        self.screen = Some(screen);
+    }
+
+    fn handle_on(&mut self, screen: &mut Screen, event: &WindowEvent) {
+        match event {
+            WindowEvent::CursorMoved { position, .. } => {
+                self.pointer_moved(screen, event, (position.x, position.y))
+            }
+            WindowEvent::MouseInput { state, button, .. } => self.button(screen, event, *state, *button),
+            WindowEvent::MouseWheel { delta, .. } if self.over_picture => self.wheel(*delta),
+            WindowEvent::KeyboardInput { event: key, .. } => self.key(screen, event, key),
+            WindowEvent::DroppedFile(path) => self.open(path.clone()),
+            WindowEvent::ModifiersChanged(modifiers) => {
+                self.modifiers = modifiers.state();
+                self.forward(screen, event);
+            }
+            WindowEvent::Resized(_)
+            | WindowEvent::ScaleFactorChanged { .. }
+            | WindowEvent::Occluded(false) => {
+                self.exposed = true;
+                self.forward(screen, event);
+                screen.window.request_redraw();
+            }
+            WindowEvent::Focused(false) => {
+                let gesture = self.viewer.pointer.cancel();
+                actions::gesture(&mut self.viewer, gesture);
+                self.forward(screen, event);
+            }
+            _ => self.forward(screen, event),
+        }
+    }
+
+    /// Gives an event to egui.
+    fn forward(&mut self, screen: &mut Screen, event: &WindowEvent) {
+        if screen.input.on_window_event(&screen.window, event).repaint {
+            self.viewer.stale.panel = true;
+        }
+    }
+
+    /// Egui need not know about a pointer that stays over the picture.
+    fn pointer_moved(&mut self, screen: &mut Screen, event: &WindowEvent, to: (f64, f64)) {
+        let was_over = self.over_picture;
+        let pressed = self.viewer.pointer.is_pressed();
+        self.over_picture = pressed || self.is_over_picture(screen, to);
+        let gesture = self.viewer.pointer.moved(to);
+        actions::gesture(&mut self.viewer, gesture);
+        if !(was_over && self.over_picture) || screen.egui.egui_is_using_pointer() {
+            self.forward(screen, event);
+        } else if !pressed {
+            self.show_grip(screen, to);
+        }
+    }
+
+    fn is_over_picture(&self, screen: &Screen, at: (f64, f64)) -> bool {
+        let (width, height) = self.viewer.size;
+        let inside = at.0 >= 0.0 && at.1 >= 0.0 && at.0 < f64::from(width) && at.1 < f64::from(height);
+        let scale = screen.pixels_per_point();
+        let point = Pos2::new(at.0 as f32 / scale, at.1 as f32 / scale);
+        let layer = screen.egui.layer_id_at(point);
+        inside && layer.is_none_or(|layer| layer.order == egui::Order::Background)
+    }
+
+    /// The pointer tells that a ring can be dragged.
+    fn show_grip(&self, screen: &Screen, at: (f64, f64)) {
+        let selection: Vec<_> = self.viewer.selection.into_iter().collect();
+        let grip = self.viewer.overlay(&self.viewer.camera, &selection).ring_at(at.0, at.1);
+        screen.window.set_cursor(if grip.is_some() { CursorIcon::Grab } else { CursorIcon::Default });
+    }
+
+    fn button(&mut self, screen: &mut Screen, event: &WindowEvent, state: ElementState, button: MouseButton) {
+        let button = match button {
+            MouseButton::Left => Button::Left,
+            MouseButton::Right | MouseButton::Middle => Button::Other,
+            _ => return,
+        };
+        if state == ElementState::Released {
+            let gesture = self.viewer.pointer.release(button);
+            actions::gesture(&mut self.viewer, gesture);
+        } else if self.over_picture {
+            let (x, y) = self.viewer.pointer.at;
+            let selection: Vec<_> = self.viewer.selection.into_iter().collect();
+            let grip = self.viewer.overlay(&self.viewer.camera, &selection).ring_at(x, y);
+            let mode: Mode = self.viewer.settings.mode;
+            self.viewer.pointer.press(button, self.modifiers.shift_key(), mode, grip);
+            screen.egui.memory_mut(|memory| {
+                if let Some(focused) = memory.focused() {
+                    memory.surrender_focus(focused);
+                }
+            });
+        }
+        self.forward(screen, event);
+    }
+
+    fn wheel(&mut self, delta: MouseScrollDelta) {
+        let notches = match delta {
+            MouseScrollDelta::LineDelta(_, lines) => f64::from(lines),
+            MouseScrollDelta::PixelDelta(pixels) => pixels.y / PIXELS_PER_NOTCH,
+        };
+        actions::wheel(&mut self.viewer, notches, self.modifiers.control_key());
+    }
+
+    /// A key goes to egui while something there is being typed, and is a command otherwise.
+    fn key(&mut self, screen: &mut Screen, event: &WindowEvent, key: &KeyEvent) {
+        let typing = screen.egui.egui_wants_keyboard_input();
+        let control = self.modifiers.control_key() || self.modifiers.super_key();
+        let command = keys::command(&key.logical_key, control, self.modifiers.shift_key());
+        let everywhere = matches!(command, Some(Command::Save | Command::Quit | Command::Help));
+        if key.state == ElementState::Pressed
+            && let Some(command) = command
+            && (!typing || everywhere)
+        {
+            if !key.repeat || matches!(command, Command::Step(..) | Command::Undo | Command::Redo) {
+                self.closing |= actions::run(&mut self.viewer, command);
+            }
+        } else if typing || key.logical_key != Key::Named(NamedKey::Tab) {
+            self.forward(screen, event);
+        }
+    }
+}

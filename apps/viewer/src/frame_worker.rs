@@ -1,0 +1,347 @@
+//! Who traces while the window stays awake? One thread that takes the newest request, traces it coarse to fine, and
+//! leaves each finished frame where the window picks it up.
+//!
+//! A newer request takes the place of one that still waits. It abandons refinement under way at once; a first, coarse
+//! frame is let finish (else a fast hand would never see one) unless it has overrun its time. Without a request the
+//! thread sleeps.
+
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use catoptra_tracer::Control;
+
+use crate::refine::{Pace, reduced};
+
+/// How long a first frame may take before a newer request abandons it.
+const OVERDUE: Duration = Duration::from_millis(60);
+
+/// How many used frames are kept to be filled again.
+const SPARES: usize = 4;
+
+/// What can trace requests into frames.
+pub(crate) trait Tracing: Send + 'static {
+    /// What is asked for.
+    type Request: Send + 'static;
+    /// What comes of it.
+    type Frame: Send + 'static;
+
+    /// Width and height in pixels that a request asks for.
+    fn size(request: &Self::Request) -> (u32, u32);
+
+    /// Traces with each pixel standing for `divisor` x `divisor`, into one of `spares` if one fits.
+    /// `None` when it was cancelled.
+    fn trace(
+        &mut self,
+        request: &Self::Request,
+        divisor: u32,
+        control: &Control,
+        spares: &mut Vec<Self::Frame>,
+    ) -> Option<Self::Frame>;
+}
+
+/// A frame with what is known about it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Finished<F> {
+    /// The frame.
+    pub(crate) frame: F,
+    /// Which request it answers: the number that [`FrameWorker::submit`] gave.
+    pub(crate) generation: u64,
+    /// How many pixels each way one pixel of it stands for; 1 ends a request.
+    pub(crate) divisor: u32,
+    /// How long it took.
+    pub(crate) took: Duration,
+}
+
+struct UnderWay {
+    control: Arc<Control>,
+    first: bool,
+    since: Instant,
+}
+
+struct State<T: Tracing> {
+    generation: u64,
+    waiting: Option<T::Request>,
+    under_way: Option<UnderWay>,
+    finished: Option<Finished<T::Frame>>,
+    spares: Vec<T::Frame>,
+    closing: bool,
+}
+
+struct Shared<T: Tracing> {
+    state: Mutex<State<T>>,
+    changed: Condvar,
+}
+
+impl<T: Tracing> Shared<T> {
+    fn lock(&self) -> MutexGuard<'_, State<T>> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The thread, and what it shares with the window. Dropping it abandons the frame under way and waits for the end.
+pub(crate) struct FrameWorker<T: Tracing> {
+    shared: Arc<Shared<T>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl<T: Tracing> FrameWorker<T> {
+    /// Starts the thread; `wake` is called on it after each finished frame.
+    pub(crate) fn start(tracing: T, wake: impl Fn() + Send + 'static) -> Self {
+        let state = State {
+            generation: 0,
+            waiting: None,
+            under_way: None,
+            finished: None,
+            spares: Vec::new(),
+            closing: false,
+        };
+        let shared = Arc::new(Shared { state: Mutex::new(state), changed: Condvar::new() });
+        let theirs = Arc::clone(&shared);
+        let thread = std::thread::spawn(move || work(&theirs, tracing, &wake));
+        Self { shared, thread: Some(thread) }
+    }
+
+    /// Asks for a picture instead of all that was asked before; never waits. Returns the request's number.
+    pub(crate) fn submit(&self, request: T::Request) -> u64 {
+        let mut state = self.shared.lock();
+        state.generation += 1;
+        state.waiting = Some(request);
+        if let Some(frame) = &state.under_way
+            && (!frame.first || frame.since.elapsed() > OVERDUE)
+        {
+            frame.control.cancel();
+        }
+        self.shared.changed.notify_one();
+        state.generation
+    }
+
+    /// The newest finished frame that was not taken yet.
+    pub(crate) fn take(&self) -> Option<Finished<T::Frame>> {
+        self.shared.lock().finished.take()
+    }
+
+    /// Gives a used frame back to be filled again.
+    pub(crate) fn give_back(&self, frame: T::Frame) {
+        keep(&mut self.shared.lock().spares, frame);
+    }
+}
+
+impl<T: Tracing> Drop for FrameWorker<T> {
+    fn drop(&mut self) {
+        let mut state = self.shared.lock();
+        state.closing = true;
+        if let Some(frame) = &state.under_way {
+            frame.control.cancel();
+        }
+        drop(state);
+        self.shared.changed.notify_one();
+        if let Some(thread) = self.thread.take() {
+            // A panic there has been reported by its own thread.
+            let _ = thread.join();
+        }
+    }
+}
+
+fn keep<F>(spares: &mut Vec<F>, frame: F) {
+    if spares.len() == SPARES {
+        spares.remove(0);
+    }
+    spares.push(frame);
+}
+
+fn work<T: Tracing>(shared: &Shared<T>, mut tracing: T, wake: &impl Fn()) {
+    let mut pace = Pace::default();
+    while let Some((generation, request)) = next(shared) {
+        let (width, height) = T::size(&request);
+        for (step, divisor) in pace.steps(width, height).into_iter().enumerate() {
+            let first = step == 0;
+            let Some((control, mut spares)) = begin(shared, first) else { break };
+            let since = Instant::now();
+            let frame = tracing.trace(&request, divisor, &control, &mut spares);
+            let took = since.elapsed();
+            let Some(frame) = frame else {
+                if first {
+                    pace.overran();
+                }
+                end(shared, spares, None);
+                break;
+            };
+            let (w, h) = reduced(width, height, divisor);
+            pace.record(u64::from(w) * u64::from(h), took.as_secs_f64());
+            end(shared, spares, Some(Finished { frame, generation, divisor, took }));
+            wake();
+        }
+    }
+}
+
+/// Waits for a request; `None` at the end.
+fn next<T: Tracing>(shared: &Shared<T>) -> Option<(u64, T::Request)> {
+    let mut state = shared.lock();
+    loop {
+        if state.closing {
+            return None;
+        }
+        if let Some(request) = state.waiting.take() {
+            return Some((state.generation, request));
+        }
+        state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+    }
+}
+
+/// Notes that a frame is begun; `None` if it need not be, since it would only refine what is out of date.
+fn begin<T: Tracing>(shared: &Shared<T>, first: bool) -> Option<(Arc<Control>, Vec<T::Frame>)> {
+    let mut state = shared.lock();
+    if state.closing || (!first && state.waiting.is_some()) {
+        return None;
+    }
+    let control = Arc::new(Control::default());
+    state.under_way = Some(UnderWay { control: Arc::clone(&control), first, since: Instant::now() });
+    Some((control, std::mem::take(&mut state.spares)))
+}
+
+/// Notes that a frame is done with, and leaves it to be taken. One that was not taken in time is used again.
+fn end<T: Tracing>(shared: &Shared<T>, spares: Vec<T::Frame>, finished: Option<Finished<T::Frame>>) {
+    let mut state = shared.lock();
+    state.under_way = None;
+    for spare in spares {
+        keep(&mut state.spares, spare);
+    }
+    if finished.is_some()
+        && let Some(missed) = std::mem::replace(&mut state.finished, finished)
+    {
+        keep(&mut state.spares, missed.frame);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::{Receiver, Sender, channel};
+
+    use super::*;
+
+    /// Tells what it begins, and finishes when told or when cancelled.
+    struct Steered {
+        begun: Sender<(u32, u32)>,
+        go: Receiver<()>,
+    }
+
+    impl Tracing for Steered {
+        type Request = u32;
+        type Frame = (u32, u32);
+
+        fn size(_: &u32) -> (u32, u32) {
+            (64, 64)
+        }
+
+        fn trace(
+            &mut self,
+            request: &u32,
+            divisor: u32,
+            control: &Control,
+            _: &mut Vec<(u32, u32)>,
+        ) -> Option<(u32, u32)> {
+            self.begun.send((*request, divisor)).ok()?;
+            loop {
+                if control.is_cancelled() {
+                    return None;
+                }
+                if self.go.recv_timeout(Duration::from_millis(1)).is_ok() {
+                    return Some((*request, divisor));
+                }
+            }
+        }
+    }
+
+    struct Bench {
+        worker: FrameWorker<Steered>,
+        begun: Receiver<(u32, u32)>,
+        go: Sender<()>,
+        woken: Receiver<()>,
+    }
+
+    impl Bench {
+        fn new() -> Self {
+            let (begun_to, begun) = channel();
+            let (go, go_from) = channel();
+            let (woken_to, woken) = channel();
+            let worker = FrameWorker::start(Steered { begun: begun_to, go: go_from }, move || {
+                let _ = woken_to.send(());
+            });
+            Self { worker, begun, go, woken }
+        }
+
+        fn begun(&self) -> (u32, u32) {
+            self.begun.recv_timeout(Duration::from_secs(20)).unwrap()
+        }
+
+        fn finish(&self) -> (u32, u32) {
+            self.go.send(()).unwrap();
+            self.woken.recv_timeout(Duration::from_secs(20)).unwrap();
+            self.worker.take().unwrap().frame
+        }
+    }
+
+    #[test]
+    fn a_request_is_refined_down_to_single_pixels() {
+        let bench = Bench::new();
+        bench.worker.submit(7);
+        let mut divisors = Vec::new();
+        while divisors.last() != Some(&1) {
+            let begun = bench.begun();
+            assert_eq!(bench.finish(), begun);
+            divisors.push(begun.1);
+        }
+        assert_eq!(divisors, [8, 4, 2, 1]);
+    }
+
+    #[test]
+    fn a_new_request_abandons_refinement() {
+        let bench = Bench::new();
+        bench.worker.submit(1);
+        bench.begun();
+        bench.finish();
+        assert_eq!(bench.begun(), (1, 4));
+        bench.worker.submit(2);
+        assert_eq!(bench.begun().0, 2);
+    }
+
+    #[test]
+    fn a_first_frame_in_time_is_let_finish() {
+        let bench = Bench::new();
+        bench.worker.submit(1);
+        bench.begun();
+        bench.worker.submit(2);
+        assert_eq!(bench.finish().0, 1);
+        assert_eq!(bench.begun().0, 2);
+    }
+
+    #[test]
+    fn the_newest_request_wins() {
+        let bench = Bench::new();
+        bench.worker.submit(1);
+        bench.begun();
+        bench.worker.submit(2);
+        let newest = bench.worker.submit(3);
+        bench.finish();
+        assert_eq!(bench.begun().0, 3);
+        bench.go.send(()).unwrap();
+        bench.woken.recv_timeout(Duration::from_secs(20)).unwrap();
+        assert_eq!(bench.worker.take().unwrap().generation, newest);
+    }
+
+    #[test]
+    fn nothing_is_begun_without_a_request() {
+        let bench = Bench::new();
+        assert!(bench.begun.recv_timeout(Duration::from_millis(30)).is_err());
+    }
+
+    #[test]
+    fn dropping_ends_a_frame_under_way() {
+        let bench = Bench::new();
+        bench.worker.submit(1);
+        bench.begun();
+        drop(bench.worker);
+        assert!(bench.begun.recv_timeout(Duration::from_secs(20)).is_err());
+    }
+}

@@ -1,0 +1,212 @@
+//! What does the pointer mean over the picture? A press that stays put is a click, one that travels is a drag whose
+//! sort was settled when it began. Pure state, no window.
+
+use catoptra_raster::RingGrip;
+
+/// What a plain left-drag does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Mode {
+    /// The camera goes round what it looks at.
+    #[default]
+    Orbit,
+    /// The objects turn about the origin, the camera stays.
+    Turntable,
+}
+
+impl Mode {
+    /// Both, in the order they are offered.
+    pub(crate) const ALL: [Self; 2] = [Self::Orbit, Self::Turntable];
+
+    /// Its name in the panel.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Orbit => "Orbit",
+            Self::Turntable => "Turntable",
+        }
+    }
+
+    /// The other one.
+    pub(crate) fn other(self) -> Self {
+        match self {
+            Self::Orbit => Self::Turntable,
+            Self::Turntable => Self::Orbit,
+        }
+    }
+}
+
+/// A mouse button that means something over the picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Button {
+    /// The main one.
+    Left,
+    /// Right or middle: both pan.
+    Other,
+}
+
+/// What a drag changes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Drag {
+    /// The camera's place round its target.
+    Orbit,
+    /// The camera's place in its own plane.
+    Pan,
+    /// How the objects are turned.
+    Turn,
+    /// A spot light's cone angle.
+    Ring(RingGrip),
+}
+
+/// What came of a pointer event. Positions and differences are in pixels of the picture, y down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Gesture {
+    /// Nothing.
+    None,
+    /// Pressed and let go in one place.
+    Click(f64, f64),
+    /// Travelled while pressed.
+    Dragged { drag: Drag, by: (f64, f64), to: (f64, f64) },
+    /// Let go after travelling.
+    Ended(Drag),
+}
+
+/// How far a press may stray, in pixels, and still be a click.
+const CLICK_REACH: f64 = 3.0;
+
+#[derive(Debug, Clone, Copy)]
+struct Press {
+    button: Button,
+    from: (f64, f64),
+    drag: Drag,
+    travelled: bool,
+}
+
+/// The pointer over the picture.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Pointer {
+    /// Where it was last seen, in pixels of the picture.
+    pub(crate) at: (f64, f64),
+    press: Option<Press>,
+}
+
+impl Pointer {
+    /// Whether a press over the picture is under way: the picture then keeps the pointer wherever it goes.
+    pub(crate) fn is_pressed(&self) -> bool {
+        self.press.is_some()
+    }
+
+    /// A button goes down here. A second button while one is down changes nothing.
+    pub(crate) fn press(&mut self, button: Button, shift: bool, mode: Mode, grip: Option<RingGrip>) {
+        if self.press.is_some() {
+            return;
+        }
+        let drag = match (button, shift, grip, mode) {
+            (Button::Other, ..) | (_, true, ..) => Drag::Pan,
+            (Button::Left, false, Some(grip), _) => Drag::Ring(grip),
+            (Button::Left, false, None, Mode::Orbit) => Drag::Orbit,
+            (Button::Left, false, None, Mode::Turntable) => Drag::Turn,
+        };
+        self.press = Some(Press { button, from: self.at, drag, travelled: false });
+    }
+
+    /// The pointer comes here.
+    pub(crate) fn moved(&mut self, to: (f64, f64)) -> Gesture {
+        let before = self.at;
+        self.at = to;
+        let Some(press) = &mut self.press else { return Gesture::None };
+        let by = if press.travelled {
+            (to.0 - before.0, to.1 - before.1)
+        } else {
+            let stray = (to.0 - press.from.0, to.1 - press.from.1);
+            if stray.0.abs().max(stray.1.abs()) <= CLICK_REACH {
+                return Gesture::None;
+            }
+            press.travelled = true;
+            stray
+        };
+        Gesture::Dragged { drag: press.drag, by, to }
+    }
+
+    /// A button goes up.
+    pub(crate) fn release(&mut self, button: Button) -> Gesture {
+        match self.press {
+            Some(press) if press.button == button => {
+                self.press = None;
+                match press {
+                    Press { travelled: true, drag, .. } => Gesture::Ended(drag),
+                    Press { button: Button::Left, from: (x, y), .. } => Gesture::Click(x, y),
+                    Press { .. } => Gesture::None,
+                }
+            }
+            _ => Gesture::None,
+        }
+    }
+
+    /// Forgets a press, as when the window loses the pointer.
+    pub(crate) fn cancel(&mut self) -> Gesture {
+        match self.press.take() {
+            Some(Press { travelled: true, drag, .. }) => Gesture::Ended(drag),
+            _ => Gesture::None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pressed(button: Button, shift: bool, mode: Mode) -> Pointer {
+        let mut pointer = Pointer { at: (10.0, 10.0), press: None };
+        pointer.press(button, shift, mode, None);
+        pointer
+    }
+
+    #[test]
+    fn a_press_that_stays_put_is_a_click() {
+        let mut pointer = pressed(Button::Left, false, Mode::Orbit);
+        assert_eq!(pointer.moved((12.0, 9.0)), Gesture::None);
+        assert_eq!(pointer.release(Button::Left), Gesture::Click(10.0, 10.0));
+    }
+
+    #[test]
+    fn a_drag_carries_every_pixel_once() {
+        let mut pointer = pressed(Button::Left, false, Mode::Turntable);
+        let mut total = 0.0;
+        for x in [11.0, 12.0, 15.0, 19.0, 18.0] {
+            if let Gesture::Dragged { drag, by, .. } = pointer.moved((x, 10.0)) {
+                assert_eq!(drag, Drag::Turn);
+                total += by.0;
+            }
+        }
+        assert_eq!(total, 8.0);
+        assert_eq!(pointer.release(Button::Left), Gesture::Ended(Drag::Turn));
+    }
+
+    #[test]
+    fn shift_and_the_right_button_pan() {
+        for mut pointer in
+            [pressed(Button::Left, true, Mode::Orbit), pressed(Button::Other, false, Mode::Turntable)]
+        {
+            assert!(matches!(pointer.moved((50.0, 10.0)), Gesture::Dragged { drag: Drag::Pan, .. }));
+        }
+    }
+
+    #[test]
+    fn a_right_click_selects_nothing() {
+        assert_eq!(pressed(Button::Other, false, Mode::Orbit).release(Button::Other), Gesture::None);
+    }
+
+    #[test]
+    fn letting_go_of_another_button_ends_nothing() {
+        let mut pointer = pressed(Button::Left, false, Mode::Orbit);
+        assert_eq!(pointer.release(Button::Other), Gesture::None);
+        assert!(pointer.is_pressed());
+    }
+
+    #[test]
+    fn losing_the_pointer_ends_a_drag() {
+        let mut pointer = pressed(Button::Left, false, Mode::Orbit);
+        pointer.moved((40.0, 40.0));
+        assert_eq!(pointer.cancel(), Gesture::Ended(Drag::Orbit));
+        assert!(!pointer.is_pressed());
+    }
+}

@@ -1,0 +1,175 @@
+//! Which key does what? One list: the window looks commands up in it, and the help page prints it.
+
+use winit::keyboard::{Key, NamedKey};
+
+/// What a key asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Command {
+    /// Show or hide the list of keys.
+    Help,
+    /// Show or hide the panel.
+    Panel,
+    /// Move the camera so that everything is seen.
+    FrameAll,
+    /// Move the camera so that the selected thing is seen.
+    FrameSelected,
+    /// Go back to the scene's camera.
+    ResetCamera,
+    /// Look through the scene's next camera.
+    NextCamera,
+    /// Move the camera in its own plane: steps to the right and up.
+    Step(i8, i8),
+    /// Change between orbiting the camera and turning the objects.
+    ToggleMode,
+    /// Show or hide all overlays.
+    ToggleOverlays,
+    /// Select nothing, close what is open.
+    Escape,
+    /// Take the selected thing out of the scene.
+    Delete,
+    /// Take the last edit back.
+    Undo,
+    /// Make the last edit that was taken back again.
+    Redo,
+    /// Write the scene.
+    Save,
+    /// Write the picture.
+    Picture,
+    /// Close the window.
+    Quit,
+}
+
+/// How a key is named: by what it types or by its cap.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Cap {
+    Letter(&'static str),
+    Named(NamedKey),
+}
+
+/// One line of the list.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Binding {
+    cap: Cap,
+    ctrl: bool,
+    shift: bool,
+    /// How the key is written in the help.
+    pub(crate) label: &'static str,
+    /// What it does, in a few words.
+    pub(crate) doc: &'static str,
+    /// What it asks for.
+    pub(crate) command: Command,
+}
+
+const fn named(key: NamedKey, label: &'static str, command: Command, doc: &'static str) -> Binding {
+    Binding { cap: Cap::Named(key), ctrl: false, shift: false, label, doc, command }
+}
+
+const fn letter(key: &'static str, label: &'static str, command: Command, doc: &'static str) -> Binding {
+    Binding { cap: Cap::Letter(key), ctrl: false, shift: false, label, doc, command }
+}
+
+const fn ctrl(key: &'static str, label: &'static str, command: Command, doc: &'static str) -> Binding {
+    Binding { cap: Cap::Letter(key), ctrl: true, shift: false, label, doc, command }
+}
+
+const fn ctrl_shift(key: &'static str, label: &'static str, command: Command, doc: &'static str) -> Binding {
+    Binding { cap: Cap::Letter(key), ctrl: true, shift: true, label, doc, command }
+}
+
+/// Every key there is.
+pub(crate) const BINDINGS: &[Binding] = &[
+    named(NamedKey::F1, "F1", Command::Help, "show or hide this list"),
+    named(NamedKey::Tab, "Tab", Command::Panel, "show or hide the panel"),
+    named(NamedKey::Home, "Home", Command::FrameAll, "see everything"),
+    letter("f", "F", Command::FrameSelected, "see the selected thing"),
+    letter("r", "R", Command::ResetCamera, "back to the scene's camera"),
+    letter("c", "C", Command::NextCamera, "look through the next camera"),
+    named(NamedKey::ArrowLeft, "Left", Command::Step(-1, 0), "move the camera left"),
+    named(NamedKey::ArrowRight, "Right", Command::Step(1, 0), "move the camera right"),
+    named(NamedKey::ArrowUp, "Up", Command::Step(0, 1), "move the camera up"),
+    named(NamedKey::ArrowDown, "Down", Command::Step(0, -1), "move the camera down"),
+    letter("t", "T", Command::ToggleMode, "orbit the camera, or turn the objects"),
+    letter("o", "O", Command::ToggleOverlays, "show or hide all overlays"),
+    letter("p", "P", Command::Picture, "write the picture as PNG"),
+    named(NamedKey::Delete, "Delete", Command::Delete, "take the selected thing out"),
+    named(NamedKey::Escape, "Esc", Command::Escape, "select nothing, close what is open"),
+    ctrl("s", "Ctrl+S", Command::Save, "save the scene"),
+    ctrl("z", "Ctrl+Z", Command::Undo, "undo"),
+    ctrl_shift("z", "Ctrl+Shift+Z", Command::Redo, "redo"),
+    ctrl("q", "Ctrl+Q", Command::Quit, "close the window"),
+];
+
+/// What the mouse does, for the help: what is done with it, and what follows.
+pub(crate) const MOUSE: &[(&str, &str)] = &[
+    ("Click", "select what is under the pointer"),
+    ("Left drag", "orbit the camera; in turntable mode turn the objects"),
+    ("Right or Shift drag", "pan"),
+    ("Left drag on a ring", "change a spot light's cone angle"),
+    ("Wheel", "zoom to the pointer; in turntable mode move along the view"),
+    ("Ctrl wheel", "the other of the two"),
+    ("Drop a file", "open a scene"),
+];
+
+/// What that key asks for under those modifiers. Letters are compared without case.
+pub(crate) fn command(key: &Key, ctrl: bool, shift: bool) -> Option<Command> {
+    let fits = |binding: &&Binding| {
+        let same = match (binding.cap, key) {
+            (Cap::Named(a), Key::Named(b)) => a == *b,
+            (Cap::Letter(a), Key::Character(b)) => b.to_lowercase() == a,
+            _ => false,
+        };
+        same && binding.ctrl == ctrl && (binding.shift == shift || !binding.ctrl)
+    };
+    BINDINGS.iter().find(fits).map(|b| b.command)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn typed(text: &str) -> Key {
+        Key::Character(text.into())
+    }
+
+    #[test]
+    fn undo_and_redo_differ_by_shift() {
+        assert_eq!(command(&typed("z"), true, false), Some(Command::Undo));
+        assert_eq!(command(&typed("Z"), true, true), Some(Command::Redo));
+    }
+
+    #[test]
+    fn a_plain_letter_is_not_its_ctrl_command() {
+        assert_eq!(command(&typed("s"), false, false), None);
+        assert_eq!(command(&typed("p"), false, false), Some(Command::Picture));
+        assert_eq!(command(&typed("p"), true, false), None);
+    }
+
+    #[test]
+    fn no_two_lines_ask_for_the_same_key() {
+        for (i, a) in BINDINGS.iter().enumerate() {
+            for b in &BINDINGS[i + 1..] {
+                assert!(
+                    a.cap != b.cap || a.ctrl != b.ctrl || a.shift != b.shift,
+                    "{} is bound twice",
+                    a.label
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn every_line_is_found_by_its_own_key() {
+        for binding in BINDINGS {
+            let key = match binding.cap {
+                Cap::Letter(text) => typed(text),
+                Cap::Named(name) => Key::Named(name),
+            };
+            assert_eq!(
+                command(&key, binding.ctrl, binding.shift),
+                Some(binding.command),
+                "{}",
+                binding.label
+            );
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! How does a scene come in without stopping the window? Read and extracted on a thread of its own.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use catoptra_tracer::{Pool, Snapshot};
+
+use crate::document::Document;
+
+/// A scene that is ready to be shown.
+pub(crate) struct Opened {
+    /// The scene.
+    pub(crate) document: Document,
+    /// The scene for the tracer.
+    pub(crate) snapshot: Arc<Snapshot>,
+}
+
+impl Opened {
+    fn new(document: Document, pool: &Pool) -> Self {
+        let snapshot = Arc::new(pool.run(|| Snapshot::extract(document.scene())));
+        Self { document, snapshot }
+    }
+}
+
+/// What came of opening a file.
+pub(crate) struct Outcome {
+    /// Which of the files asked for this is; only the last one asked for counts.
+    pub(crate) ticket: u64,
+    /// The file.
+    pub(crate) path: PathBuf,
+    /// The scene, or a report of what is wrong.
+    pub(crate) result: Result<Box<Opened>, String>,
+}
+
+/// The built-in scene.
+///
+/// # Errors
+/// A report of what is wrong in its text.
+pub(crate) fn welcome(pool: &Pool) -> Result<Opened, String> {
+    Document::welcome().map(|document| Opened::new(document, pool))
+}
+
+/// Reads a file on a thread of its own, with the pool's help, and hands the outcome to `done` there.
+pub(crate) fn open(path: PathBuf, ticket: u64, pool: Arc<Pool>, done: impl FnOnce(Outcome) + Send + 'static) {
+    std::thread::spawn(move || {
+        let result = Document::open(&path).map(|document| Box::new(Opened::new(document, &pool)));
+        done(Outcome { ticket, path, result });
+    });
+}

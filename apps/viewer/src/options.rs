@@ -1,0 +1,52 @@
+//! How is the viewer started? Its command line.
+
+use std::path::PathBuf;
+
+use clap::Parser;
+
+/// The smallest and largest window asked for, in pixels each way.
+const SIZES: std::ops::RangeInclusive<u32> = 1..=16384;
+
+/// Shows a ray-traced scene in a window, to be turned, lit and changed. F1 in the window lists the keys.
+#[derive(Debug, Clone, Parser)]
+#[command(name = "catoptra-viewer", version)]
+pub(crate) struct Options {
+    /// Scene file to open; without one a built-in scene is shown.
+    pub(crate) file: Option<PathBuf>,
+    /// Threads that trace; 0 takes as many as the machine has.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) threads: usize,
+    /// Size of the window's content in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
+    pub(crate) size: (u32, u32),
+    /// Write a line on stderr for each finished frame: milliseconds, rays, size.
+    #[arg(long)]
+    pub(crate) log_frames: bool,
+}
+
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    match sides {
+        Some((w, h)) if SIZES.contains(&w) && SIZES.contains(&h) => Ok((w, h)),
+        _ => Err(format!("a size is WIDTHxHEIGHT with sides of {} to {}", SIZES.start(), SIZES.end())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_size_has_two_sides() {
+        assert_eq!(size("1280x720"), Ok((1280, 720)));
+        for wrong in ["", "x", "5", "0x5", "5x", "-3x4", "99999x2", "4x4x4"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory as _;
+        Options::command().debug_assert();
+    }
+}

@@ -1,0 +1,74 @@
+//! What floats over the picture? The status line, the list of keys, and the report of an error.
+
+use egui::{Align2, Area, Frame, Id, Margin, Order, Rect, RichText, Ui, Window};
+
+use super::theme;
+use crate::keys::{BINDINGS, MOUSE};
+use crate::viewer::Viewer;
+
+/// The line at the lower left of the picture: figures, and what there is to tell.
+pub(super) fn status(ui: &Ui, viewer: &Viewer, figures: &str, room: Rect) {
+    let frame = Frame::new().fill(theme::FLOATING).corner_radius(4).inner_margin(Margin::symmetric(8, 3));
+    Area::new(Id::new("status"))
+        .order(Order::Middle)
+        .interactable(false)
+        .pivot(Align2::LEFT_BOTTOM)
+        .fixed_pos(room.left_bottom() + egui::vec2(8.0, -8.0))
+        .constrain_to(room)
+        .show(ui.ctx(), |ui| {
+            frame.show(ui, |ui| {
+                ui.set_max_width((room.width() - 32.0).max(40.0));
+                if let Some((notice, _)) = &viewer.notice {
+                    ui.add(egui::Label::new(RichText::new(notice).color(theme::ACCENT)).wrap());
+                }
+                ui.add(egui::Label::new(figures).truncate());
+            });
+        });
+}
+
+/// All keys.
+pub(super) fn help(ui: &Ui, viewer: &mut Viewer) {
+    let mut open = viewer.shown.help;
+    Window::new("Keys and mouse")
+        .open(&mut open)
+        .anchor(Align2::CENTER_CENTER, egui::Vec2::ZERO)
+        .resizable(false)
+        .collapsible(false)
+        .vscroll(true)
+        .show(ui.ctx(), |ui| {
+            egui::Grid::new("keys").num_columns(2).spacing([18.0, 3.0]).show(ui, |ui| {
+                let keys = BINDINGS.iter().map(|binding| (binding.label, binding.doc));
+                for (what, does) in MOUSE.iter().copied().chain(keys) {
+                    ui.strong(what);
+                    ui.label(does);
+                    ui.end_row();
+                }
+            });
+        });
+    viewer.shown.help = open;
+}
+
+/// What is wrong with a file.
+pub(super) fn error(ui: &Ui, viewer: &mut Viewer, room: Rect) {
+    let Some(report) = &viewer.error else { return };
+    let mut open = true;
+    let mut closed = false;
+    Window::new(RichText::new("This scene cannot be opened").color(theme::ACCENT))
+        .open(&mut open)
+        .default_pos(room.left_top() + egui::vec2(24.0, 24.0))
+        .default_width((room.width() - 80.0).clamp(120.0, 760.0))
+        .collapsible(false)
+        .show(ui.ctx(), |ui| {
+            egui::ScrollArea::both().max_height((room.height() - 140.0).max(60.0)).show(ui, |ui| {
+                ui.add(egui::Label::new(RichText::new(report).monospace()).extend());
+            });
+            ui.add_space(4.0);
+            ui.horizontal(|ui| {
+                closed = ui.button("Close").clicked();
+                ui.weak("the last scene stays open");
+            });
+        });
+    if !open || closed {
+        viewer.error = None;
+    }
+}

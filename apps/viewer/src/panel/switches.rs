@@ -1,0 +1,87 @@
+//! How is the scene looked at? Mode, backend, display transform, overlays, and the scene's own settings.
+
+use catoptra_core::scene::{Edit, Settings};
+use catoptra_tracer::{Display, backends};
+use egui::{ComboBox, Ui};
+
+use super::fields::{self, step_key};
+use crate::input::Mode;
+use crate::viewer::Viewer;
+
+/// Shows the switches.
+pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
+    egui::CollapsingHeader::new("View").default_open(true).show(ui, |ui| {
+        mode(ui, viewer);
+        egui::Grid::new("view").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
+            ui.label("display");
+            display(ui, viewer);
+            ui.end_row();
+            ui.label("backend");
+            backend(ui, viewer);
+            ui.end_row();
+        });
+        overlays(ui, viewer);
+    });
+    egui::CollapsingHeader::new("Scene").default_open(true).show(ui, |ui| settings(ui, viewer));
+}
+
+fn mode(ui: &mut Ui, viewer: &mut Viewer) {
+    ui.horizontal(|ui| {
+        for mode in Mode::ALL {
+            ui.selectable_value(&mut viewer.settings.mode, mode, mode.name());
+        }
+    });
+}
+
+fn display(ui: &mut Ui, viewer: &mut Viewer) {
+    let before = viewer.settings.display;
+    ComboBox::from_id_salt("display").selected_text(before.name()).show_ui(ui, |ui| {
+        for display in Display::ALL {
+            ui.selectable_value(&mut viewer.settings.display, *display, display.name());
+        }
+    });
+    viewer.stale.overlay |= viewer.settings.display != before;
+}
+
+fn backend(ui: &mut Ui, viewer: &mut Viewer) {
+    let now = viewer.settings.backend.name();
+    ComboBox::from_id_salt("backend").selected_text(now).show_ui(ui, |ui| {
+        for backend in backends() {
+            if ui.selectable_label(backend.name() == now, backend.name()).clicked() {
+                viewer.settings.backend = *backend;
+                viewer.stale.trace |= backend.name() != now;
+            }
+        }
+    });
+}
+
+fn overlays(ui: &mut Ui, viewer: &mut Viewer) {
+    let before = (viewer.settings.style, viewer.shown.overlays);
+    ui.checkbox(&mut viewer.shown.overlays, "overlays");
+    let style = &mut viewer.settings.style;
+    ui.add_enabled_ui(viewer.shown.overlays, |ui| {
+        egui::Grid::new("overlays").num_columns(3).spacing([10.0, 2.0]).show(ui, |ui| {
+            ui.checkbox(&mut style.grid, "grid");
+            ui.checkbox(&mut style.axes, "axes");
+            ui.checkbox(&mut style.cones, "cones");
+            ui.end_row();
+            ui.checkbox(&mut style.lights, "lights");
+            ui.checkbox(&mut style.cameras, "cameras");
+            ui.checkbox(&mut style.selection, "bounds");
+            ui.end_row();
+        });
+    });
+    viewer.stale.overlay |= (viewer.settings.style, viewer.shown.overlays) != before;
+}
+
+/// The settings that are saved with the scene: background and deepest reflection.
+fn settings(ui: &mut Ui, viewer: &mut Viewer) {
+    let now = viewer.document.scene().settings().clone();
+    let key = |field| step_key("settings", 0, field);
+    if let Some((field, value)) = fields::show(ui, key(""), Settings::KIND.fields, &now.values()) {
+        match now.with(field, value) {
+            Ok(settings) => viewer.edit_on(Edit::Settings(settings), key(field)),
+            Err(refusal) => viewer.notify(refusal.to_string()),
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! What is drawn when? Each part only when it changed: egui's passes, the picture when a frame was finished, the
+//! overlays when the picture, the scene or the selection changed.
+
+use std::time::{Duration, Instant};
+
+use catoptra_core::scene::EntityId;
+use catoptra_raster::{DepthField, Overlay};
+
+use crate::app::App;
+use crate::canvas::Region;
+use crate::screen::Screen;
+use crate::status::{FrameFigures, REST};
+use crate::viewer::Viewer;
+use crate::{actions, outline, panel};
+
+/// The status line is written anew this often while frames come in.
+const STATUS_EVERY: Duration = Duration::from_millis(200);
+
+/// How long a notice stands.
+const NOTICE: Duration = Duration::from_secs(8);
+
+impl App {
+    /// Brings the window up to date.
+    ///
+    /// # Errors
+    /// When the window cannot be drawn on.
+    pub(crate) fn redraw(&mut self) -> Result<(), String> {
+        let Some(mut screen) = self.screen.take() else { return Ok(()) };
+        let outcome = self.redraw_on(&mut screen);
+        self.screen = Some(screen);
+        outcome
+    }
+
+    fn redraw_on(&mut self, screen: &mut Screen) -> Result<(), String> {
+        let Some((size, resized)) = screen.fit()? else { return Ok(()) };
+        let now = Instant::now();
+        let new_frame = self.take_frame(now);
+        self.viewer.settings.style.scale = screen.pixels_per_point();
+        let mut changed = if resized || self.exposed { Region::whole(size) } else { Region::NOTHING };
+        self.exposed = false;
+        if resized || self.viewer.stale.panel || self.is_due(screen, now) {
+            changed = changed.union(self.show_egui(screen, now));
+        }
+        self.settle();
+        if new_frame || self.viewer.stale.overlay || screen.canvas.size() != self.viewer.size {
+            self.compose(screen);
+            changed = changed.union(Region::whole(self.viewer.size));
+        }
+        let title = self.title();
+        if self.shown_title != title {
+            screen.window.set_title(&title);
+            self.shown_title = title;
+        }
+        screen.present(changed)
+    }
+
+    /// Whether egui asked for this moment, or the status line is out of date.
+    fn is_due(&self, screen: &Screen, now: Instant) -> bool {
+        [screen.due, self.status_due].into_iter().flatten().any(|due| due <= now)
+    }
+
+    fn show_egui(&mut self, screen: &mut Screen, now: Instant) -> Region {
+        if self.viewer.notice.as_ref().is_some_and(|(_, since)| now.duration_since(*since) > NOTICE) {
+            self.viewer.notice = None;
+        }
+        self.viewer.stale.panel = false;
+        let line = self.status_line(now);
+        let input = screen.input.take_egui_input(&screen.window);
+        let mut room = egui::Rect::ZERO;
+        let output = screen.egui.run_ui(input, |ui| room = panel::show(ui, &mut self.viewer, &line));
+        let scale = screen.pixels_per_point();
+        let pixels = |points: f32| (points * scale).round().max(0.0) as u32;
+        let size = (pixels(room.width()), pixels(room.height()));
+        if size != self.viewer.size {
+            self.viewer.size = size;
+            self.viewer.stale.trace = true;
+        }
+        screen.take(output)
+    }
+
+    fn status_line(&mut self, now: Instant) -> String {
+        let moving = self.last_frame.is_some_and(|last| now.duration_since(last) < REST);
+        let notice_ends = self.viewer.notice.as_ref().map(|(_, since)| *since + NOTICE);
+        self.status_due = if moving { Some(now + STATUS_EVERY) } else { notice_ends };
+        let line = self.meter.line(self.pool.threads(), now);
+        format!("{line}  ·  {}  ·  {}", self.viewer.settings.backend.name(), self.viewer.settings.mode.name())
+    }
+
+    /// Takes the newest frame from the worker; `false` if there is none.
+    fn take_frame(&mut self, now: Instant) -> bool {
+        let Some(finished) = self.worker.take() else { return false };
+        let size = finished.frame.film.size();
+        let figures = FrameFigures {
+            took: finished.took,
+            rays: finished.frame.rays,
+            size: (size.width, size.height),
+            divisor: finished.divisor,
+        };
+        if self.options.log_frames {
+            eprintln!("{}", figures.log_line());
+        }
+        self.meter.record(figures, now);
+        self.last_frame = Some(now);
+        if self.status_due.is_none_or(|due| due > now + STATUS_EVERY) {
+            self.status_due = Some(now + STATUS_EVERY);
+        }
+        if let Some(old) = self.shown.replace(finished) {
+            self.worker.give_back(old.frame);
+        }
+        self.write_picture_if_wanted();
+        true
+    }
+
+    /// Writes the picture once it is the one that was asked for, in full.
+    pub(crate) fn write_picture_if_wanted(&mut self) {
+        if !self.viewer.picture_wanted {
+            return;
+        }
+        if let Some(shown) = &self.shown
+            && shown.divisor == 1
+            && shown.generation == self.asked
+            && !self.viewer.stale.trace
+        {
+            actions::write_picture(&mut self.viewer, &shown.frame);
+        }
+    }
+
+    /// Lays out the newest frame and draws outline and overlays over it.
+    fn compose(&mut self, screen: &mut Screen) {
+        self.viewer.stale.overlay = false;
+        let size = self.viewer.size;
+        let Some(shown) = &mut self.shown else {
+            screen.canvas.lay(&Default::default(), 1, size);
+            return;
+        };
+        if shown.frame.display != self.viewer.settings.display {
+            shown.frame.encode(self.viewer.settings.display, &self.pool);
+        }
+        let frame = &shown.frame;
+        screen.canvas.lay(&frame.pixels, shown.divisor, size);
+        let selected: Vec<EntityId> = self.viewer.selection.into_iter().collect();
+        let picture = screen.canvas.picture_mut();
+        if let Some(id) = self.viewer.selection.filter(|_| frame.size == size) {
+            let scene = self.viewer.document.scene();
+            let width = self.viewer.settings.style.scale.round().max(1.0) as u32 * 2;
+            outline::draw(&frame.film, shown.divisor, width, |s| s == id || scene.lies_in(s, id), picture);
+        }
+        let overlay = self.viewer.overlay(&frame.camera, &selected);
+        if is_any_shown(&self.viewer) {
+            let depths = if frame.size == size { frame.film.depths() } else { Vec::new() };
+            let film = frame.film.size();
+            let depth = DepthField { width: film.width, height: film.height, metres: &depths };
+            Overlay { depth: Some(depth), ..overlay }.draw(&mut self.layer);
+            self.layer.blend_over(&mut picture.data);
+        }
+    }
+
+    fn title(&self) -> String {
+        let saved = if self.viewer.document.is_saved() { "" } else { " *" };
+        format!("{}{saved} - catoptra", self.viewer.document.name())
+    }
+}
+
+/// Whether any overlay is switched on that could show something.
+fn is_any_shown(viewer: &Viewer) -> bool {
+    let style = viewer.settings.style;
+    let scene = style.grid || style.axes || style.lights || style.cones || style.cameras;
+    viewer.shown.overlays && (scene || (style.selection && viewer.selection.is_some()))
+}

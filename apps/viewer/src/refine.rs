@@ -1,0 +1,117 @@
+//! How coarse must a frame be to keep up with the hand, and by which steps does it become fine? Pure arithmetic:
+//! the seconds that recent pixels took decide the first divisor, and each later step halves it down to 1.
+
+/// What tracing one frame may take while something moves, in seconds: a 60 Hz frame less the time to show it.
+pub(crate) const BUDGET: f64 = 0.0115;
+
+/// The divisors that a first frame may have: each pixel of the film stands for a square of that many pixels.
+const DIVISORS: [u32; 9] = [1, 2, 3, 4, 6, 8, 12, 16, 24];
+
+/// The divisor of the very first frame, when nothing has been measured.
+const UNMEASURED: u32 = 8;
+
+/// Below this number of pixels a measurement says more about starting threads than about tracing.
+const TELLING_PIXELS: u64 = 1000;
+
+/// How fast pixels have lately been traced.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Pace {
+    seconds_per_pixel: Option<f64>,
+}
+
+impl Pace {
+    /// Takes in a finished frame of that many pixels; the newest frame weighs as much as all before it.
+    pub(crate) fn record(&mut self, pixels: u64, seconds: f64) {
+        if pixels < TELLING_PIXELS || !(seconds > 0.0) {
+            return;
+        }
+        let new = seconds / pixels as f64;
+        self.seconds_per_pixel = Some(self.seconds_per_pixel.map_or(new, |old| 0.5 * (old + new)));
+    }
+
+    /// Notes that a first frame did not end in time: pixels are dearer than was thought.
+    pub(crate) fn overran(&mut self) {
+        self.seconds_per_pixel = self.seconds_per_pixel.map(|s| 2.0 * s);
+    }
+
+    /// The divisors for a picture of `width` x `height`, coarsest first, always ending in 1.
+    pub(crate) fn steps(&self, width: u32, height: u32) -> Vec<u32> {
+        let mut divisor = self.first(width, height);
+        let mut steps = vec![divisor];
+        while divisor > 1 {
+            divisor /= 2;
+            steps.push(divisor);
+        }
+        steps
+    }
+
+    fn first(&self, width: u32, height: u32) -> u32 {
+        let Some(cost) = self.seconds_per_pixel else { return UNMEASURED };
+        let fits = |d: &&u32| pixels(reduced(width, height, **d)) as f64 * cost <= BUDGET;
+        DIVISORS.iter().find(fits).copied().unwrap_or(DIVISORS[DIVISORS.len() - 1])
+    }
+}
+
+/// The size of a film whose pixels each stand for `divisor` x `divisor` pixels; never empty unless the picture is.
+pub(crate) fn reduced(width: u32, height: u32, divisor: u32) -> (u32, u32) {
+    (width.div_ceil(divisor), height.div_ceil(divisor))
+}
+
+fn pixels((width, height): (u32, u32)) -> u64 {
+    u64::from(width) * u64::from(height)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fast_scene_is_traced_in_full_at_once() {
+        let mut pace = Pace::default();
+        pace.record(1_000_000, 0.005);
+        assert_eq!(pace.steps(1280, 720), [1]);
+    }
+
+    #[test]
+    fn a_slow_scene_starts_coarse_and_ends_in_full() {
+        let mut pace = Pace::default();
+        pace.record(1280 * 720, 0.4);
+        assert_eq!(pace.steps(1280, 720), [6, 3, 1]);
+    }
+
+    #[test]
+    fn the_first_frame_is_coarse_until_something_is_measured() {
+        assert_eq!(Pace::default().steps(1280, 720), [8, 4, 2, 1]);
+    }
+
+    #[test]
+    fn the_coarsest_step_is_taken_when_nothing_fits() {
+        let mut pace = Pace::default();
+        pace.record(10_000, 100.0);
+        assert_eq!(pace.steps(1280, 720)[0], 24);
+    }
+
+    #[test]
+    fn an_overrun_makes_the_next_frame_coarser() {
+        let mut pace = Pace::default();
+        pace.record(1_000_000, 0.012);
+        let before = pace.steps(1000, 1000)[0];
+        for _ in 0..3 {
+            pace.overran();
+        }
+        assert!(pace.steps(1000, 1000)[0] > before);
+    }
+
+    #[test]
+    fn a_handful_of_pixels_tells_nothing() {
+        let mut pace = Pace::default();
+        pace.record(10, 1.0);
+        assert_eq!(pace.steps(100, 100)[0], UNMEASURED);
+    }
+
+    #[test]
+    fn a_reduced_film_covers_the_whole_picture() {
+        assert_eq!(reduced(1281, 719, 8), (161, 90));
+        assert_eq!(reduced(1, 1, 24), (1, 1));
+    }
+}

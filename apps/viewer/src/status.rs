@@ -1,0 +1,143 @@
+//! How fast is it going? Figures of the last frames, as a line of text.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+/// How far back frames are counted.
+const WINDOW: Duration = Duration::from_secs(1);
+
+/// After this long without a frame the picture is at rest.
+pub(crate) const REST: Duration = Duration::from_millis(400);
+
+/// What is told of one finished frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FrameFigures {
+    /// How long tracing and encoding took.
+    pub(crate) took: Duration,
+    /// Rays traced.
+    pub(crate) rays: u64,
+    /// Width and height of the film in pixels.
+    pub(crate) size: (u32, u32),
+    /// How many pixels each way one of them stands for.
+    pub(crate) divisor: u32,
+}
+
+impl FrameFigures {
+    /// The line for a log: milliseconds, rays, size, divisor.
+    pub(crate) fn log_line(&self) -> String {
+        format!(
+            "frame {:.2} ms {} rays {}x{} 1/{}",
+            milliseconds(self.took),
+            self.rays,
+            self.size.0,
+            self.size.1,
+            self.divisor
+        )
+    }
+}
+
+/// The last frames.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Meter {
+    ends: VecDeque<Instant>,
+    last: Option<FrameFigures>,
+}
+
+impl Meter {
+    /// Takes in a frame finished at `now`.
+    pub(crate) fn record(&mut self, figures: FrameFigures, now: Instant) {
+        self.last = Some(figures);
+        self.ends.push_back(now);
+        self.forget(now);
+    }
+
+    /// The line to show at `now`: frame time, frames and rays per second, size, threads.
+    pub(crate) fn line(&mut self, threads: usize, now: Instant) -> String {
+        self.forget(now);
+        let Some(last) = self.last else { return "tracing the first frame".to_owned() };
+        let seconds = last.took.as_secs_f64().max(1e-9);
+        format!(
+            "{:.1} ms  ·  {}  ·  {}  ·  {}x{}{}  ·  {threads} {}",
+            milliseconds(last.took),
+            self.rate(now),
+            ray_rate(last.rays as f64 / seconds),
+            last.size.0,
+            last.size.1,
+            if last.divisor > 1 { format!(" (1/{})", last.divisor) } else { String::new() },
+            if threads == 1 { "thread" } else { "threads" },
+        )
+    }
+
+    /// Frames per second, or that there are none to count.
+    fn rate(&self, now: Instant) -> String {
+        match (self.ends.front(), self.ends.back()) {
+            (Some(first), Some(last)) if now.duration_since(*last) < REST && last > first => {
+                let seconds = last.duration_since(*first).as_secs_f64();
+                format!("{:.0} fps", (self.ends.len() - 1) as f64 / seconds)
+            }
+            _ => "at rest".to_owned(),
+        }
+    }
+
+    fn forget(&mut self, now: Instant) {
+        while self.ends.front().is_some_and(|end| now.duration_since(*end) > WINDOW) {
+            self.ends.pop_front();
+        }
+    }
+}
+
+fn milliseconds(duration: Duration) -> f64 {
+    1e3 * duration.as_secs_f64()
+}
+
+fn ray_rate(rays_per_second: f64) -> String {
+    if rays_per_second >= 1e6 {
+        format!("{:.1} Mrays/s", rays_per_second / 1e6)
+    } else {
+        format!("{:.0} krays/s", rays_per_second / 1e3)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRAME: FrameFigures =
+        FrameFigures { took: Duration::from_millis(10), rays: 500_000, size: (640, 360), divisor: 2 };
+
+    #[test]
+    fn the_line_tells_time_rate_rays_size_and_threads() {
+        let mut meter = Meter::default();
+        let start = Instant::now();
+        for i in 0..=20 {
+            meter.record(FRAME, start + Duration::from_millis(20 * i));
+        }
+        let line = meter.line(2, start + Duration::from_millis(400));
+        assert_eq!(line, "10.0 ms  ·  50 fps  ·  50.0 Mrays/s  ·  640x360 (1/2)  ·  2 threads");
+    }
+
+    #[test]
+    fn without_new_frames_it_is_at_rest() {
+        let mut meter = Meter::default();
+        let start = Instant::now();
+        meter.record(FRAME, start);
+        meter.record(FRAME, start + Duration::from_millis(10));
+        assert!(meter.line(1, start + Duration::from_secs(5)).contains("at rest"));
+    }
+
+    #[test]
+    fn only_the_last_second_counts() {
+        let mut meter = Meter::default();
+        let start = Instant::now();
+        for i in 0..100 {
+            meter.record(FRAME, start + Duration::from_millis(100 * i));
+        }
+        assert!(meter.ends.len() <= 11);
+        assert!(meter.line(1, start + Duration::from_millis(9900)).contains("10 fps"));
+    }
+
+    #[test]
+    fn a_log_line_is_one_line() {
+        assert_eq!(FRAME.log_line(), "frame 10.00 ms 500000 rays 640x360 1/2");
+    }
+}

@@ -1,0 +1,93 @@
+//! How does a request become a frame? The tracer fills a film, the film is encoded for display.
+
+use std::sync::Arc;
+
+use catoptra_core::Camera;
+use catoptra_tracer::{Backend, Control, Display, Film, Pool, Size, Snapshot, View, render};
+
+use crate::canvas::Pixels;
+use crate::frame_worker::Tracing;
+use crate::refine::reduced;
+
+/// All that a picture depends on.
+#[derive(Clone)]
+pub(crate) struct Request {
+    /// The scene.
+    pub(crate) snapshot: Arc<Snapshot>,
+    /// Who traces.
+    pub(crate) backend: &'static dyn Backend,
+    /// From where.
+    pub(crate) camera: Camera,
+    /// Width and height in pixels when traced in full.
+    pub(crate) size: (u32, u32),
+    /// How many reflections after one another, at most.
+    pub(crate) max_depth: u32,
+    /// How radiance becomes colour.
+    pub(crate) display: Display,
+}
+
+/// A traced picture.
+pub(crate) struct Frame {
+    /// What was traced.
+    pub(crate) film: Film,
+    /// The film for display.
+    pub(crate) pixels: Pixels,
+    /// From where it was seen.
+    pub(crate) camera: Camera,
+    /// Width and height in pixels that the request asked for.
+    pub(crate) size: (u32, u32),
+    /// How radiance became colour.
+    pub(crate) display: Display,
+    /// How many rays it took.
+    pub(crate) rays: u64,
+}
+
+impl Frame {
+    /// Encodes the film anew.
+    pub(crate) fn encode(&mut self, display: Display, pool: &Pool) {
+        let Size { width, height } = self.film.size();
+        self.pixels.width = width;
+        self.pixels.height = height;
+        self.pixels.data.resize(width as usize * height as usize, 0);
+        display.encode(&self.film, pool, &mut self.pixels.data);
+        self.display = display;
+    }
+}
+
+/// Traces on a pool of threads.
+pub(crate) struct PoolTracing {
+    /// The threads.
+    pub(crate) pool: Arc<Pool>,
+}
+
+impl Tracing for PoolTracing {
+    type Request = Request;
+    type Frame = Frame;
+
+    fn size(request: &Request) -> (u32, u32) {
+        request.size
+    }
+
+    fn trace(
+        &mut self,
+        request: &Request,
+        divisor: u32,
+        control: &Control,
+        spares: &mut Vec<Frame>,
+    ) -> Option<Frame> {
+        let (width, height) = reduced(request.size.0, request.size.1, divisor);
+        let size = Size { width, height };
+        let spare = spares.iter().position(|s| s.film.size() == size).map(|i| spares.swap_remove(i));
+        let (mut film, pixels) = match spare {
+            Some(spare) => (spare.film, spare.pixels),
+            None => (Film::new(size), Pixels::default()),
+        };
+        let view = View { max_depth: request.max_depth, ..View::new(request.camera.clone(), size) };
+        let stats = render(request.backend, &request.snapshot, &view, &mut film, &self.pool, control).ok()?;
+        let rays = stats.rays.total();
+        let camera = request.camera.clone();
+        let mut frame = Frame { film, pixels, camera, size: request.size, display: request.display, rays };
+        frame.encode(request.display, &self.pool);
+        Some(frame)
+    }
+}

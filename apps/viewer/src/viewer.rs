@@ -1,0 +1,246 @@
+//! What does the viewer know, and what follows from what a person does? The open scene, the view on it, what is
+//! selected and shown; no window, no drawing.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use catoptra_core::scene::{Edit, EntityId, Role, SceneError, Subject};
+use catoptra_core::{Aabb, Camera};
+use catoptra_raster::{Overlay, OverlayStyle};
+use catoptra_tracer::{Backend, Display, Size, Snapshot, View, backends};
+
+use crate::camera_control;
+use crate::document::Document;
+use crate::input::{Mode, Pointer};
+use crate::loader::Opened;
+use crate::tracing::Request;
+
+/// What has to be done again since something changed.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Stale {
+    /// The picture has to be traced.
+    pub(crate) trace: bool,
+    /// The overlays have to be drawn.
+    pub(crate) overlay: bool,
+    /// The panel has to be shown again.
+    pub(crate) panel: bool,
+}
+
+/// What is shown over and beside the picture.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shown {
+    /// The panel.
+    pub(crate) panel: bool,
+    /// The list of keys.
+    pub(crate) help: bool,
+    /// Any overlay at all.
+    pub(crate) overlays: bool,
+}
+
+/// How the scene is looked at.
+#[derive(Clone)]
+pub(crate) struct ViewSettings {
+    /// What a plain drag does.
+    pub(crate) mode: Mode,
+    /// Who traces.
+    pub(crate) backend: &'static dyn Backend,
+    /// How radiance becomes colour.
+    pub(crate) display: Display,
+    /// Which overlays are drawn.
+    pub(crate) style: OverlayStyle,
+}
+
+/// The viewer's state.
+pub(crate) struct Viewer {
+    pub(crate) document: Document,
+    pub(crate) snapshot: Arc<Snapshot>,
+    pub(crate) camera: Camera,
+    /// The scene's camera that was last looked through.
+    pub(crate) through: Option<EntityId>,
+    pub(crate) settings: ViewSettings,
+    pub(crate) selection: Option<EntityId>,
+    pub(crate) shown: Shown,
+    pub(crate) pointer: Pointer,
+    /// The size of the picture in pixels.
+    pub(crate) size: (u32, u32),
+    /// A line for the person, and since when it stands.
+    pub(crate) notice: Option<(String, Instant)>,
+    /// A report of what is wrong with a file.
+    pub(crate) error: Option<String>,
+    /// A picture is to be written as soon as it is finished.
+    pub(crate) picture_wanted: bool,
+    pub(crate) stale: Stale,
+    /// The revision of the scene that has been looked at for changes.
+    seen: u64,
+}
+
+impl Viewer {
+    /// A viewer of that scene.
+    pub(crate) fn new(opened: Opened) -> Self {
+        let style = OverlayStyle {
+            grid: false,
+            axes: false,
+            lights: true,
+            cones: true,
+            selection: true,
+            cameras: false,
+            scale: 1.0,
+        };
+        let seen = opened.document.scene().revision();
+        let mut viewer = Self {
+            document: opened.document,
+            snapshot: opened.snapshot,
+            camera: usual_camera(),
+            through: None,
+            settings: ViewSettings {
+                mode: Mode::Orbit,
+                backend: backends()[0],
+                display: Display::Srgb,
+                style,
+            },
+            selection: None,
+            shown: Shown { panel: true, help: false, overlays: true },
+            pointer: Pointer::default(),
+            size: (0, 0),
+            notice: None,
+            error: None,
+            picture_wanted: false,
+            stale: Stale { trace: true, overlay: true, panel: true },
+            seen,
+        };
+        viewer.adopt(viewer.document.scene().main_camera());
+        viewer
+    }
+
+    /// Shows another scene from its own camera; what is switched on stays.
+    pub(crate) fn show(&mut self, opened: Opened) {
+        self.document = opened.document;
+        self.snapshot = opened.snapshot;
+        self.seen = self.document.scene().revision();
+        self.selection = None;
+        self.error = None;
+        self.adopt(self.document.scene().main_camera());
+        self.stale = Stale { trace: true, overlay: true, panel: true };
+    }
+
+    /// Tells the person something.
+    pub(crate) fn notify(&mut self, text: impl Into<String>) {
+        self.notice = Some((text.into(), Instant::now()));
+        self.stale.panel = true;
+    }
+
+    /// Looks from elsewhere.
+    pub(crate) fn look(&mut self, camera: Camera) {
+        if camera != self.camera {
+            self.camera = camera;
+            self.stale.trace = true;
+        }
+    }
+
+    /// Looks through a camera of the scene; without one, at everything.
+    pub(crate) fn adopt(&mut self, id: Option<EntityId>) {
+        let scene = self.document.scene();
+        let seen = id.and_then(|id| scene.camera(id)?.placed(&scene.world_placement(id)?).ok());
+        self.through = seen.as_ref().and(id);
+        match seen {
+            Some(camera) => self.look(camera),
+            None => self.frame(self.everything()),
+        }
+        self.stale.overlay = true;
+    }
+
+    /// The box round all bounded shapes.
+    pub(crate) fn everything(&self) -> Aabb {
+        let scene = self.document.scene();
+        let boxes = scene.entities_of(Role::Shape).filter_map(|id| scene.world_bounds(id));
+        boxes.fold(Aabb::EMPTY, Aabb::union)
+    }
+
+    /// Moves the camera so that `bounds` is seen; an empty box changes nothing.
+    pub(crate) fn frame(&mut self, bounds: Aabb) {
+        let aspect = f64::from(self.size.0.max(1)) / f64::from(self.size.1.max(1));
+        self.look(camera_control::frame(&self.camera, bounds, aspect));
+    }
+
+    /// The tracer's view of the full picture.
+    pub(crate) fn view(&self) -> View {
+        View::of(self.document.scene(), self.camera.clone(), Size::new(self.size.0, self.size.1))
+    }
+
+    /// What the worker is to trace now.
+    pub(crate) fn request(&self) -> Request {
+        Request {
+            snapshot: Arc::clone(&self.snapshot),
+            backend: self.settings.backend,
+            camera: self.camera.clone(),
+            size: self.size,
+            max_depth: self.document.scene().settings().max_depth(),
+            display: self.settings.display,
+        }
+    }
+
+    /// The overlays as seen by `camera` on a picture of that size.
+    pub(crate) fn overlay<'a>(&'a self, camera: &'a Camera, selection: &'a [EntityId]) -> Overlay<'a> {
+        let style = if self.shown.overlays {
+            self.settings.style
+        } else {
+            OverlayStyle { scale: self.settings.style.scale, ..OverlayStyle::NONE }
+        };
+        let (width, height) = self.size;
+        Overlay { scene: self.document.scene(), camera, width, height, depth: None, selection, style }
+    }
+
+    /// Selects something or nothing.
+    pub(crate) fn select(&mut self, id: Option<EntityId>) {
+        if self.selection != id {
+            self.selection = id;
+            self.stale.overlay = true;
+            self.stale.panel = true;
+        }
+    }
+
+    /// Changes the scene as one step to undo; a refusal is told.
+    pub(crate) fn edit(&mut self, edit: Edit) {
+        let outcome = self.document.edit(edit);
+        self.after_edit(outcome);
+    }
+
+    /// Changes the scene as a part of the step with that key; a refusal is told.
+    pub(crate) fn edit_on(&mut self, edit: Edit, key: u64) {
+        let outcome = self.document.edit_on(edit, key);
+        self.after_edit(outcome);
+    }
+
+    fn after_edit(&mut self, outcome: Result<(), SceneError>) {
+        match outcome {
+            Ok(()) => self.notice = None,
+            Err(refusal) => self.notify(refusal.to_string()),
+        }
+    }
+
+    /// Brings everything up to what the scene has become; once for all that happened since the last time.
+    pub(crate) fn follow_scene(&mut self) {
+        let scene = self.document.scene();
+        if scene.revision() == self.seen {
+            return;
+        }
+        let changes = scene.changes_since(self.seen);
+        let moved = self.through.filter(|id| changes.iter().any(|c| c.subject == Subject::Entity(*id)));
+        self.seen = scene.revision();
+        self.snapshot = Arc::new(Snapshot::extract_after(scene, Some(&self.snapshot)));
+        if self.selection.is_some_and(|id| !scene.contains(id)) {
+            self.selection = None;
+        }
+        if moved.is_some() {
+            self.adopt(moved);
+        }
+        self.stale = Stale { trace: true, overlay: true, panel: true };
+    }
+}
+
+/// Where one looks from before any scene says better.
+fn usual_camera() -> Camera {
+    use catoptra_core::glam::DVec3;
+    Camera::look_at(DVec3::new(4.0, 3.0, 8.0), DVec3::ZERO, DVec3::Y, std::f64::consts::FRAC_PI_4)
+        .unwrap_or_else(|_| unreachable!("constants that a camera accepts"))
+}
