@@ -39,19 +39,23 @@ impl LaneMask for bool {
     }
 }
 
-/// Numbers side by side; comparisons with NaN are false.
-pub trait Lane:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
+/// Numbers side by side that can be added and multiplied.
+pub trait Arithmetic:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
+    /// `self * factor + summand`, rounded once.
+    #[must_use]
+    fn mul_add(self, factor: Self, summand: Self) -> Self;
+}
+
+/// Numbers side by side that formulas are written in; comparisons with NaN are false.
+pub trait Lane: Arithmetic + Div<Output = Self> {
     /// One truth value per lane.
     type Mask: LaneMask;
 
     /// The constant in every lane; `self` only says which lanes.
     #[must_use]
     fn of(self, constant: Coefficient) -> Self;
-    /// `self * factor + summand`, rounded once.
-    #[must_use]
-    fn mul_add(self, factor: Self, summand: Self) -> Self;
     /// Square root; NaN below zero.
     #[must_use]
     fn sqrt(self) -> Self;
@@ -104,14 +108,17 @@ pub trait Lane:
 /// Whole exponents up to this one are multiplied out: at most 20 products, each rounded once.
 const MAX_PRODUCT_POWER: u32 = 1024;
 
+impl Arithmetic for f64 {
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        f64::mul_add(self, factor, summand)
+    }
+}
+
 impl Lane for f64 {
     type Mask = bool;
 
     fn of(self, constant: Coefficient) -> Self {
         constant.wide
-    }
-    fn mul_add(self, factor: Self, summand: Self) -> Self {
-        f64::mul_add(self, factor, summand)
     }
     fn sqrt(self) -> Self {
         f64::sqrt(self)
@@ -198,14 +205,7 @@ impl From<Triple<f64>> for DVec3 {
     }
 }
 
-impl<L: Lane> Triple<L> {
-    /// The constants in every lane of `like`.
-    #[inline(always)]
-    #[must_use]
-    pub fn of(like: L, constants: &Constant3) -> Self {
-        Self::new(like.of(constants.x), like.of(constants.y), like.of(constants.z))
-    }
-
+impl<L: Arithmetic> Triple<L> {
     /// The same number three times.
     #[inline(always)]
     #[must_use]
@@ -247,6 +247,15 @@ impl<L: Lane> Triple<L> {
     pub fn times_add(self, a: Self, b: Self) -> Self {
         Self::new(self.x.mul_add(a.x, b.x), self.y.mul_add(a.y, b.y), self.z.mul_add(a.z, b.z))
     }
+}
+
+impl<L: Lane> Triple<L> {
+    /// The constants in every lane of `like`.
+    #[inline(always)]
+    #[must_use]
+    pub fn of(like: L, constants: &Constant3) -> Self {
+        Self::new(like.of(constants.x), like.of(constants.y), like.of(constants.z))
+    }
 
     /// `if_true` where the mask holds, else `if_false`.
     #[inline(always)]
@@ -260,7 +269,7 @@ impl<L: Lane> Triple<L> {
     }
 }
 
-impl<L: Lane> Add for Triple<L> {
+impl<L: Arithmetic> Add for Triple<L> {
     type Output = Self;
     #[inline(always)]
     fn add(self, o: Self) -> Self {
@@ -268,7 +277,7 @@ impl<L: Lane> Add for Triple<L> {
     }
 }
 
-impl<L: Lane> Sub for Triple<L> {
+impl<L: Arithmetic> Sub for Triple<L> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, o: Self) -> Self {

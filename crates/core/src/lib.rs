@@ -25,12 +25,12 @@ pub mod ray;
 pub mod scene;
 
 pub use bounds::Aabb;
-pub use camera::Camera;
+pub use camera::{Aim, Camera, Raster};
 pub use color::Rgb;
 pub use error::InvalidPart;
 pub use geometry::{Geometry, Shape, TriangleMesh};
 pub use glam;
-pub use lane::{Coefficient, Lane, LaneMask, Triple};
+pub use lane::{Arithmetic, Coefficient, Constant3, Lane, LaneMask, Triple};
 pub use light::{Arrival, Emitter, Light};
 pub use material::{Material, ShadingPoint, Surface};
 pub use part::{Field, FieldKind, Kind, MeshSource, Part, Value, Values};

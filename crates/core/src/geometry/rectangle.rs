@@ -51,7 +51,7 @@ impl Part for Rectangle {
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         let (edge_u, edge_v) = (given.direction("edge-u")?, given.direction("edge-v")?);
         let cosine = edge_u.normalize().dot(edge_v.normalize());
-        if !(cosine.abs() <= RIGHT_ANGLE_TOLERANCE) {
+        if cosine.abs() > RIGHT_ANGLE_TOLERANCE || cosine.is_nan() {
             return Err(InvalidPart::new("edge-v", "must be perpendicular to edge-u", edge_v));
         }
         if edge_u.cross(edge_v).try_normalize().is_none() {

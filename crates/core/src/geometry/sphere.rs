@@ -48,7 +48,7 @@ impl Sphere {
         }
         let closest = from_center - ray.direction * (b / a);
         let discriminant = self.radius * self.radius - closest.length_squared();
-        if !(discriminant >= 0.0) {
+        if discriminant < 0.0 || discriminant.is_nan() {
             return None;
         }
         let distance = from_center.length();

@@ -1,0 +1,133 @@
+//! The tree of boxes itself, and how one `f64` ray walks it.
+
+use catoptra_core::{Aabb, Ray, Span};
+
+use super::build;
+
+/// An axis-aligned box in `f32`, never smaller than what it stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Box32 {
+    pub(crate) min: [f32; 3],
+    pub(crate) max: [f32; 3],
+}
+
+impl Box32 {
+    pub(crate) const EMPTY: Self = Self { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
+
+    /// Round corners that are `f32` already.
+    pub(crate) fn of(points: [[f32; 3]; 3]) -> Self {
+        points.iter().fold(Self::EMPTY, |b, p| b.union(&Self { min: *p, max: *p }))
+    }
+
+    pub(crate) fn union(&self, o: &Self) -> Self {
+        Self {
+            min: std::array::from_fn(|i| self.min[i].min(o.min[i])),
+            max: std::array::from_fn(|i| self.max[i].max(o.max[i])),
+        }
+    }
+
+    /// Half the surface area: what the surface area heuristic weighs by; 0 when empty.
+    pub(crate) fn half_area(&self) -> f32 {
+        let [x, y, z] = std::array::from_fn(|i| (self.max[i] - self.min[i]).max(0.0));
+        x * y + y * z + z * x
+    }
+}
+
+impl From<Aabb> for Box32 {
+    /// Rounded outwards.
+    fn from(b: Aabb) -> Self {
+        let down = |v: f64| if f64::from(v as f32) > v { (v as f32).next_down() } else { v as f32 };
+        let up = |v: f64| if f64::from(v as f32) < v { (v as f32).next_up() } else { v as f32 };
+        Self { min: b.min.to_array().map(down), max: b.max.to_array().map(up) }
+    }
+}
+
+/// One box of a tree: a leaf with some items, or an inner node whose first child follows it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Node {
+    pub(crate) bounds: Box32,
+    /// A leaf's first place in the order of items; an inner node's second child.
+    pub(crate) link: u32,
+    /// How many items a leaf has; 0 for an inner node.
+    pub(crate) count: u16,
+    /// Along which axis an inner node's first child lies below its second.
+    pub(crate) axis: u16,
+}
+
+impl Node {
+    /// The two children of the inner node at `at`, the one met first by a ray of that direction's sign ahead.
+    #[inline(always)]
+    pub(crate) fn children(&self, at: u32, backwards: [bool; 3]) -> [u32; 2] {
+        if backwards[self.axis as usize] { [self.link, at + 1] } else { [at + 1, self.link] }
+    }
+}
+
+/// A binary tree of boxes over numbered items.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Tree {
+    pub(crate) nodes: Vec<Node>,
+    /// Items, leaf by leaf.
+    pub(crate) order: Vec<u32>,
+}
+
+/// Deepest tree that is built; a walk keeps at most one node a level.
+pub(crate) const MAX_DEPTH: usize = 64;
+
+impl Tree {
+    /// Over items with the given boxes.
+    pub(crate) fn build(boxes: &[Box32]) -> Self {
+        build::build(boxes)
+    }
+
+    /// Calls `visit` with the items whose boxes the ray may meet on the stretch that is left; `visit` answers how
+    /// far it is still worth looking.
+    pub(crate) fn walk(&self, ray: &Ray, span: Span, mut visit: impl FnMut(u32) -> f64) {
+        if self.nodes.is_empty() {
+            return;
+        }
+        let mut far = span.max;
+        let backwards = ray.direction.to_array().map(|d| d < 0.0);
+        let mut stack = [0_u32; MAX_DEPTH];
+        let mut depth = 0;
+        let mut at = 0_u32;
+        loop {
+            let node = &self.nodes[at as usize];
+            if meets(&node.bounds, ray, far) {
+                if node.count == 0 {
+                    let [near, away] = node.children(at, backwards);
+                    stack[depth] = away;
+                    depth += 1;
+                    at = near;
+                    continue;
+                }
+                let first = node.link as usize;
+                for &item in &self.order[first..first + node.count as usize] {
+                    far = far.min(visit(item));
+                }
+            }
+            if depth == 0 {
+                return;
+            }
+            depth -= 1;
+            at = stack[depth];
+        }
+    }
+}
+
+/// Whether a ray may meet a box up to `far`; never a false no.
+///
+/// Slabs with the far side stretched by 1 + 2γ₃ in `f64` (Ize 2013); NaN, from a ray within a face, counts as inside.
+fn meets(b: &Box32, ray: &Ray, far: f64) -> bool {
+    let (mut enter, mut leave) = (0.0_f64, far);
+    let stretch = 1.0 + 2.0 * catoptra_core::numeric::gamma_f64(3);
+    for i in 0..3 {
+        let inverse = 1.0 / ray.direction[i];
+        let t0 = (f64::from(b.min[i]) - ray.origin[i]) * inverse;
+        let t1 = (f64::from(b.max[i]) - ray.origin[i]) * inverse;
+        let (near, away) = if inverse.is_sign_negative() { (t1, t0) } else { (t0, t1) };
+        // `max` and `min` ignore NaN.
+        enter = enter.max(near);
+        leave = leave.min(away * stretch);
+    }
+    enter <= leave
+}

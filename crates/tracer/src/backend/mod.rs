@@ -1,0 +1,62 @@
+//! Which ways there are to trace, and what a way must do.
+//!
+//! A new backend is one file here, its `mod` line and its name in the list below.
+
+mod oracle;
+mod scalar;
+mod wide;
+
+use catoptra_core::Raster;
+
+use crate::{Snapshot, Stats, Tile, View};
+
+/// What a backend is given: a snapshot, and from where it is looked at.
+#[derive(Debug, Clone, Copy)]
+pub struct Frame<'a> {
+    /// What is looked at.
+    pub snapshot: &'a Snapshot,
+    /// From where, and how far to go.
+    pub view: &'a View,
+    /// The view's rays, relative to the snapshot's origin.
+    pub raster: Raster,
+}
+
+impl<'a> Frame<'a> {
+    /// Looks at a snapshot.
+    #[must_use]
+    pub fn new(snapshot: &'a Snapshot, view: &'a View) -> Self {
+        let raster = view.camera.raster(view.size.width, view.size.height);
+        Self { snapshot, view, raster: Raster { eye: raster.eye - snapshot.origin(), ..raster } }
+    }
+}
+
+/// A way to trace.
+pub trait Backend: Send + Sync {
+    /// Its name on the command line.
+    fn name(&self) -> &'static str;
+
+    /// One sentence.
+    fn doc(&self) -> &'static str;
+
+    /// Which instructions it uses, such as `avx512`; `scalar` for none in particular.
+    fn level(&self) -> &'static str {
+        "scalar"
+    }
+
+    /// Traces all pixels of a tile. Knows no threads; never stores a light that is not finite.
+    fn trace(&self, frame: &Frame<'_>, tile: &mut Tile) -> Stats;
+}
+
+const BACKENDS: &[&dyn Backend] = &[&wide::Wide, &scalar::Scalar, &oracle::Oracle];
+
+/// Every backend, the default first.
+#[must_use]
+pub fn backends() -> &'static [&'static dyn Backend] {
+    BACKENDS
+}
+
+/// The backend of that name.
+#[must_use]
+pub fn backend_named(name: &str) -> Option<&'static dyn Backend> {
+    BACKENDS.iter().copied().find(|b| b.name() == name)
+}

@@ -1,0 +1,109 @@
+//! The rays of a stream, gathered lane by lane and handed out in full packets.
+
+use catoptra_core::Triple;
+use fearless_simd::Simd;
+use fearless_simd::prelude::*;
+
+use super::packet::{Packet, kernel_rays};
+use crate::lanes::{D, D3, F, F3, M, U};
+
+/// Columns of rays; each has room for one more packet than there are rays.
+#[derive(Default)]
+pub(super) struct Queue {
+    length: usize,
+    origin: [Vec<f64>; 3],
+    direction: [Vec<f64>; 3],
+    weight: [Vec<f32>; 3],
+    pixel: Vec<u32>,
+    prim: Vec<u32>,
+    facet: Vec<u32>,
+}
+
+/// One vector of lanes from each of three columns.
+#[inline(always)]
+fn triple<C, L>(columns: &[C; 3], load: impl Fn(&C) -> L) -> Triple<L> {
+    let [x, y, z] = columns;
+    Triple::new(load(x), load(y), load(z))
+}
+
+/// Rays to be gathered.
+pub(super) struct Leaving<S: Simd> {
+    pub(super) origin: D3<S>,
+    pub(super) direction: D3<S>,
+    pub(super) weight: F3<S>,
+    pub(super) pixel: U<S>,
+    pub(super) prim: U<S>,
+    pub(super) facet: U<S>,
+}
+
+impl Queue {
+    /// How many rays there are.
+    pub(super) fn len(&self) -> usize {
+        self.length
+    }
+
+    /// Forgets all rays and keeps the room.
+    pub(super) fn clear(&mut self) {
+        self.length = 0;
+    }
+
+    /// Appends the lanes where the mask holds.
+    #[inline(always)]
+    pub(super) fn push<S: Simd>(&mut self, mask: M<S>, rays: &Leaving<S>) {
+        self.make_room(F::<S>::LANES);
+        let at = self.length;
+        for (column, v) in self.origin.iter_mut().zip([rays.origin.x, rays.origin.y, rays.origin.z]) {
+            v.compress(mask, &mut column[at..]);
+        }
+        for (column, v) in
+            self.direction.iter_mut().zip([rays.direction.x, rays.direction.y, rays.direction.z])
+        {
+            v.compress(mask, &mut column[at..]);
+        }
+        for (column, v) in self.weight.iter_mut().zip([rays.weight.x, rays.weight.y, rays.weight.z]) {
+            F::<S>(v.0.compress(mask.0)).store(&mut column[at..]);
+        }
+        for (column, v) in
+            [(&mut self.pixel, rays.pixel), (&mut self.prim, rays.prim), (&mut self.facet, rays.facet)]
+        {
+            U::<S>(v.0.compress(mask.0)).store(&mut column[at..]);
+        }
+        self.length += mask.count() as usize;
+    }
+
+    /// The packet that starts with ray `at`.
+    #[inline(always)]
+    pub(super) fn packet<S: Simd>(&self, s: S, at: usize) -> Packet<S> {
+        let wide = |columns: &[Vec<f64>; 3]| triple(columns, |c| D::load(s, &c[at..]));
+        let (origin, direction) = (wide(&self.origin), wide(&self.direction));
+        let (rays, inverse_length) = kernel_rays(s, origin, direction);
+        let lanes = F::<S>::LANES;
+        let left = self.length - at;
+        let bits = if left >= lanes { u64::MAX >> (64 - lanes) } else { (1 << left) - 1 };
+        Packet {
+            origin,
+            direction,
+            rays,
+            inverse_length,
+            weight: triple(&self.weight, |c| F::load(s, &c[at..])),
+            pixel: U::load(s, &self.pixel[at..]),
+            left_prim: U::load(s, &self.prim[at..]),
+            left_facet: U::load(s, &self.facet[at..]),
+            leaves: true,
+            live: M::from_bits(s, bits),
+        }
+    }
+
+    /// Room for another packet beyond the rays there are and the one that is stored whole.
+    #[inline(always)]
+    fn make_room(&mut self, lanes: usize) {
+        let needed = self.length + 2 * lanes;
+        if self.pixel.len() >= needed {
+            return;
+        }
+        let room = needed.next_power_of_two();
+        self.origin.iter_mut().chain(&mut self.direction).for_each(|c| c.resize(room, 0.0));
+        self.weight.iter_mut().for_each(|c| c.resize(room, 0.0));
+        [&mut self.pixel, &mut self.prim, &mut self.facet].into_iter().for_each(|c| c.resize(room, 0));
+    }
+}

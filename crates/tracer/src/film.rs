@@ -1,0 +1,196 @@
+//! Where a picture is gathered: linear light, depth and surface of every pixel, in tiles that are written apart.
+
+use std::sync::Arc;
+
+use catoptra_core::EntityId;
+
+use crate::Size;
+
+/// Edge of the square blocks that pixels of a tile are stored in. Sixteen pixels lie side by side in memory, so that
+/// a packet of 4, 8 or 16 lanes is one stretch of a column.
+pub(crate) const BLOCK: u32 = 4;
+
+/// Pixels in a block.
+pub(crate) const BLOCK_PIXELS: usize = (BLOCK * BLOCK) as usize;
+
+/// Stands for "no surface".
+pub(crate) const NOTHING: u32 = u32::MAX;
+
+/// A rectangle of a film, written by one thread.
+///
+/// Columns hold whole blocks of 4 x 4 pixels, row by row of blocks and row by row within a block; blocks at the right
+/// and lower edge of the picture reach beyond it.
+#[derive(Debug, Clone)]
+pub struct Tile {
+    pub(crate) x: u32,
+    pub(crate) y: u32,
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) radiance: [Vec<f32>; 3],
+    pub(crate) depth: Vec<f32>,
+    pub(crate) surface: Vec<u32>,
+}
+
+impl Tile {
+    fn new(x: u32, y: u32, width: u32, height: u32) -> Self {
+        let pixels = (width.div_ceil(BLOCK) * height.div_ceil(BLOCK)) as usize * BLOCK_PIXELS;
+        Self {
+            x,
+            y,
+            width,
+            height,
+            radiance: std::array::from_fn(|_| vec![0.0; pixels]),
+            depth: vec![f32::INFINITY; pixels],
+            surface: vec![NOTHING; pixels],
+        }
+    }
+
+    /// Blocks across.
+    pub(crate) fn blocks_across(&self) -> u32 {
+        self.width.div_ceil(BLOCK)
+    }
+
+    /// Where a pixel of the tile lies in its columns.
+    #[inline]
+    pub(crate) fn index(&self, x: u32, y: u32) -> usize {
+        let block = (y / BLOCK) * self.blocks_across() + x / BLOCK;
+        block as usize * BLOCK_PIXELS + ((y % BLOCK) * BLOCK + x % BLOCK) as usize
+    }
+}
+
+/// A picture in linear Rec. 709 light, with depth and surface of every pixel.
+#[derive(Debug, Clone)]
+pub struct Film {
+    size: Size,
+    edge: u32,
+    tiles: Vec<Tile>,
+    entities: Arc<[EntityId]>,
+}
+
+impl Film {
+    /// Edge of a tile in pixels, unless said otherwise: 32 x 32 pixels are 20 KiB, which a first-level cache holds.
+    pub const TILE: u32 = 32;
+
+    /// A black film.
+    #[must_use]
+    pub fn new(size: Size) -> Self {
+        Self::with_tiles(size, Self::TILE)
+    }
+
+    /// A black film with tiles of `edge` pixels, rounded up to a multiple of 4; what is traced does not depend on it.
+    #[must_use]
+    pub fn with_tiles(size: Size, edge: u32) -> Self {
+        let edge = edge.clamp(BLOCK, 1 << 16).next_multiple_of(BLOCK);
+        let starts = |length: u32| (0..length).step_by(edge as usize);
+        let tiles = starts(size.height)
+            .flat_map(|y| starts(size.width).map(move |x| (x, y)))
+            .map(|(x, y)| Tile::new(x, y, edge.min(size.width - x), edge.min(size.height - y)))
+            .collect();
+        Self { size, edge, tiles, entities: Arc::default() }
+    }
+
+    /// Its size.
+    #[must_use]
+    pub fn size(&self) -> Size {
+        self.size
+    }
+
+    /// Linear red, green and blue of a pixel; never NaN or infinite.
+    ///
+    /// # Panics
+    /// A pixel outside the picture.
+    #[must_use]
+    pub fn radiance(&self, x: u32, y: u32) -> [f32; 3] {
+        let (tile, i) = self.place(x, y);
+        [tile.radiance[0][i], tile.radiance[1][i], tile.radiance[2][i]]
+    }
+
+    /// Metres from the eye to what a pixel shows, along its ray; infinite where it shows nothing.
+    ///
+    /// # Panics
+    /// A pixel outside the picture.
+    #[must_use]
+    pub fn depth(&self, x: u32, y: u32) -> f32 {
+        let (tile, i) = self.place(x, y);
+        tile.depth[i]
+    }
+
+    /// What a pixel shows.
+    ///
+    /// # Panics
+    /// A pixel outside the picture.
+    #[must_use]
+    pub fn surface(&self, x: u32, y: u32) -> Option<EntityId> {
+        let (tile, i) = self.place(x, y);
+        self.entities.get(tile.surface[i] as usize).copied()
+    }
+
+    /// Depths of all pixels, row by row; see [`depth`](Self::depth).
+    #[must_use]
+    pub fn depths(&self) -> Vec<f32> {
+        self.rows(|tile, i| tile.depth[i])
+    }
+
+    /// Linear radiance of all pixels, row by row; see [`radiance`](Self::radiance).
+    #[must_use]
+    pub fn radiances(&self) -> Vec<[f32; 3]> {
+        self.rows(|tile, i| [tile.radiance[0][i], tile.radiance[1][i], tile.radiance[2][i]])
+    }
+
+    fn rows<T>(&self, read: impl Fn(&Tile, usize) -> T) -> Vec<T> {
+        let pixels = (0..self.size.height).flat_map(|y| (0..self.size.width).map(move |x| (x, y)));
+        pixels
+            .map(|(x, y)| {
+                let (tile, i) = self.place(x, y);
+                read(tile, i)
+            })
+            .collect()
+    }
+
+    fn place(&self, x: u32, y: u32) -> (&Tile, usize) {
+        assert!(x < self.size.width && y < self.size.height, "pixel ({x}, {y}) lies outside the picture");
+        let across = self.size.width.div_ceil(self.edge);
+        let tile = &self.tiles[((y / self.edge) * across + x / self.edge) as usize];
+        (tile, tile.index(x % self.edge, y % self.edge))
+    }
+
+    /// The tiles to be written, and what their surfaces are called from now on.
+    pub(crate) fn begin(&mut self, entities: &Arc<[EntityId]>) -> &mut [Tile] {
+        self.entities = Arc::clone(entities);
+        &mut self.tiles
+    }
+
+    /// The tiles of each row of tiles, top to bottom.
+    pub(crate) fn tile_rows(&self) -> impl Iterator<Item = &[Tile]> {
+        self.tiles.chunks(self.size.width.div_ceil(self.edge).max(1) as usize)
+    }
+
+    /// Edge of a tile in pixels.
+    pub(crate) fn edge(&self) -> u32 {
+        self.edge
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_pixel_has_a_place_of_its_own() {
+        let size = Size::new(45, 38);
+        for edge in [4, 16, 64] {
+            let film = Film::with_tiles(size, edge);
+            let mut seen = std::collections::HashSet::new();
+            for (x, y) in (0..size.height).flat_map(|y| (0..size.width).map(move |x| (x, y))) {
+                let (tile, i) = film.place(x, y);
+                assert!(i < tile.depth.len() && seen.insert((tile.x, tile.y, i)), "({x}, {y}) at {edge}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_empty_picture_has_no_tiles() {
+        assert!(Film::new(Size::new(0, 100)).tiles.is_empty());
+        assert!(Film::new(Size::new(0, 100)).radiances().is_empty());
+    }
+}

@@ -1,0 +1,5 @@
+//! How light gathers along a path: Whitted's recursion over any way of answering what a ray meets.
+
+mod whitted;
+
+pub(crate) use whitted::{LIGHT_ITSELF, Search, finish, trace_pixels};

@@ -1,0 +1,142 @@
+//! How a packet of rays is tested against one shape in `f32`: what is proposed, and what cannot be decided.
+//!
+//! A kernel may leave a lane undecided, never decide it wrongly: undecided lanes go to `f64`, one ray at a time.
+//! A shape without a kernel leaves every lane undecided: slower, the same answer.
+
+mod plane;
+mod rectangle;
+mod sphere;
+mod triangle;
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Arithmetic, Lane, Light, Ray, Span, Triple};
+use fearless_simd::Simd;
+
+use crate::integrator::LIGHT_ITSELF;
+use crate::lanes::{D3, F, F3, M, splat_wide};
+
+pub(crate) use plane::PlaneRow;
+pub(crate) use rectangle::RectangleRow;
+pub(crate) use sphere::SphereRow;
+pub(crate) use triangle::{Edges, TriangleRow};
+
+/// Rays as kernels see them.
+#[derive(Clone, Copy)]
+pub(crate) struct Rays<S: Simd> {
+    /// Origins, rounded.
+    pub(crate) origin: F3<S>,
+    /// Directions, of unit length to rounding (in a mesh's own space: of one length for all), rounded.
+    pub(crate) direction: F3<S>,
+    /// At least the sum of an origin's coordinates' magnitudes: what rounding errors grow with.
+    pub(crate) reach: F<S>,
+}
+
+/// What a kernel says of the nearest crossing ahead.
+#[derive(Clone, Copy)]
+pub(crate) struct Proposal<S: Simd> {
+    /// Parameter of the crossing where `hit` holds.
+    pub(crate) t: F<S>,
+    /// Bound on the error of `t`.
+    pub(crate) error: F<S>,
+    /// Where there is a crossing ahead, for certain unless undecided.
+    pub(crate) hit: M<S>,
+    /// Where `f32` cannot say.
+    pub(crate) undecided: M<S>,
+}
+
+/// What a kernel says of a stretch from a point to a light.
+#[derive(Clone, Copy)]
+pub(crate) struct Blocking<S: Simd> {
+    /// Where the way is blocked, for certain unless undecided.
+    pub(crate) blocked: M<S>,
+    /// Where `f32` cannot say.
+    pub(crate) undecided: M<S>,
+}
+
+/// A light as kernels see it: how far rays to it reach, and where it stands.
+#[derive(Clone, Copy)]
+pub(crate) struct Target<S: Simd> {
+    /// Metres along each ray; infinite for a light at infinity.
+    pub(crate) distance: F<S>,
+    /// Its position, or the unit vector towards it when `at_infinity`.
+    pub(crate) place: DVec3,
+    /// Whether it stands at infinity.
+    pub(crate) at_infinity: bool,
+}
+
+impl<S: Simd> Target<S> {
+    /// A light at the given distances; `None` for one that shines from nowhere in particular.
+    #[inline(always)]
+    pub(crate) fn of(light: &Light, distance: F<S>) -> Option<Self> {
+        match (light.position(), light.direction()) {
+            (Some(place), _) => Some(Self { distance, place, at_infinity: false }),
+            (None, Some(along)) => Some(Self { distance, place: -along, at_infinity: true }),
+            (None, None) => None,
+        }
+    }
+
+    /// The way from a point to the light.
+    pub(crate) fn way_from(&self, point: DVec3) -> (Ray, Span) {
+        if self.at_infinity {
+            (Ray::new(point, self.place), Span::AHEAD)
+        } else {
+            (Ray::new(point, self.place - point), LIGHT_ITSELF)
+        }
+    }
+
+    /// Directions from points to the light, as long as [`inverse_length`](Self::inverse_length) says.
+    #[inline(always)]
+    pub(crate) fn directions(&self, s: S, from: D3<S>) -> D3<S> {
+        let place = splat_wide(s, self.place);
+        if self.at_infinity { place } else { place - from }
+    }
+
+    /// 1 over the length of each direction.
+    #[inline(always)]
+    pub(crate) fn inverse_length(&self, s: S) -> F<S> {
+        let one = F::splat(s, 1.0);
+        if self.at_infinity { one } else { one / self.distance }
+    }
+
+    /// What the light's own coordinates add to what rounding errors grow with.
+    #[inline(always)]
+    pub(crate) fn reach(&self, s: S) -> F<S> {
+        F::splat(s, if self.at_infinity { 0.0 } else { magnitude_of(self.place) })
+    }
+}
+
+impl<S: Simd> Proposal<S> {
+    /// Whether a crossing lies between the origin and the target.
+    #[inline(always)]
+    pub(crate) fn blocking(&self, target: &Target<S>) -> Blocking<S> {
+        let before = self.hit & (self.t + self.error).less(target.distance);
+        let maybe = self.hit & (self.t - self.error).less(target.distance) & !before;
+        Blocking { blocked: before, undecided: self.undecided | maybe }
+    }
+}
+
+/// Sum of the magnitudes of the coordinates.
+#[inline(always)]
+pub(crate) fn magnitude<S: Simd>(v: F3<S>) -> F<S> {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
+
+/// Sum of the magnitudes of the coordinates, rounded up a little.
+pub(crate) fn magnitude_of(v: DVec3) -> f32 {
+    (v.abs().element_sum() as f32).next_up()
+}
+
+/// Coordinates rounded to `f32`.
+pub(crate) fn rounded(v: DVec3) -> [f32; 3] {
+    v.to_array().map(|c| c as f32)
+}
+
+/// `a × b` with one product and one fused product a component.
+#[inline(always)]
+pub(crate) fn cross<L: Arithmetic>(a: Triple<L>, b: Triple<L>) -> Triple<L> {
+    Triple::new(
+        a.y.mul_add(b.z, -(a.z * b.y)),
+        a.z.mul_add(b.x, -(a.x * b.z)),
+        a.x.mul_add(b.y, -(a.y * b.x)),
+    )
+}

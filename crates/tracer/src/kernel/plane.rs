@@ -1,0 +1,78 @@
+//! Rays against an infinite plane.
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Arithmetic, Lane};
+use fearless_simd::Simd;
+
+use super::{Blocking, Proposal, Rays, Target, magnitude_of, rounded};
+use crate::lanes::{F, splat3};
+use crate::numeric::{DIRECTION_ERROR, POINT_ERROR};
+
+/// A plane `normal · p = distance`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlaneRow {
+    pub(crate) normal: DVec3,
+    pub(crate) distance: f64,
+    pub(crate) prim: u32,
+    normal32: [f32; 3],
+    distance32: f32,
+    reach: f32,
+}
+
+impl PlaneRow {
+    pub(crate) fn new(point: DVec3, normal: DVec3, prim: u32) -> Self {
+        let distance = normal.dot(point);
+        Self {
+            normal,
+            distance,
+            prim,
+            normal32: rounded(normal),
+            distance32: distance as f32,
+            reach: magnitude_of(normal * distance),
+        }
+    }
+
+    /// Signed distances of the origins from the plane, positive on the side the normal does not point to, and the
+    /// bound on their error.
+    #[inline(always)]
+    fn behind<S: Simd>(&self, s: S, rays: &Rays<S>) -> (F<S>, F<S>) {
+        let n = splat3(s, self.normal32);
+        let behind = F::splat(s, self.distance32) - n.dot(rays.origin);
+        (behind, (rays.reach + F::splat(s, self.reach)) * F::splat(s, POINT_ERROR))
+    }
+
+    #[inline(always)]
+    pub(crate) fn propose<S: Simd>(&self, s: S, rays: &Rays<S>) -> Proposal<S> {
+        let slope = splat3(s, self.normal32).dot(rays.direction);
+        let (behind, point_error) = self.behind(s, rays);
+        let inverse = F::splat(s, 1.0) / slope;
+        let t = behind * inverse;
+        let direction_error = F::splat(s, DIRECTION_ERROR);
+        Proposal {
+            t,
+            error: t.mul_add(direction_error, point_error) * inverse.abs(),
+            hit: F::splat(s, 0.0).less(t),
+            undecided: !point_error.less(behind.abs()) | !direction_error.less(slope.abs()),
+        }
+    }
+
+    /// A plane stands between two points that lie on different sides of it.
+    #[inline(always)]
+    pub(crate) fn block<S: Simd>(&self, s: S, rays: &Rays<S>, target: &Target<S>) -> Blocking<S> {
+        let (behind, error) = self.behind(s, rays);
+        let side = if target.at_infinity {
+            -self.normal.dot(target.place)
+        } else {
+            self.distance - self.normal.dot(target.place)
+        };
+        let zero = F::splat(s, 0.0);
+        let other = if side > 0.0 {
+            behind.less(zero)
+        } else if side < 0.0 {
+            zero.less(behind)
+        } else {
+            zero.less(zero)
+        };
+        Blocking { blocked: other, undecided: !error.less(behind.abs()) }
+    }
+}

@@ -1,0 +1,122 @@
+//! Rays against a sphere: the remainder form of Haines et al. (*Ray Tracing Gems*, 2019), with error bounds.
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Lane, LaneMask};
+use fearless_simd::Simd;
+
+use super::{Blocking, Proposal, Rays, Target, magnitude_of, rounded};
+use crate::lanes::{F, F3, M, splat3};
+use crate::numeric::POINT_ERROR;
+
+/// A sphere.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SphereRow {
+    pub(crate) center: DVec3,
+    pub(crate) radius: f64,
+    center32: [f32; 3],
+    radius32: f32,
+    reach: f32,
+}
+
+/// How a line passes a sphere.
+struct Passage<S: Simd> {
+    /// From the ray's origin to the centre.
+    to_center: F3<S>,
+    /// Parameter of the point nearest to the centre.
+    closest: F<S>,
+    /// Square of half the chord; negative where the line passes by.
+    half_chord2: F<S>,
+    /// Bound on the error of `half_chord2`.
+    error: F<S>,
+    /// Bound on the error of a coordinate of `to_center` and of `closest`.
+    point_error: F<S>,
+}
+
+impl SphereRow {
+    pub(crate) fn new(center: DVec3, radius: f64) -> Self {
+        Self {
+            center,
+            radius,
+            center32: rounded(center),
+            radius32: radius as f32,
+            reach: magnitude_of(center) + (radius as f32).next_up(),
+        }
+    }
+
+    #[inline(always)]
+    fn pass<S: Simd>(&self, s: S, rays: &Rays<S>) -> Passage<S> {
+        let radius = F::splat(s, self.radius32);
+        let to_center = splat3(s, self.center32) - rays.origin;
+        let closest = to_center.dot(rays.direction);
+        let remainder = rays.direction.scale_add(-closest, to_center);
+        let half_chord2 = radius * radius - remainder.dot(remainder);
+        let point_error = (rays.reach + F::splat(s, self.reach)) * F::splat(s, POINT_ERROR);
+        // At the silhouette the remainder is as long as the radius r, off by e: |r² − (r ± e)²| ≤ e (2r + e).
+        let error = point_error * (radius + radius + radius + point_error);
+        Passage { to_center, closest, half_chord2, error, point_error }
+    }
+
+    /// The crossing nearest ahead. Where a ray leaves this very sphere, the far crossing.
+    #[inline(always)]
+    pub(crate) fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, leaving: M<S>) -> Proposal<S> {
+        let (zero, two) = (F::splat(s, 0.0), F::splat(s, 2.0));
+        let pass = self.pass(s, rays);
+        let crosses = pass.error.less(pass.half_chord2);
+        let maybe = (-pass.error).less(pass.half_chord2);
+        if !(maybe | leaving).any() {
+            return Proposal { t: zero, error: zero, hit: maybe, undecided: maybe };
+        }
+        let half = pass.half_chord2.max(zero).sqrt();
+        let error = pass.point_error + pass.error / half;
+        let (near, far) = (pass.closest - half, pass.closest + half);
+        let ahead = error.less(near);
+        let inside = near.less(-error) & error.less(far);
+        let behind = far.less(-error);
+        // The origin of a ray that leaves lies on the sphere, so its far crossing is at twice the closest point.
+        let through = leaving & pass.point_error.less(pass.closest);
+        let outwards = leaving & pass.closest.less(-pass.point_error);
+        Proposal {
+            t: F::pick(leaving, pass.closest * two, F::pick(ahead, near, far)),
+            error: F::pick(leaving, pass.point_error * two, error),
+            hit: (crosses & (ahead | inside) & !leaving) | through,
+            undecided: (maybe & !(crosses & (ahead | inside | behind)) & !leaving)
+                | (leaving & !(through | outwards)),
+        }
+    }
+
+    /// A sphere stands between two points outside it where the line between them crosses it between them; between a
+    /// point inside and one outside, always.
+    #[inline(always)]
+    pub(crate) fn block<S: Simd>(
+        &self,
+        s: S,
+        rays: &Rays<S>,
+        target: &Target<S>,
+        leaving: M<S>,
+    ) -> Blocking<S> {
+        let target_inside = !target.at_infinity && target.place.distance(self.center) <= self.radius;
+        if target_inside || leaving.any() {
+            return self.propose(s, rays, leaving).blocking(target);
+        }
+        let zero = F::splat(s, 0.0);
+        let pass = self.pass(s, rays);
+        let radius = F::splat(s, self.radius32);
+        let between =
+            pass.point_error.less(pass.closest) & (pass.closest + pass.point_error).less(target.distance);
+        let beyond =
+            pass.closest.less(-pass.point_error) | target.distance.less(pass.closest - pass.point_error);
+        let misses = pass.half_chord2.less(-pass.error);
+        if !(!(misses | beyond)).any() {
+            return Blocking { blocked: zero.less(zero), undecided: zero.less(zero) };
+        }
+        let outside = radius + radius + pass.point_error;
+        let depth = pass.to_center.dot(pass.to_center) - radius * radius;
+        // The square of a distance near the radius is off by no more than e (2r + e).
+        let is_outside = (outside * pass.point_error).less(depth);
+        let crosses = pass.error.less(pass.half_chord2);
+        Blocking {
+            blocked: crosses & between & is_outside,
+            undecided: !(misses | (beyond & is_outside) | (crosses & between & is_outside)),
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Rays against a triangle: edge values as scalar triple products, with error bounds.
+//!
+//! After Segura and Feito, "Algorithms to test ray–triangle intersection", WSCG 2001, with the edge itself in the
+//! product, so that errors shrink with the triangle.
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Arithmetic, Lane, LaneMask};
+use fearless_simd::Simd;
+
+use super::{Proposal, Rays, cross, magnitude, magnitude_of, rounded};
+use crate::lanes::{F, splat3};
+use crate::numeric::{DIRECTION_ERROR, EDGE_ERROR, POINT_ERROR};
+
+/// A triangle that stands alone or is a face of a solid.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TriangleRow {
+    pub(crate) corners: [DVec3; 3],
+    pub(crate) facet: u32,
+    edges: Edges,
+}
+
+impl TriangleRow {
+    pub(crate) fn new(corners: [DVec3; 3], facet: u32) -> Self {
+        let largest = corners.map(magnitude_of).into_iter().fold(0.0, f32::max);
+        Self { corners, facet, edges: Edges::new(&corners.map(rounded), largest) }
+    }
+
+    #[inline(always)]
+    pub(crate) fn propose<S: Simd>(&self, s: S, rays: &Rays<S>) -> Proposal<S> {
+        self.edges.propose(s, rays)
+    }
+}
+
+/// What the test needs of a triangle.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Edges {
+    corners: [[f32; 3]; 3],
+    /// Edge `i` runs opposite corner `i`.
+    edges: [[f32; 3]; 3],
+    normal: [f32; 3],
+    /// Largest coordinate of an edge.
+    length: f32,
+    /// Sum of coordinates' magnitudes of the farthest corner.
+    reach: f32,
+}
+
+impl Edges {
+    /// Of corners whose coordinates sum up to at most `reach` in magnitude.
+    #[inline(always)]
+    pub(crate) fn new(corners: &[[f32; 3]; 3], reach: f32) -> Self {
+        let [a, b, c] = *corners;
+        let minus = |p: [f32; 3], q: [f32; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+        let edges = [minus(c, b), minus(a, c), minus(b, a)];
+        let (u, v) = (edges[2], edges[1].map(|e| -e));
+        let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        let length = edges.as_flattened().iter().fold(0.0_f32, |l, e| l.max(e.abs()));
+        Self { corners: *corners, edges, normal, length, reach }
+    }
+
+    #[inline(always)]
+    pub(crate) fn propose<S: Simd>(&self, s: S, rays: &Rays<S>) -> Proposal<S> {
+        let zero = F::splat(s, 0.0);
+        let size = rays.reach + F::splat(s, self.reach);
+        let spread = magnitude(rays.direction) * F::splat(s, self.length);
+        let edge_error = spread * (size * F::splat(s, EDGE_ERROR));
+        let value = |i: usize| {
+            let from = splat3(s, self.corners[(i + 1) % 3]) - rays.origin;
+            cross(splat3(s, self.edges[i]), from).dot(rays.direction)
+        };
+        let (mut above, mut below) = (zero.less(zero), zero.less(zero));
+        let (mut all_above, mut all_below) = (!above, !above);
+        for i in 0..3 {
+            let w = value(i);
+            let (up, down) = (edge_error.less(w), w.less(-edge_error));
+            (above, below) = (above | up, below | down);
+            (all_above, all_below) = (all_above & up, all_below & down);
+        }
+        let miss = above & below;
+        let inside = all_above | all_below;
+        if !(!miss).any() {
+            return Proposal { t: zero, error: zero, hit: inside & miss, undecided: inside & miss };
+        }
+        let n = splat3(s, self.normal);
+        let slope = n.dot(rays.direction);
+        let inverse = F::splat(s, 1.0) / slope;
+        let t = n.dot(splat3(s, self.corners[0]) - rays.origin) * inverse;
+        let normal_size = magnitude(n);
+        let slope_error = spread * F::splat(s, self.length * DIRECTION_ERROR);
+        let error =
+            (normal_size * size).mul_add(F::splat(s, POINT_ERROR), t.abs() * slope_error) * inverse.abs();
+        let flat = !slope_error.less(slope.abs());
+        Proposal {
+            t,
+            error,
+            hit: inside & zero.less(t),
+            undecided: !miss & (!inside | flat | !error.less(t.abs())),
+        }
+    }
+}

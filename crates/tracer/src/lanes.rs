@@ -1,0 +1,426 @@
+//! Lanes of the CPU's SIMD registers as the formulas' numbers: `f32` at native width and the same lanes in `f64`.
+
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Arithmetic, Coefficient, Lane, LaneMask, Triple};
+use fearless_simd::prelude::*;
+
+/// `f32` in every lane.
+#[derive(Clone, Copy)]
+pub(crate) struct F<S: Simd>(pub(crate) S::f32s);
+
+/// A truth value in every lane.
+#[derive(Clone, Copy)]
+pub(crate) struct M<S: Simd>(pub(crate) S::mask32s);
+
+/// `f64` in every lane: the lower half of the lanes and the upper half.
+#[derive(Clone, Copy)]
+pub(crate) struct D<S: Simd> {
+    lower: S::f64s,
+    upper: S::f64s,
+}
+
+/// Whole numbers in every lane.
+#[derive(Clone, Copy)]
+pub(crate) struct U<S: Simd>(pub(crate) S::u32s);
+
+/// Points, directions or colours in every lane.
+pub(crate) type F3<S> = Triple<F<S>>;
+
+/// Points or directions in every lane, in `f64`.
+pub(crate) type D3<S> = Triple<D<S>>;
+
+impl<S: Simd> F<S> {
+    /// How many lanes there are.
+    pub(crate) const LANES: usize = S::f32s::LEN;
+
+    #[inline(always)]
+    pub(crate) fn splat(s: S, v: f32) -> Self {
+        Self(S::f32s::splat(s, v))
+    }
+
+    #[inline(always)]
+    pub(crate) fn load(s: S, from: &[f32]) -> Self {
+        Self(S::f32s::from_slice(s, &from[..Self::LANES]))
+    }
+
+    #[inline(always)]
+    pub(crate) fn store(self, to: &mut [f32]) {
+        self.0.store_slice(&mut to[..Self::LANES]);
+    }
+
+    #[inline(always)]
+    pub(crate) fn lane(self, lane: usize) -> f32 {
+        self.0.as_slice()[lane]
+    }
+
+    #[inline(always)]
+    pub(crate) fn set(&mut self, lane: usize, v: f32) {
+        self.0.as_mut_slice()[lane] = v;
+    }
+
+    #[inline(always)]
+    pub(crate) fn widen(self) -> D<S> {
+        let (lower, upper) = self.0.widen();
+        D { lower, upper }
+    }
+
+    #[inline(always)]
+    pub(crate) fn pick(mask: M<S>, if_true: Self, if_false: Self) -> Self {
+        Self(mask.0.select(if_true.0, if_false.0))
+    }
+
+    /// `2^self` for magnitudes below 126, within 2 units in the last place.
+    #[inline(always)]
+    fn exp2(self) -> Self {
+        let s = self.0.token();
+        let clamped = self.max(Self::splat(s, -126.0)).min(Self::splat(s, 127.0));
+        let whole = clamped.floor();
+        let part = clamped - whole;
+        // Taylor terms of 2^x = e^(x ln 2); the first one left out is below 2⁻²⁶ for x < 1.
+        let terms: [f32; 9] = [
+            1.321_548_7e-6,
+            1.525_273_4e-5,
+            1.540_353e-4,
+            1.333_355_8e-3,
+            9.618_129e-3,
+            5.550_411e-2,
+            2.402_265_1e-1,
+            6.931_472e-1,
+            1.0,
+        ];
+        let mantissa = terms.iter().fold(Self::splat(s, 0.0), |sum, &c| sum.mul_add(part, Self::splat(s, c)));
+        let exponent: S::i32s = (whole + Self::splat(s, 127.0)).0.to_int();
+        let bits = exponent.bitcast::<S::u32s>() << 23;
+        mantissa * Self(bits.bitcast())
+    }
+
+    /// Binary logarithm of a normal positive number, within 2⁻²² absolute near 1 and relative elsewhere.
+    #[inline(always)]
+    fn log2(self) -> Self {
+        let s = self.0.token();
+        let bits = self.0.bitcast::<S::u32s>();
+        // Mantissa in √½..√2, so that the series below converges fast and log2(1) is 0.
+        let shifted = bits - 0x3f35_04f3;
+        let exponent: S::f32s = (shifted.bitcast::<S::i32s>() >> 23).to_float();
+        let mantissa = Self(((shifted & 0x007f_ffff) + 0x3f35_04f3).bitcast());
+        let one = Self::splat(s, 1.0);
+        // log2 m = 2 / ln 2 (z + z³/3 + z⁵/5 + …), z = (m − 1) / (m + 1), |z| < 0.172.
+        let z = (mantissa - one) / (mantissa + one);
+        let z2 = z * z;
+        let terms: [f32; 5] = [0.320_598_9, 0.412_198_6, 0.577_078, 0.961_796_7, 2.885_390_1];
+        let series = terms.iter().fold(Self::splat(s, 0.0), |sum, &c| sum.mul_add(z2, Self::splat(s, c)));
+        series.mul_add(z, Self(exponent))
+    }
+}
+
+macro_rules! binary {
+    ($type:ident, $trait:ident, $name:ident) => {
+        impl<S: Simd> $trait for $type<S> {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, o: Self) -> Self {
+                Self(self.0.$name(o.0))
+            }
+        }
+    };
+}
+
+binary!(F, Add, add);
+binary!(F, Sub, sub);
+binary!(F, Mul, mul);
+binary!(F, Div, div);
+binary!(M, BitAnd, bitand);
+binary!(M, BitOr, bitor);
+
+impl<S: Simd> Neg for F<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl<S: Simd> Not for M<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(!self.0)
+    }
+}
+
+impl<S: Simd> LaneMask for M<S> {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0.any_true()
+    }
+}
+
+impl<S: Simd> M<S> {
+    #[inline(always)]
+    pub(crate) fn splat(s: S, v: bool) -> Self {
+        Self(S::mask32s::splat(s, v))
+    }
+
+    /// One bit a lane.
+    #[inline(always)]
+    pub(crate) fn bits(self) -> u64 {
+        self.0.to_bitmask()
+    }
+
+    #[inline(always)]
+    pub(crate) fn from_bits(s: S, bits: u64) -> Self {
+        Self(S::mask32s::from_bitmask(s, bits))
+    }
+
+    /// How many lanes hold.
+    #[inline(always)]
+    pub(crate) fn count(self) -> u64 {
+        u64::from(self.bits().count_ones())
+    }
+
+    #[inline(always)]
+    pub(crate) fn lanes(self) -> Bits {
+        Bits(self.bits())
+    }
+}
+
+/// The lanes of a mask that hold, lowest first.
+pub(crate) struct Bits(u64);
+
+impl Iterator for Bits {
+    type Item = usize;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        let lane = self.0.trailing_zeros() as usize;
+        self.0 &= self.0.wrapping_sub(1);
+        (lane < 64).then_some(lane)
+    }
+}
+
+impl<S: Simd> Arithmetic for F<S> {
+    #[inline(always)]
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        Self(self.0.mul_add_precise(factor.0, summand.0))
+    }
+}
+
+impl<S: Simd> Lane for F<S> {
+    type Mask = M<S>;
+
+    #[inline(always)]
+    fn of(self, constant: Coefficient) -> Self {
+        Self::splat(self.0.token(), constant.narrow)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+    #[inline(always)]
+    fn floor(self) -> Self {
+        Self(self.0.floor())
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(self.0.min(other.0))
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(self.0.max(other.0))
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> M<S> {
+        M(self.0.simd_lt(other.0))
+    }
+    #[inline(always)]
+    fn select(mask: M<S>, if_true: Self, if_false: Self) -> Self {
+        Self::pick(mask, if_true, if_false)
+    }
+    #[inline(always)]
+    fn real_power(self, exponent: Coefficient) -> Self {
+        let smallest = self.number(f64::from(f32::MIN_POSITIVE));
+        let power = (self.max(smallest).log2() * self.of(exponent)).exp2();
+        Self::pick(self.less(smallest), self.number(0.0), power)
+    }
+}
+
+impl<S: Simd> D<S> {
+    #[inline(always)]
+    pub(crate) fn splat(s: S, v: f64) -> Self {
+        Self { lower: S::f64s::splat(s, v), upper: S::f64s::splat(s, v) }
+    }
+
+    #[inline(always)]
+    pub(crate) fn load(s: S, from: &[f64]) -> Self {
+        let half = S::f64s::LEN;
+        Self {
+            lower: S::f64s::from_slice(s, &from[..half]),
+            upper: S::f64s::from_slice(s, &from[half..2 * half]),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn lane(self, lane: usize) -> f64 {
+        let half = S::f64s::LEN;
+        if lane < half { self.lower.as_slice()[lane] } else { self.upper.as_slice()[lane - half] }
+    }
+
+    #[inline(always)]
+    pub(crate) fn abs(self) -> Self {
+        Self { lower: self.lower.abs(), upper: self.upper.abs() }
+    }
+
+    #[inline(always)]
+    pub(crate) fn max(self, o: Self) -> Self {
+        Self { lower: self.lower.max(o.lower), upper: self.upper.max(o.upper) }
+    }
+
+    /// Writes the lanes where the mask holds one after another, and anything after them, up to all lanes.
+    #[inline(always)]
+    pub(crate) fn compress(self, mask: M<S>, to: &mut [f64]) {
+        let [lower, upper] = Self::halves(mask);
+        let half = S::f64s::LEN;
+        let first = (mask.bits() & ((1 << half) - 1)).count_ones() as usize;
+        self.lower.compress(lower).store_slice(&mut to[..half]);
+        self.upper.compress(upper).store_slice(&mut to[first..first + half]);
+    }
+
+    #[inline(always)]
+    fn halves(mask: M<S>) -> [S::mask64s; 2] {
+        let (s, bits, half) = (mask.0.token(), mask.bits(), S::f64s::LEN);
+        let low = (1_u64 << half) - 1;
+        [S::mask64s::from_bitmask(s, bits & low), S::mask64s::from_bitmask(s, bits >> half & low)]
+    }
+
+    /// Rounded to `f32`.
+    #[inline(always)]
+    pub(crate) fn narrow(self) -> F<S> {
+        F(self.lower.narrow(self.upper))
+    }
+
+    #[inline(always)]
+    pub(crate) fn pick(mask: M<S>, if_true: Self, if_false: Self) -> Self {
+        let [lower, upper] = Self::halves(mask);
+        Self {
+            lower: lower.select(if_true.lower, if_false.lower),
+            upper: upper.select(if_true.upper, if_false.upper),
+        }
+    }
+}
+
+macro_rules! binary_double {
+    ($trait:ident, $name:ident) => {
+        impl<S: Simd> $trait for D<S> {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, o: Self) -> Self {
+                Self { lower: self.lower.$name(o.lower), upper: self.upper.$name(o.upper) }
+            }
+        }
+    };
+}
+
+binary_double!(Add, add);
+binary_double!(Sub, sub);
+binary_double!(Mul, mul);
+binary_double!(Div, div);
+
+impl<S: Simd> Neg for D<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { lower: -self.lower, upper: -self.upper }
+    }
+}
+
+impl<S: Simd> Arithmetic for D<S> {
+    #[inline(always)]
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        Self {
+            lower: self.lower.mul_add_precise(factor.lower, summand.lower),
+            upper: self.upper.mul_add_precise(factor.upper, summand.upper),
+        }
+    }
+}
+
+impl<S: Simd> U<S> {
+    #[inline(always)]
+    pub(crate) fn splat(s: S, v: u32) -> Self {
+        Self(S::u32s::splat(s, v))
+    }
+
+    #[inline(always)]
+    pub(crate) fn load(s: S, from: &[u32]) -> Self {
+        Self(S::u32s::from_slice(s, &from[..F::<S>::LANES]))
+    }
+
+    #[inline(always)]
+    pub(crate) fn store(self, to: &mut [u32]) {
+        self.0.store_slice(&mut to[..F::<S>::LANES]);
+    }
+
+    #[inline(always)]
+    pub(crate) fn lane(self, lane: usize) -> u32 {
+        self.0.as_slice()[lane]
+    }
+
+    #[inline(always)]
+    pub(crate) fn set(&mut self, lane: usize, v: u32) {
+        self.0.as_mut_slice()[lane] = v;
+    }
+
+    #[inline(always)]
+    pub(crate) fn plus(self, v: u32) -> Self {
+        Self(self.0 + v)
+    }
+
+    #[inline(always)]
+    pub(crate) fn is(self, v: u32) -> M<S> {
+        M(self.0.simd_eq(v))
+    }
+
+    #[inline(always)]
+    pub(crate) fn pick(mask: M<S>, if_true: Self, if_false: Self) -> Self {
+        Self(mask.0.select(if_true.0, if_false.0))
+    }
+}
+
+/// The same vector in every lane.
+#[inline(always)]
+pub(crate) fn splat3<S: Simd>(s: S, v: [f32; 3]) -> F3<S> {
+    Triple::new(F::splat(s, v[0]), F::splat(s, v[1]), F::splat(s, v[2]))
+}
+
+/// The same vector in every lane, in `f64`.
+#[inline(always)]
+pub(crate) fn splat_wide<S: Simd>(s: S, v: DVec3) -> D3<S> {
+    Triple::new(D::splat(s, v.x), D::splat(s, v.y), D::splat(s, v.z))
+}
+
+/// Rounded to `f32`.
+#[inline(always)]
+pub(crate) fn narrow3<S: Simd>(v: D3<S>) -> F3<S> {
+    Triple::new(v.x.narrow(), v.y.narrow(), v.z.narrow())
+}
+
+/// The vector in one lane.
+#[inline(always)]
+pub(crate) fn lane3<S: Simd>(v: D3<S>, lane: usize) -> DVec3 {
+    DVec3::new(v.x.lane(lane), v.y.lane(lane), v.z.lane(lane))
+}
+
+/// `if_true` where the mask holds, else `if_false`.
+#[inline(always)]
+pub(crate) fn pick3<S: Simd>(mask: M<S>, if_true: D3<S>, if_false: D3<S>) -> D3<S> {
+    Triple::new(
+        D::pick(mask, if_true.x, if_false.x),
+        D::pick(mask, if_true.y, if_false.y),
+        D::pick(mask, if_true.z, if_false.z),
+    )
+}

@@ -1,0 +1,52 @@
+//! How a picture is traced: an immutable [`Snapshot`] of a scene, acceleration trees over it, backends that answer
+//! what a ray meets, a Whitted integrator over any of them, and the [`Film`] that holds the result.
+//!
+//! ```
+//! use catoptra_core::{Camera, Rgb, Scene, geometry::Sphere, light::AmbientLight, material::Matte};
+//! use catoptra_core::glam::DVec3;
+//! use catoptra_tracer::{Control, Film, Pool, Size, Snapshot, View, backend_named, render};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let mut scene = Scene::new();
+//! let clay = scene.add_material("clay", Matte::new(Rgb::grey(0.5))?)?;
+//! scene.add_shape("ball", Sphere::new(DVec3::ZERO, 1.0)?, clay, None)?;
+//! scene.add_light("sky", AmbientLight::new(Rgb::WHITE)?, None)?;
+//! let camera = Camera::look_at(DVec3::Z * 4.0, DVec3::ZERO, DVec3::Y, 0.8)?;
+//!
+//! let view = View::new(camera, Size::new(32, 24));
+//! let mut film = Film::new(view.size);
+//! let backend = backend_named("wide").ok_or("no such backend")?;
+//! render(backend, &Snapshot::extract(&scene), &view, &mut film, &Pool::new(1)?, &Control::default())?;
+//! assert_eq!(film.radiance(16, 12), [0.5; 3]);
+//! # Ok(())
+//! # }
+//! ```
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test may stop at the first surprise"))]
+
+mod accel;
+pub mod backend;
+mod control;
+mod display;
+mod film;
+mod integrator;
+mod kernel;
+mod lanes;
+mod numeric;
+mod pick;
+mod pool;
+mod render;
+mod snapshot;
+mod stats;
+mod view;
+
+pub use accel::MeshTree;
+pub use backend::{Backend, Frame, backend_named, backends};
+pub use control::Control;
+pub use display::Display;
+pub use film::{Film, Tile};
+pub use pick::{Pick, pick};
+pub use pool::{NoPool, Pool};
+pub use render::{Cancelled, render};
+pub use snapshot::{Hit, Needs, Place, Prim, Snapshot};
+pub use stats::{Rays, Skipped, Stats, Tests};
+pub use view::{Size, View};

@@ -1,0 +1,37 @@
+//! Which numbers decide something in tracing: every tolerance of the crate, with its source.
+
+/// Rays that could add less than this share of what they meet are not traced, unless a view says otherwise.
+///
+/// A quarter of the step between two levels of an 8-bit display, 1/255, for light that would show as white.
+pub(crate) const WEIGHT_CUTOFF: f32 = 0.25 / 255.0;
+
+/// Unit roundoff of `f32`, 2⁻²⁴.
+const U: f32 = 1.0 / (1 << 24) as f32;
+
+/// How far a coordinate relative to another point may be off, per metre of the two coordinates' magnitudes: each is
+/// rounded once to `f32` (u), and their difference once (2u of the same sum at most).
+///
+/// The difference enters a product with a unit direction whose components carry three roundings (conversion,
+/// length, scaling), a sum of three products (γ₃), and a fused remainder (2u): 3 + 3 + 3 + 2 = 11, rounded up.
+pub(crate) const POINT_ERROR: f32 = 12.0 * U;
+
+/// Relative error of a scalar product with a unit direction: three roundings in each of its components (conversion,
+/// length, scaling), one in those of the other vector, and three in the sum of products; doubled for the products'
+/// sum of magnitudes, which is at most √3 of the vectors' lengths.
+pub(crate) const DIRECTION_ERROR: f32 = 16.0 * U;
+
+/// Error of an edge value `(e × q) · d`, relative to |d|₁ L R where L bounds the coordinates of the edge e, and R
+/// those of corners and origin together, so those of the corner q as seen from the origin too.
+///
+/// An edge coordinate is off by uL after its subtraction, one of q by 2uR after conversion and subtraction; their
+/// product by uLR + 2uLR + uLR, the difference of two by twice that and one more u·2LR: 10uLR. The direction adds
+/// 3u·2LR and the sum of three products γ₃·2LR: 22uLR, rounded up.
+pub(crate) const EDGE_ERROR: f32 = 24.0 * U;
+
+/// Far ends of box intervals are stretched by 1 + 2γ₃ (Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013), with two
+/// more roundings for a direction that was itself converted and scaled: 1 + 2γ₅.
+pub(crate) const BOX_STRETCH: f32 = 1.0 + 10.0 * U / (1.0 - 5.0 * U);
+
+/// How far a box is widened on every side, per metre of the ray origin's largest coordinate: the origin is rounded
+/// once to `f32`.
+pub(crate) const BOX_PAD: f32 = 2.0 * U;

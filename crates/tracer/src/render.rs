@@ -1,0 +1,46 @@
+//! How a picture is shared out among threads.
+
+use rayon::prelude::*;
+
+use crate::{Backend, Control, Film, Frame, Pool, Snapshot, Stats, View};
+
+/// The render was asked to stop; the film holds some new tiles and some old ones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the render was cancelled")]
+pub struct Cancelled;
+
+/// Traces a picture into `film`, tile by tile, on the threads of `pool`.
+///
+/// The result depends on neither the number of threads nor the size of the tiles.
+///
+/// # Errors
+/// [`Cancelled`] when `control` said so before the last tile was begun.
+///
+/// # Panics
+/// A film of another size than the view's.
+pub fn render(
+    backend: &dyn Backend,
+    snapshot: &Snapshot,
+    view: &View,
+    film: &mut Film,
+    pool: &Pool,
+    control: &Control,
+) -> Result<Stats, Cancelled> {
+    assert_eq!(film.size(), view.size, "the film has the size of the view");
+    let frame = Frame::new(snapshot, view);
+    let tiles = film.begin(snapshot.entities());
+    control.start(tiles.len());
+    let trace = |tile: &mut crate::Tile| {
+        if control.is_cancelled() {
+            return Err(Cancelled);
+        }
+        let stats = backend.trace(&frame, tile);
+        control.advance();
+        Ok(stats)
+    };
+    let add = |mut a: Stats, b: Stats| {
+        a += b;
+        Ok(a)
+    };
+    pool.run(|| tiles.par_iter_mut().with_max_len(1).map(trace).try_reduce(Stats::default, add))
+}

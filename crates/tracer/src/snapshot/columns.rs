@@ -1,0 +1,119 @@
+//! Shapes as the SIMD kernels read them: constants in `f32` to propose with and in `f64` to settle with.
+
+use std::sync::Arc;
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Placement, Shape};
+
+use super::Prim;
+use crate::accel::MeshTree;
+use crate::kernel::{PlaneRow, RectangleRow, SphereRow, TriangleRow};
+
+/// Where a mesh stands.
+#[derive(Debug, Clone)]
+pub(crate) struct Instance {
+    pub(crate) prim: u32,
+    pub(crate) tree: Arc<MeshTree>,
+    /// From the world to the mesh's own space; `None` where they are the same.
+    pub(crate) to_object: Option<Affine>,
+}
+
+/// `p → matrix · p + shift`, row by row.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Affine {
+    pub(crate) matrix: [DVec3; 3],
+    pub(crate) shift: DVec3,
+}
+
+impl Affine {
+    /// The same map as a placement; `None` for the one that leaves everything where it is.
+    fn of(placement: &Placement) -> Option<Self> {
+        let columns = DVec3::AXES.map(|axis| placement.vector(axis));
+        let matrix = [0, 1, 2].map(|row| DVec3::from(columns.map(|column| column[row])));
+        (*placement != Placement::IDENTITY).then(|| Self { matrix, shift: placement.point(DVec3::ZERO) })
+    }
+}
+
+/// What stands behind a shape of the snapshot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Row {
+    Plane(u32),
+    Sphere(u32),
+    Rectangle(u32),
+    /// The first of so many triangles, the faces of one shape in order of their facets.
+    Triangles(u32, u32),
+    Instance(u32),
+    /// No kernel: crossed in `f64`, one ray at a time.
+    General,
+}
+
+/// The rows of all kernels.
+#[derive(Debug, Default)]
+pub(crate) struct Columns {
+    pub(crate) planes: Vec<PlaneRow>,
+    pub(crate) spheres: Vec<SphereRow>,
+    pub(crate) rectangles: Vec<RectangleRow>,
+    pub(crate) triangles: Vec<TriangleRow>,
+    pub(crate) instances: Vec<Instance>,
+    /// What stands behind each shape.
+    pub(crate) rows: Vec<Row>,
+    /// Shapes that have an end, in the order of the tree's items.
+    pub(crate) bounded: Vec<u32>,
+    /// Shapes without an end that have no kernel.
+    pub(crate) general_unbounded: Vec<u32>,
+}
+
+impl Columns {
+    pub(crate) fn of(prims: &[Prim], bounded: &[u32], meshes: &[Arc<MeshTree>]) -> Self {
+        let mut columns = Self { bounded: bounded.to_vec(), ..Self::default() };
+        for (prim, id) in prims.iter().zip(0..) {
+            let row = columns.add(prim, id, meshes);
+            columns.rows.push(row);
+            if row == Row::General && prim.shape.bounds().is_none() {
+                columns.general_unbounded.push(id);
+            }
+        }
+        columns
+    }
+
+    /// How many shapes have no kernel.
+    pub(crate) fn without_kernel(&self) -> usize {
+        self.rows.iter().filter(|&&row| row == Row::General).count()
+    }
+
+    fn add(&mut self, prim: &Prim, id: u32, meshes: &[Arc<MeshTree>]) -> Row {
+        match &prim.shape {
+            Shape::Plane(plane) => {
+                Row::Plane(push(&mut self.planes, PlaneRow::new(plane.point(), plane.normal(), id)))
+            }
+            Shape::Sphere(sphere) => {
+                Row::Sphere(push(&mut self.spheres, SphereRow::new(sphere.center(), sphere.radius())))
+            }
+            Shape::Rectangle(r) => {
+                Row::Rectangle(push(&mut self.rectangles, RectangleRow::new(r.corner(), r.edges(), id)))
+            }
+            Shape::Triangle(t) => {
+                Row::Triangles(push(&mut self.triangles, TriangleRow::new(t.corners(), 0)), 1)
+            }
+            Shape::Tetrahedron(t) => {
+                let first = self.triangles.len() as u32;
+                self.triangles.extend((0..4).map(|face| TriangleRow::new(t.face(face), face)));
+                Row::Triangles(first, 4)
+            }
+            Shape::Mesh(mesh) => match prim.mesh {
+                Some(tree) => {
+                    let tree = Arc::clone(&meshes[tree as usize]);
+                    let instance = Instance { prim: id, tree, to_object: Affine::of(mesh.to_object()) };
+                    Row::Instance(push(&mut self.instances, instance))
+                }
+                None => Row::General,
+            },
+            _ => Row::General,
+        }
+    }
+}
+
+fn push<T>(rows: &mut Vec<T>, row: T) -> u32 {
+    rows.push(row);
+    rows.len() as u32 - 1
+}

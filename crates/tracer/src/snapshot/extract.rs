@@ -1,0 +1,107 @@
+//! How a snapshot is taken of a scene.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Aabb, EntityId, Light, MaterialId, Placement, Role, Scene, Shape, TriangleMesh};
+
+use super::{Columns, Prim, Snapshot};
+use crate::accel::{MeshTree, Tree};
+
+impl Snapshot {
+    /// Freezes a scene. Trees over meshes are built on the threads of the pool this is called in.
+    #[must_use]
+    pub fn extract(scene: &Scene) -> Self {
+        Self::extract_after(scene, None)
+    }
+
+    /// Freezes a scene, taking over from an earlier snapshot the trees of meshes that are still there.
+    #[must_use]
+    pub fn extract_after(scene: &Scene, earlier: Option<&Self>) -> Self {
+        let placed: Vec<(EntityId, Shape, MaterialId)> = scene
+            .entities_of(Role::Shape)
+            .filter_map(|id| Some((id, scene.world_shape(id)?, scene.material_of(id)?)))
+            .collect();
+        let origin = origin_of(placed.iter().filter_map(|(_, shape, _)| shape.bounds()));
+        let rows: HashMap<MaterialId, u32> = scene.materials().map(|(id, ..)| id).zip(0..).collect();
+        let mut trees = MeshTrees::after(earlier);
+        let prims: Vec<Prim> = placed
+            .iter()
+            .map(|(_, shape, material)| Prim {
+                shape: relative(shape, origin),
+                material: rows[material],
+                mesh: trees.of(shape),
+            })
+            .collect();
+        let lights: Vec<Light> =
+            scene.entities_of(Role::Light).filter_map(|id| scene.world_light(id)).collect();
+        let (bounded, unbounded): (Vec<u32>, Vec<u32>) =
+            (0..prims.len() as u32).partition(|&i| prims[i as usize].shape.bounds().is_some());
+        let boxes: Vec<_> =
+            bounded.iter().filter_map(|&i| prims[i as usize].shape.bounds()).map(Into::into).collect();
+        Self {
+            origin,
+            columns: Columns::of(&prims, &bounded, &trees.meshes),
+            tree: Tree::build(&boxes),
+            entities: placed.iter().map(|(id, ..)| *id).collect(),
+            prims,
+            unbounded,
+            bounded,
+            meshes: trees.meshes,
+            materials: scene.materials().map(|(.., material)| material.clone()).collect(),
+            ambient: lights.iter().map(Light::ambient).fold(catoptra_core::Rgb::BLACK, |a, b| a + b),
+            lights: lights.iter().filter(|l| shines(l)).map(|l| l.placed(&moved(-origin))).collect(),
+            background: scene.settings().background(),
+        }
+    }
+}
+
+/// Whether a light shines from somewhere, rather than from everywhere.
+fn shines(light: &Light) -> bool {
+    light.position().is_some() || light.direction().is_some()
+}
+
+fn moved(by: DVec3) -> Placement {
+    Placement::IDENTITY.moved(by).unwrap_or_default()
+}
+
+fn relative(shape: &Shape, origin: DVec3) -> Shape {
+    if origin == DVec3::ZERO { shape.clone() } else { shape.placed(&moved(-origin)) }
+}
+
+/// Where coordinates shall be zero: the world's origin, unless all bounded shapes lie farther from it than they are
+/// large; then their middle, in whole metres. So `f32` is spent on detail, not on distance.
+fn origin_of(bounds: impl Iterator<Item = Aabb>) -> DVec3 {
+    let all = bounds.fold(Aabb::EMPTY, Aabb::union);
+    let middle = all.centre();
+    if all.is_empty() || !middle.is_finite() || middle.length() <= all.size().length() {
+        DVec3::ZERO
+    } else {
+        middle.round()
+    }
+}
+
+/// The trees over the meshes of a scene, each built once.
+struct MeshTrees<'a> {
+    earlier: &'a [Arc<MeshTree>],
+    meshes: Vec<Arc<MeshTree>>,
+    places: HashMap<*const TriangleMesh, u32>,
+}
+
+impl<'a> MeshTrees<'a> {
+    fn after(earlier: Option<&'a Snapshot>) -> Self {
+        let earlier = earlier.map_or(&[][..], |snapshot| &snapshot.meshes);
+        Self { earlier, meshes: Vec::new(), places: HashMap::new() }
+    }
+
+    fn of(&mut self, shape: &Shape) -> Option<u32> {
+        let Shape::Mesh(mesh) = shape else { return None };
+        let mesh = &mesh.source().mesh;
+        Some(*self.places.entry(Arc::as_ptr(mesh)).or_insert_with(|| {
+            let known = self.earlier.iter().find(|tree| Arc::ptr_eq(tree.mesh(), mesh));
+            self.meshes.push(known.map_or_else(|| Arc::new(MeshTree::build(mesh)), Arc::clone));
+            self.meshes.len() as u32 - 1
+        }))
+    }
+}

@@ -1,0 +1,111 @@
+//! What is traced: a scene frozen into columns, relative to an origin of its own.
+
+mod columns;
+mod extract;
+mod needs;
+mod search;
+
+use std::sync::Arc;
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{EntityId, Light, Material, Ray, Rgb, Shape};
+
+pub(crate) use columns::{Columns, Instance, Row};
+pub use needs::Needs;
+pub use search::{Hit, Place};
+
+use crate::accel::{MeshTree, Tree};
+
+/// One shape of a snapshot; its number is its place in the order of entity ids.
+#[derive(Debug, Clone)]
+pub struct Prim {
+    /// The shape, where it stands, relative to the snapshot's origin.
+    pub shape: Shape,
+    /// Which of the snapshot's materials it wears.
+    pub material: u32,
+    /// Which of the snapshot's mesh trees stands behind a mesh.
+    pub mesh: Option<u32>,
+}
+
+/// A scene frozen for tracing. Never changes; share it by `Arc`.
+#[derive(Debug)]
+pub struct Snapshot {
+    origin: DVec3,
+    prims: Vec<Prim>,
+    entities: Arc<[EntityId]>,
+    unbounded: Vec<u32>,
+    bounded: Vec<u32>,
+    tree: Tree,
+    meshes: Vec<Arc<MeshTree>>,
+    materials: Vec<Material>,
+    lights: Vec<Light>,
+    ambient: Rgb,
+    background: Rgb,
+    columns: Columns,
+}
+
+impl Snapshot {
+    /// Where in the world the snapshot's coordinates are zero.
+    #[must_use]
+    pub fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
+    /// All shapes, in the order of their entities' ids.
+    #[must_use]
+    pub fn prims(&self) -> &[Prim] {
+        &self.prims
+    }
+
+    /// Which entity each shape belongs to.
+    #[must_use]
+    pub fn entities(&self) -> &Arc<[EntityId]> {
+        &self.entities
+    }
+
+    /// All materials.
+    #[must_use]
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// All lights that shine from somewhere, relative to the snapshot's origin.
+    #[must_use]
+    pub fn lights(&self) -> &[Light] {
+        &self.lights
+    }
+
+    /// Radiance that arrives everywhere from everywhere.
+    #[must_use]
+    pub fn ambient(&self) -> Rgb {
+        self.ambient
+    }
+
+    /// Radiance seen where a ray meets nothing.
+    #[must_use]
+    pub fn background(&self) -> Rgb {
+        self.background
+    }
+
+    /// The meshes, each once.
+    #[must_use]
+    pub fn meshes(&self) -> &[Arc<MeshTree>] {
+        &self.meshes
+    }
+
+    /// A ray of the world, relative to the snapshot's origin.
+    #[must_use]
+    pub fn own_ray(&self, ray: &Ray) -> Ray {
+        Ray::new(ray.origin - self.origin, ray.direction)
+    }
+
+    /// The shapes as the SIMD kernels read them.
+    pub(crate) fn columns(&self) -> &Columns {
+        &self.columns
+    }
+
+    /// The tree over all shapes that have an end; its items are places in [`Columns::bounded`].
+    pub(crate) fn tree(&self) -> &Tree {
+        &self.tree
+    }
+}

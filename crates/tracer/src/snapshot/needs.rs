@@ -1,0 +1,66 @@
+//! What a scene asks of the tracer, in counts.
+
+use serde::Serialize;
+
+use super::Snapshot;
+
+/// What there is in a snapshot.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Needs {
+    /// Shapes by kind, most first.
+    pub shapes: Vec<(&'static str, usize)>,
+    /// Lights by kind, most first; ambient light is not among them.
+    pub lights: Vec<(&'static str, usize)>,
+    /// Materials by kind, most first.
+    pub materials: Vec<(&'static str, usize)>,
+    /// Shapes without an end, which stand apart from the tree.
+    pub unbounded: usize,
+    /// Meshes, each counted once however often it stands somewhere.
+    pub meshes: usize,
+    /// Triangles of those meshes.
+    pub triangles: usize,
+    /// Bytes of all trees.
+    pub tree_bytes: usize,
+    /// Shapes that have a SIMD kernel; the others are crossed one ray at a time.
+    pub with_kernel: usize,
+    /// Whether any shape reflects.
+    pub reflects: bool,
+    /// Lights that throw shadows.
+    pub shadowing_lights: usize,
+    /// Whether there is ambient light.
+    pub ambient: bool,
+}
+
+impl Snapshot {
+    /// Counts what is in it.
+    #[must_use]
+    pub fn needs(&self) -> Needs {
+        Needs {
+            shapes: count(self.prims.iter().map(|p| p.shape.kind_name())),
+            lights: count(self.lights.iter().map(|l| l.kind_name())),
+            materials: count(self.materials.iter().map(|m| m.kind_name())),
+            unbounded: self.unbounded.len(),
+            meshes: self.meshes.len(),
+            triangles: self.meshes.iter().map(|m| m.mesh().triangles().len()).sum(),
+            tree_bytes: self.meshes.iter().map(|m| m.bytes()).sum::<usize>()
+                + size_of_val(&self.tree.nodes[..])
+                + size_of_val(&self.tree.order[..]),
+            with_kernel: self.prims.len() - self.columns.without_kernel(),
+            reflects: self.materials.iter().any(|m| m.reflectiveness().wide > 0.0),
+            shadowing_lights: self.lights.iter().filter(|l| l.shadow()).count(),
+            ambient: self.ambient.max_channel() > 0.0,
+        }
+    }
+}
+
+fn count(names: impl Iterator<Item = &'static str>) -> Vec<(&'static str, usize)> {
+    let mut counts: Vec<(&'static str, usize)> = Vec::new();
+    for name in names {
+        match counts.iter_mut().find(|(n, _)| *n == name) {
+            Some(entry) => entry.1 += 1,
+            None => counts.push((name, 1)),
+        }
+    }
+    counts.sort_by_key(|&(name, n)| (std::cmp::Reverse(n), name));
+    counts
+}

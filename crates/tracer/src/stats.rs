@@ -1,0 +1,83 @@
+//! What a render did, in counts.
+
+use serde::Serialize;
+
+/// Rays traced, by kind.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Rays {
+    /// From the camera.
+    pub primary: u64,
+    /// From a surface to a light.
+    pub shadow: u64,
+    /// From a mirroring surface.
+    pub reflection: u64,
+}
+
+/// Tests of rays against things, by kind.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Tests {
+    /// Against shapes and mesh triangles.
+    pub shapes: u64,
+    /// Against boxes of a tree.
+    pub boxes: u64,
+}
+
+/// Rays not traced, by reason.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Skipped {
+    /// Shadow rays: the surface faces away from the light.
+    pub facing_away: u64,
+    /// Shadow rays: the point lies outside the light's cone.
+    pub out_of_cone: u64,
+    /// Shadow rays: the light throws no shadows.
+    pub shadow_off: u64,
+    /// Shadow rays: the material shows no light of its own.
+    pub unlit_material: u64,
+    /// Reflection rays: the surface reflects nothing.
+    pub not_reflective: u64,
+    /// Reflection rays: deep enough already.
+    pub depth_limit: u64,
+    /// Reflection rays: too faint to matter.
+    pub weight_cutoff: u64,
+}
+
+/// Counts of one render, or of a part of it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Stats {
+    /// Rays traced.
+    pub rays: Rays,
+    /// Tests made.
+    pub tests: Tests,
+    /// Rays not traced.
+    pub skipped: Skipped,
+    /// Answers that `f32` could not decide and `f64` did.
+    pub settled: u64,
+    /// Answers that `f64` could not decide and exact arithmetic did.
+    pub exact: u64,
+    /// Radiances that were not finite and were put to black.
+    pub not_finite: u64,
+}
+
+macro_rules! add_fields {
+    ($type:ident: $($field:ident),+) => {
+        impl std::ops::AddAssign for $type {
+            fn add_assign(&mut self, other: Self) {
+                $(self.$field += other.$field;)+
+            }
+        }
+    };
+}
+
+add_fields!(Rays: primary, shadow, reflection);
+add_fields!(Tests: shapes, boxes);
+add_fields!(Skipped:
+    facing_away, out_of_cone, shadow_off, unlit_material, not_reflective, depth_limit, weight_cutoff);
+add_fields!(Stats: rays, tests, skipped, settled, exact, not_finite);
+
+impl Rays {
+    /// All rays traced.
+    #[must_use]
+    pub const fn total(&self) -> u64 {
+        self.primary + self.shadow + self.reflection
+    }
+}
