@@ -27,9 +27,9 @@ pub(crate) struct Ink {
 }
 
 impl Ink {
-    /// A cased line of 1.6 pixels that is dashed where it is hidden.
+    /// A cased line of 1.8 pixels that is dashed where it is hidden.
     pub(crate) fn new(tint: Tint) -> Self {
-        Self { tint, opacity: 1.0, width: 1.6, casing: 0.5 }
+        Self { tint, opacity: 1.0, width: 1.8, casing: 0.5 }
     }
 
     pub(crate) fn with_width(self, width: f32) -> Self {
@@ -42,7 +42,7 @@ impl Ink {
 }
 
 /// Width of a casing beyond its line on either side, in pixels.
-pub(crate) const CASING: f32 = 1.1;
+pub(crate) const CASING: f32 = 0.85;
 /// Opacity of a hidden line relative to a visible one.
 const HIDDEN: f32 = 0.45;
 /// Dash and gap in pixels.

@@ -95,3 +95,96 @@ fn nearest_on_ring(stage: &Stage<'_>, cone: &Cone, half: f64, pointer: (f64, f64
     let (off, point): (f64, DVec3) = sides.min_by(|a, b| a.0.total_cmp(&b.0))?;
     Some((off, cone.azimuth_of(point)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::overlay::OverlayStyle;
+    use crate::projection::Projection;
+    use crate::sample;
+    use catoptra_core::scene::Scene;
+
+    fn stage(scene: &Scene) -> Stage<'_> {
+        let view = Projection::new(&sample::camera(), sample::WIDTH, sample::HEIGHT);
+        Stage::new(scene, view, OverlayStyle::default(), &[])
+    }
+
+    fn downward() -> Scene {
+        let apex = DVec3::new(0.5, 4.0, 0.0);
+        sample::lit_by(sample::spot(apex, DVec3::new(0.2, -1.0, 0.3), 20.0, 60.0)).0
+    }
+
+    /// Where a point of a ring of the first light stands in the picture.
+    fn seen(stage: &Stage<'_>, half: f64, azimuth: f64) -> (f64, f64) {
+        let cone = Cone::of(stage, &stage.lights[0]).unwrap();
+        let seen = stage.view.project(cone.point(half, azimuth)).unwrap();
+        (seen.x, seen.y)
+    }
+
+    #[test]
+    fn a_ring_is_gripped_where_it_is_drawn() {
+        let scene = downward();
+        let stage = stage(&scene);
+        for (ring, half) in [(Ring::Inner, 10_f64.to_radians()), (Ring::Outer, 30_f64.to_radians())] {
+            let (x, y) = seen(&stage, half, 0.7);
+            let grip = ring_at(&stage, x, y).unwrap();
+            assert_eq!((grip.light, grip.ring), (stage.lights[0].id, ring));
+        }
+        assert!(ring_at(&stage, 2.0, 2.0).is_none());
+    }
+
+    #[test]
+    fn dragging_is_the_inverse_of_projecting() {
+        let scene = downward();
+        let stage = stage(&scene);
+        for azimuth in [-2.5, -1.0, 0.3, 1.6, 3.0] {
+            for degrees in [12.0_f64, 25.0, 44.4, 71.0, 89.0] {
+                let grip = RingGrip { light: stage.lights[0].id, ring: Ring::Outer, azimuth };
+                let (x, y) = seen(&stage, degrees.to_radians(), azimuth);
+                let found = drag_ring(&stage, grip, x, y).unwrap();
+                let (again_x, again_y) = seen(&stage, 0.5 * found, azimuth);
+                assert!((again_x - x).hypot(again_y - y) < 1e-6, "{degrees} at {azimuth} became {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn dragging_across_the_view_gives_the_very_angle() {
+        let (scene, light) =
+            sample::lit_by(sample::spot(DVec3::new(0.0, 4.0, 0.0), DVec3::NEG_Y, 20.0, 60.0));
+        let stage = stage(&scene);
+        let cone = Cone::of(&stage, &stage.lights[0]).unwrap();
+        let azimuth = cone.azimuth_of(DVec3::new(1.0, 4.0, 0.0));
+        for degrees in [21.0_f64, 60.0, 133.0, 179.0] {
+            let (x, y) = seen(&stage, 0.5 * degrees.to_radians(), azimuth);
+            let found = drag_ring(&stage, RingGrip { light, ring: Ring::Outer, azimuth }, x, y).unwrap();
+            assert!((found.to_degrees() - degrees).abs() < 1e-6, "{degrees} became {}", found.to_degrees());
+        }
+    }
+
+    #[test]
+    fn angles_stay_in_order_and_in_range() {
+        let scene = downward();
+        let stage = stage(&scene);
+        let light = stage.lights[0].id;
+        let drag = |ring, x, y| drag_ring(&stage, RingGrip { light, ring, azimuth: 0.3 }, x, y).unwrap();
+        for number in 0..400 {
+            let (x, y) = (f64::from(number % 20) * 40.0 - 200.0, f64::from(number / 20) * 30.0 - 150.0);
+            let (inner, outer) = (drag(Ring::Inner, x, y), drag(Ring::Outer, x, y));
+            assert!(inner > 0.0 && inner <= 60_f64.to_radians() + 1e-12, "{inner}");
+            assert!(outer >= 20_f64.to_radians() - 1e-12 && outer <= PI, "{outer}");
+        }
+    }
+
+    #[test]
+    fn a_light_that_is_gone_cannot_be_dragged() {
+        let (other, _) = sample::lit_by(sample::point(DVec3::ZERO));
+        let scene = downward();
+        let stage = stage(&scene);
+        let grip = RingGrip { light: stage.lights[0].id, ring: Ring::Inner, azimuth: 0.0 };
+        let view = stage.view;
+        let bare = Stage::new(&other, view, OverlayStyle::default(), &[]);
+        assert!(drag_ring(&bare, grip, 10.0, 10.0).is_none());
+        assert!(drag_ring(&stage, grip, f64::NAN, 10.0).is_none());
+    }
+}

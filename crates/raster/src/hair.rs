@@ -32,13 +32,11 @@ pub(crate) fn draw(pixmap: &mut Pixmap, ends: [(Spot, f32); 2], ink: Ink, scale:
     let (tint, dark) = (opaque(ink.tint), opaque(Tint::DARK));
     let pixels = pixmap.data_mut();
     // `as` clamps negative numbers to zero.
-    for step in ((first.along - 0.5).ceil() as usize)..((last.along - 0.5).ceil() as usize).min(length) {
+    for step in middle_after(first.along)..middle_after(last.along).min(length) {
         let share = (step as f32 + 0.5 - first.along) / run;
         let middle = first.across + (last.across - first.across) * share;
         let opacity = ink.opacity * (first.opacity + (last.opacity - first.opacity) * share);
-        for pixel in
-            ((middle - reach).floor() as usize)..((middle + reach).ceil().max(0.0) as usize).min(breadth)
-        {
+        for pixel in ((middle - reach) as usize)..((middle + reach + 1.0) as usize).min(breadth) {
             let off = (pixel as f32 + 0.5 - middle).abs() * lean;
             let core = (half + 0.5 - off).clamp(0.0, 1.0) * opacity;
             let casing = (cased + 0.5 - off).clamp(0.0, 1.0) * opacity * ink.casing * (1.0 - core);
@@ -50,6 +48,11 @@ pub(crate) fn draw(pixmap: &mut Pixmap, ends: [(Spot, f32); 2], ink: Ink, scale:
             });
         }
     }
+}
+
+/// The first pixel whose middle is not before a place; 0 where that is outside the picture.
+fn middle_after(place: f32) -> usize {
+    (place + 0.5) as usize
 }
 
 #[derive(Clone, Copy)]

@@ -19,6 +19,8 @@ mod layer;
 mod overlay;
 mod pixel;
 mod projection;
+#[cfg(test)]
+mod sample;
 mod sight;
 mod stage;
 mod tint;

@@ -120,8 +120,125 @@ impl Overlay<'_> {
         grip::drag_ring(&self.stage(), grip, x, y)
     }
 
-    fn stage(&self) -> Stage<'_> {
+    pub(crate) fn stage(&self) -> Stage<'_> {
         let view = Projection::new(self.camera, self.width, self.height);
         Stage::new(self.scene, view, self.style, self.selection)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::{self, HEIGHT, WIDTH, lit_by, spot};
+    use catoptra_core::glam::DVec3;
+
+    /// Opacity of every pixel, row-major.
+    fn alphas(overlay: &Overlay<'_>) -> Vec<u8> {
+        let mut layer = Layer::new();
+        overlay.draw(&mut layer);
+        layer.pixmap().unwrap().pixels().iter().map(|pixel| pixel.alpha()).collect()
+    }
+
+    fn sum(alphas: &[u8]) -> u64 {
+        alphas.iter().map(|&alpha| u64::from(alpha)).sum()
+    }
+
+    const CONES: OverlayStyle = OverlayStyle { cones: true, ..OverlayStyle::NONE };
+    const AXES: OverlayStyle = OverlayStyle { axes: true, ..OverlayStyle::NONE };
+
+    #[test]
+    fn the_ring_of_a_spot_straight_ahead_is_a_circle_of_the_right_radius() {
+        // Rings stand 4 m from the apex at (0, 2, 0): the outer one, at 30 degrees, 2 m about the axis.
+        let (scene, _) = lit_by(spot(DVec3::new(0.0, 2.0, 0.0), DVec3::NEG_Z, 20.0, 60.0));
+        let camera = sample::camera();
+        let alphas = alphas(&sample::overlay(&scene, &camera, CONES));
+        let depth = 10.0 + 4.0 * 30_f64.to_radians().cos();
+        let radius = 0.5 * f64::from(HEIGHT) / 25_f64.to_radians().tan() * 2.0 / depth;
+        for step in 0..48 {
+            let (sin, cos) = (f64::from(step) * std::f64::consts::TAU / 48.0).sin_cos();
+            let at = |radius: f64| {
+                let (x, y) = (160.0 + radius * cos, 120.0 + radius * sin);
+                alphas[y as usize * WIDTH as usize + x as usize]
+            };
+            let nearby = at(radius).max(at(radius - 0.7)).max(at(radius + 0.7));
+            assert!(nearby > 110, "no ring at step {step}: {nearby}");
+            assert_eq!(at(radius + 4.0), 0, "something outside of the ring at step {step}");
+            assert!(at(radius - 4.0) < 40, "something inside of the ring at step {step}");
+        }
+    }
+
+    #[test]
+    fn a_hidden_line_is_fainter_and_dashed() {
+        let (scene, camera) = (Scene::new(), sample::camera());
+        let plain = sample::overlay(&scene, &camera, AXES);
+        let metres = vec![1.0; (WIDTH * HEIGHT) as usize];
+        let depth = Some(DepthField { width: WIDTH, height: HEIGHT, metres: &metres });
+        let (seen, hidden) = (alphas(&plain), alphas(&Overlay { depth, ..plain }));
+        assert!(sum(&hidden) > 0 && sum(&hidden) * 3 < sum(&seen), "{} {}", sum(&hidden), sum(&seen));
+        // Along the x axis, 2 m below the eye: 171.5 pixels are the first row's share of it.
+        let row = |alphas: &[u8]| {
+            let strongest = (0..HEIGHT as usize).map(|y| &alphas[y * WIDTH as usize..][..WIDTH as usize]);
+            let strongest = strongest.max_by_key(|row| sum(row)).unwrap();
+            strongest[165..225].iter().filter(|&&alpha| alpha == 0).count()
+        };
+        assert_eq!(row(&seen), 0);
+        assert!(row(&hidden) > 10, "gaps: {}", row(&hidden));
+    }
+
+    #[test]
+    fn a_far_surface_hides_nothing() {
+        let (scene, camera) = (Scene::new(), sample::camera());
+        let plain = sample::overlay(&scene, &camera, AXES);
+        let metres = vec![100.0; (WIDTH * HEIGHT) as usize];
+        let depth = Some(DepthField { width: WIDTH, height: HEIGHT, metres: &metres });
+        assert!(sum(&alphas(&plain)).abs_diff(sum(&alphas(&Overlay { depth, ..plain }))) < 200);
+    }
+
+    #[test]
+    fn what_is_behind_the_eye_is_not_drawn() {
+        let (scene, _) = lit_by(spot(DVec3::new(0.0, 2.0, 20.0), DVec3::Z, 20.0, 60.0));
+        let camera = sample::camera();
+        let style = OverlayStyle { lights: true, ..CONES };
+        assert_eq!(sum(&alphas(&sample::overlay(&scene, &camera, style))), 0);
+    }
+
+    #[test]
+    fn a_finer_display_doubles_the_width_of_lines() {
+        let (scene, camera) = (Scene::new(), sample::camera());
+        // Across the y axis, a little over the origin.
+        let across = |scale| {
+            let alphas = alphas(&sample::overlay(&scene, &camera, OverlayStyle { scale, ..AXES }));
+            sum(&alphas[150 * WIDTH as usize..][..WIDTH as usize]) as f64
+        };
+        let ratio = across(2.0) / across(1.0);
+        assert!((ratio - 2.0).abs() < 0.1, "{ratio}");
+    }
+
+    #[test]
+    fn an_empty_picture_is_drawn_without_a_word() {
+        let (scene, camera) = (sample::scene(), sample::camera());
+        for (width, height) in [(0, 0), (0, 9), (9, 0), (1, 1)] {
+            let overlay =
+                Overlay { width, height, ..sample::overlay(&scene, &camera, OverlayStyle::default()) };
+            let mut layer = Layer::new();
+            overlay.draw(&mut layer);
+            layer.blend_over(&mut vec![0; (width * height) as usize]);
+            assert!(overlay.mark_at(f64::NAN, 0.0).is_none());
+        }
+    }
+
+    #[test]
+    fn the_glow_of_a_cone_follows_its_falloff() {
+        // Seen end-on, halfway between the rings: full light is over one level there, half over another.
+        let (scene, light) = lit_by(spot(DVec3::new(0.0, 2.0, 0.0), DVec3::NEG_Z, 10.0, 80.0));
+        let camera = sample::camera();
+        let glow = |falloff: f64| {
+            let value = catoptra_core::Value::Number(falloff);
+            let bent = scene.light(light).unwrap().with("falloff", value).unwrap();
+            let (scene, _) = lit_by(bent);
+            let alphas = alphas(&sample::overlay(&scene, &camera, CONES));
+            u32::from(alphas[120 * WIDTH as usize + 160 + 30])
+        };
+        assert!(glow(0.2) > glow(1.0) && glow(1.0) > glow(4.0), "{} {} {}", glow(0.2), glow(1.0), glow(4.0));
     }
 }

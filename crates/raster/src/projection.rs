@@ -137,7 +137,7 @@ impl Projection {
         if !(first <= last) {
             return None;
         }
-        Some([self.spot(start.lerp(end, first))?, self.spot(start.lerp(end, last))?])
+        Some([self.spot_within(start.lerp(end, first))?, self.spot_within(start.lerp(end, last))?])
     }
 
     /// The visible part of a flat convex polygon, as the corners of a polygon in pixels; empty when nothing is seen.
@@ -149,7 +149,7 @@ impl Projection {
         for side in 0..SIDES {
             seen = self.cut(side, &seen);
         }
-        seen.into_iter().filter_map(|corner| self.spot(corner)).collect()
+        seen.into_iter().filter_map(|corner| self.spot_within(corner)).collect()
     }
 
     /// Metres from the eye per metre of depth, on the ray through a pixel: 1 in the centre, more towards the corners.
@@ -178,6 +178,15 @@ impl Projection {
             inverse_depth: seen.z.recip(),
         };
         (spot.x.is_finite() && spot.y.is_finite() && spot.inverse_depth > 0.0).then_some(spot)
+    }
+
+    /// The spot of a point that was clipped. Lines of astronomic length leave rounding errors as large as the picture;
+    /// they are held to its margin.
+    fn spot_within(&self, seen: DVec3) -> Option<Spot> {
+        let spot = self.spot(seen)?;
+        let (x, y) =
+            (spot.x.clamp(-MARGIN, self.width + MARGIN), spot.y.clamp(-MARGIN, self.height + MARGIN));
+        Some(Spot { x, y, ..spot })
     }
 
     /// How far inside one side of the view a point of camera space lies; negative outside.
@@ -212,3 +221,90 @@ impl Projection {
 
 /// The near plane and the four sides of the picture.
 const SIDES: usize = 5;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tilted() -> Camera {
+        Camera::look_at(
+            DVec3::new(3.0, -2.0, 7.0),
+            DVec3::new(-1.0, 4.0, 0.5),
+            DVec3::new(0.3, 1.0, 0.1),
+            1.1,
+        )
+        .unwrap()
+    }
+
+    fn ahead() -> Projection {
+        let camera = Camera::looking(DVec3::ZERO, DVec3::NEG_Z, DVec3::Y, 90_f64.to_radians()).unwrap();
+        Projection::new(&camera, 200, 100)
+    }
+
+    #[test]
+    fn the_ray_through_the_projected_pixel_passes_through_the_point() {
+        let camera = tilted();
+        let view = Projection::new(&camera, 640, 360);
+        for number in 0..200 {
+            let step = f64::from(number);
+            let point = camera.eye()
+                + camera.forward() * (0.01 + step * 0.7)
+                + camera.right() * (step * 0.37).sin() * step
+                + camera.up() * (step * 1.7).cos() * step;
+            let seen = view.project(point).unwrap();
+            let ray = camera.ray(seen.x, seen.y, 640, 360);
+            let met = ray.origin + ray.direction.normalize() * seen.distance;
+            assert!(met.distance(point) < 1e-9 * (1.0 + seen.distance), "{point} became {met}");
+        }
+    }
+
+    #[test]
+    fn the_direction_of_a_pixel_is_that_of_the_camera() {
+        let camera = tilted();
+        let view = Projection::new(&camera, 640, 360);
+        let apart = view.direction(17.0, 300.5) - camera.ray(17.0, 300.5, 640, 360).direction;
+        assert!(apart.length() < 1e-12);
+    }
+
+    #[test]
+    fn nothing_stands_behind_the_eye_or_in_an_empty_picture() {
+        assert!(ahead().project(DVec3::Z).is_none());
+        assert!(ahead().project(DVec3::ZERO).is_none());
+        assert!(ahead().project(DVec3::NAN).is_none());
+        let empty = Projection::new(&tilted(), 0, 360);
+        assert!(empty.project(DVec3::NEG_Y).is_none());
+        assert!(empty.segment(DVec3::ZERO, DVec3::NEG_Y).is_none());
+    }
+
+    #[test]
+    fn a_segment_past_the_eye_is_cut_and_not_mirrored() {
+        let [start, end] = ahead().segment(DVec3::new(0.5, 0.0, -5.0), DVec3::new(0.5, 0.0, 5.0)).unwrap();
+        assert!((start.x - 105.0).abs() < 1e-9);
+        assert!((end.x - (200.0 + MARGIN)).abs() < 1e-6, "leaves on its own side, at {}", end.x);
+    }
+
+    #[test]
+    fn a_segment_outside_the_picture_is_not_drawn() {
+        assert!(ahead().segment(DVec3::new(90.0, 0.0, -1.0), DVec3::new(50.0, 3.0, -2.0)).is_none());
+        assert!(ahead().segment(DVec3::X, DVec3::INFINITY).is_none());
+    }
+
+    #[test]
+    fn a_huge_polygon_is_cut_to_the_picture() {
+        let ground = [(-1e6, -1e6), (1e6, -1e6), (1e6, 1e6), (-1e6, 1e6)];
+        let corners = ahead().polygon(&ground.map(|(x, z)| DVec3::new(x, -1.0, z)));
+        assert!(corners.len() >= 3);
+        for corner in corners {
+            assert!(corner.x >= -MARGIN && corner.x <= 200.0 + MARGIN);
+            assert!(corner.y >= 50.0 - 1e-3 && corner.y <= 100.0 + MARGIN);
+        }
+    }
+
+    #[test]
+    fn one_pixel_spans_what_the_projection_says() {
+        let point = DVec3::new(0.0, 0.0, -7.0);
+        let pixel = ahead().metres_per_pixel(point).unwrap();
+        let seen = ahead().project(point + DVec3::X * pixel).unwrap();
+        assert!((seen.x - 101.0).abs() < 1e-9);
+    }
+}

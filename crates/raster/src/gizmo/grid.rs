@@ -16,13 +16,15 @@ const FINEST: f64 = 4.0;
 /// Spacings drawn, each ten times the one before.
 const LEVELS: i32 = 3;
 /// Lines of a spacing on either side of the middle.
-const LINES: i32 = 20;
+const LINES: i32 = 18;
 /// Pieces of half a line; opacity is even between their ends.
 const PIECES: i32 = 10;
 /// Opacity of the strongest lines.
 const OPACITY: f32 = 0.5;
 /// Pixels between neighbouring lines at which they have faded out, and at which they are in full.
-const CLOSE: (f64, f64) = (5.0, 40.0);
+const CLOSE: (f64, f64) = (6.0, 44.0);
+/// Pieces weaker than this at both ends are not drawn.
+const FAINT: f32 = 0.06;
 
 /// Parallel lines of one spacing, in both directions.
 struct Level {
@@ -70,7 +72,7 @@ fn fading(canvas: &mut Canvas<'_>, (foot, half): (DVec3, DVec3), tint: Tint, lev
     };
     let ends: Vec<(DVec3, f32)> = (-PIECES..=PIECES).map(at).collect();
     for pair in ends.windows(2) {
-        if pair[0].1 > 0.0 || pair[1].1 > 0.0 {
+        if pair[0].1.max(pair[1].1) > FAINT {
             canvas.hair([pair[0], pair[1]], ink);
         }
     }

@@ -100,7 +100,12 @@ fn lines(canvas: &mut Canvas<'_>, cone: &Cone, tint: Tint, selected: bool) {
         }
     }
     edges(canvas, cone, cone.outer, ink);
-    edges(canvas, cone, cone.inner, bright.with_width(1.1).with_opacity(0.7 * strength));
+    edges(
+        canvas,
+        cone,
+        cone.inner,
+        Ink { casing: 0.3, ..bright }.with_width(1.2).with_opacity(0.7 * strength),
+    );
     canvas.segment(
         cone.apex,
         cone.apex + cone.axis * cone.reach,

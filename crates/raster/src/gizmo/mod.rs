@@ -45,3 +45,54 @@ pub(crate) const GIZMOS: &[Gizmo] = &[
 fn no_marks(_: &Stage<'_>) -> Vec<(EntityId, DVec3)> {
     Vec::new()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::layer::Layer;
+    use crate::sample;
+
+    /// How many pixels an overlay touches.
+    fn painted(style: OverlayStyle) -> usize {
+        let (scene, camera) = (sample::scene(), sample::camera());
+        let ball = [scene.entity_named("ball").unwrap()];
+        let mut layer = Layer::new();
+        crate::Overlay { selection: &ball, ..sample::overlay(&scene, &camera, style) }.draw(&mut layer);
+        layer.pixmap().unwrap().pixels().iter().filter(|pixel| pixel.alpha() > 0).count()
+    }
+
+    #[test]
+    fn every_gizmo_shows_something_alone() {
+        let none = OverlayStyle::NONE;
+        let alone = [
+            OverlayStyle { grid: true, ..none },
+            OverlayStyle { axes: true, ..none },
+            OverlayStyle { lights: true, ..none },
+            OverlayStyle { cones: true, ..none },
+            OverlayStyle { selection: true, ..none },
+            OverlayStyle { cameras: true, ..none },
+        ];
+        assert_eq!(painted(none), 0);
+        for gizmo in GIZMOS {
+            let mut shown = alone.iter().filter(|style| (gizmo.shown)(style)).peekable();
+            assert!(shown.peek().is_some(), "nothing shows the {}", gizmo.name);
+            assert!(shown.all(|&style| painted(style) > 20), "the {} is not seen", gizmo.name);
+        }
+    }
+
+    #[test]
+    fn lights_and_cameras_can_be_clicked_where_they_stand() {
+        let (scene, camera) = (sample::scene(), sample::camera());
+        let overlay = sample::overlay(&scene, &camera, OverlayStyle::default());
+        let stage = overlay.stage();
+        let marks: Vec<_> = GIZMOS.iter().flat_map(|gizmo| (gizmo.marks)(&stage)).collect();
+        assert_eq!(marks.len(), 4);
+        for (id, point) in marks {
+            let seen = stage.view.project(point).unwrap();
+            assert_eq!(overlay.mark_at(seen.x + 3.0, seen.y - 3.0), Some(id));
+        }
+        assert_eq!(overlay.mark_at(1.0, 239.0), None);
+        let hidden = sample::overlay(&scene, &camera, OverlayStyle::NONE);
+        assert_eq!(hidden.mark_at(160.0, 120.0), None);
+    }
+}
