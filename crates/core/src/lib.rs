@@ -1,5 +1,5 @@
 //! What is in a scene: shapes, materials, lights and cameras as parts that know their own rules, placements,
-//! and the [`Scene`](scene::Scene) that stores them as components behind stable ids and an edit log.
+//! and the [`Scene`] that stores them as components behind stable ids and an edit log.
 //!
 //! # Conventions, written once
 //! * Space is right-handed, y points up, lengths are metres, a camera looks along its own −z.

@@ -6,12 +6,12 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Arrival, Light, Material, Placement, Rgb, ShadingPoint, Triple, Value, Values};
 
-fn light(kind: &str, values: Values) -> Light {
-    (Light::kind_named(kind).unwrap().make)(&values).unwrap()
+fn light(kind: &str, values: &Values) -> Light {
+    (Light::kind_named(kind).unwrap().make)(values).unwrap()
 }
 
-fn material(kind: &str, values: Values) -> Material {
-    (Material::kind_named(kind).unwrap().make)(&values).unwrap()
+fn material(kind: &str, values: &Values) -> Material {
+    (Material::kind_named(kind).unwrap().make)(values).unwrap()
 }
 
 fn arriving(light: &Light, point: DVec3) -> Arrival<f64> {
@@ -34,14 +34,14 @@ const AT: DVec3 = DVec3::new(30.0, 40.0, 20.0);
 
 fn point_light() -> Light {
     let values = Values::new().with("position", Value::Vector(AT));
-    light("point-light", values.with("intensity", Value::Color(Rgb::new(2000.0, 1.0, 0.0))))
+    light("point-light", &values.with("intensity", Value::Color(Rgb::new(2000.0, 1.0, 0.0))))
 }
 
 /// Along −z from `AT`, with cone angles in degrees.
 fn spot(inner: f64, outer: f64, falloff: f64) -> Light {
     light(
         "spot-light",
-        Values::new()
+        &Values::new()
             .with("position", Value::Vector(AT))
             .with("direction", Value::Vector(DVec3::NEG_Z * 3.0))
             .with("intensity", Value::Color(Rgb::grey(1000.0)))
@@ -129,7 +129,7 @@ fn a_cone_of_more_than_a_half_sphere_lights_what_is_behind() {
 fn directional_light_is_the_same_everywhere() {
     let direction = DVec3::new(-30.0, -40.0, -20.0);
     let values = Values::new().with("direction", Value::Vector(direction));
-    let sun = light("directional-light", values.with("irradiance", Value::Color(Rgb::new(1.0, 2.0, 3.0))));
+    let sun = light("directional-light", &values.with("irradiance", Value::Color(Rgb::new(1.0, 2.0, 3.0))));
     for point in [DVec3::ZERO, AT, DVec3::splat(-1e9)] {
         let arrival = arriving(&sun, point);
         assert!(arrival.lit && arrival.distance.is_infinite());
@@ -142,7 +142,7 @@ fn directional_light_is_the_same_everywhere() {
 
 #[test]
 fn ambient_light_comes_from_no_direction_and_is_all_there_is_of_it() {
-    let ambient = light("ambient-light", Values::new().with("radiance", Value::Color(Rgb::grey(0.1))));
+    let ambient = light("ambient-light", &Values::new().with("radiance", Value::Color(Rgb::grey(0.1))));
     assert_eq!(ambient.ambient(), Rgb::grey(0.1));
     assert!(!arriving(&ambient, AT).lit);
     assert!(!ambient.shadow());
@@ -156,7 +156,7 @@ fn every_light_moves_with_its_placement() {
     let at = Placement::IDENTITY.turned(DVec3::ONE, DVec3::new(1.0, -2.0, 0.5), 2.2).unwrap();
     let at = at.moved(DVec3::new(5.0, -6.0, 7.0)).unwrap();
     let sun = Values::new().with("direction", Value::Vector(AT));
-    let sun = light("directional-light", sun.with("irradiance", Value::Color(Rgb::WHITE)));
+    let sun = light("directional-light", &sun.with("irradiance", Value::Color(Rgb::WHITE)));
     let point = AT + DVec3::new(0.5, -0.25, -2.0);
     for light in [point_light(), spot(10.0, 60.0, 1.5), sun] {
         let (before, after) = (arriving(&light, point), arriving(&light.placed(&at), at.point(point)));
@@ -203,7 +203,7 @@ fn shown(material: &Material, viewer: f64, light: f64) -> DVec3 {
 fn phong(model: &str, shininess: f64) -> Material {
     material(
         "phong",
-        Values::new()
+        &Values::new()
             .with("ambient", Value::Color(Rgb::new(0.2, 0.4, 0.0)))
             .with("diffuse", Value::Color(Rgb::new(1.0, 0.5, 0.0)))
             .with("specular", Value::Color(Rgb::new(0.0, 0.5, 1.0)))
@@ -233,7 +233,7 @@ fn reflectance(material: &Material, light: f64) -> DVec3 {
 
 #[test]
 fn a_matte_surface_shows_the_cosine_over_pi_from_any_side() {
-    let matte = material("matte", Values::new().with("color", Value::Color(Rgb::new(1.0, 0.5, 0.0))));
+    let matte = material("matte", &Values::new().with("color", Value::Color(Rgb::new(1.0, 0.5, 0.0))));
     for viewer in [0.0, 30.0, -80.0] {
         for (degrees, cosine) in [(0.0, 1.0), (60.0, 0.5), (-45.0, 0.5_f64.sqrt())] {
             let expected = DVec3::new(1.0, 0.5, 0.0) * cosine / PI;
@@ -246,7 +246,7 @@ fn a_matte_surface_shows_the_cosine_over_pi_from_any_side() {
 
 #[test]
 fn a_matte_surface_gives_back_its_colour_in_all() {
-    let matte = material("matte", Values::new().with("color", Value::Color(Rgb::new(1.0, 0.5, 0.0))));
+    let matte = material("matte", &Values::new().with("color", Value::Color(Rgb::new(1.0, 0.5, 0.0))));
     assert!(reflectance(&matte, 40.0).distance(DVec3::new(1.0, 0.5, 0.0)) < 1e-5);
 }
 
@@ -306,7 +306,7 @@ fn normalised_phong_gives_back_less_than_it_gets_from_the_side() {
 #[test]
 fn checker_squares_alternate_through_the_origin_and_below_it() {
     let values = Values::new().with("scale", Value::Number(0.2));
-    let checker = material("checker", values);
+    let checker = material("checker", &values);
     // Squares of 5 m; odd ones are white.
     for (x, z, white) in [
         (0.1, 0.1, 0.0),
@@ -338,7 +338,7 @@ fn checker_squares_alternate_through_the_origin_and_below_it() {
 fn checker_colours_are_those_given() {
     let (one, other) = (Rgb::new(0.1, 0.2, 0.3), Rgb::new(0.4, 0.5, 0.6));
     let values = Values::new().with("color", Value::Color(one)).with("other", Value::Color(other));
-    let checker = material("checker", values);
+    let checker = material("checker", &values);
     let at = |x| {
         vector(checker.under_ambient(&ShadingPoint { position: Triple::new(x, 0.0, 0.5), ..seen_from(0.0) }))
     };
@@ -349,7 +349,7 @@ fn checker_colours_are_those_given() {
 fn colour_and_depth_follow_the_formula() {
     let color = DVec3::new(1.0, 0.5, 0.25);
     let values = Values::new().with("color", Value::Color(Rgb::new(color.x, color.y, color.z)));
-    let depth = material("depth", values);
+    let depth = material("depth", &values);
     for normal in [DVec3::Y, DVec3::new(-2.0, 1.0, 2.0) / 3.0, DVec3::NEG_ONE.normalize()] {
         for distance in [0.0, 1.0, 15.0, 29.0, 29.9, 30.0, 31.0, 1e9, f64::INFINITY] {
             let at = ShadingPoint { normal: Triple::from(normal), distance, ..seen_from(0.0) };
@@ -365,17 +365,17 @@ fn colour_and_depth_follow_the_formula() {
 fn what_answers_no_light_shows_none() {
     let white = || Values::new().with("color", Value::Color(Rgb::WHITE));
     for kind in ["depth", "mirror"] {
-        let material = material(kind, white());
+        let material = material(kind, &white());
         assert!(!material.answers_light());
         assert_eq!(shown(&material, 30.0, 10.0), DVec3::ZERO);
         assert_eq!(vector(material.under_ambient(&seen_from(0.0))), DVec3::ZERO);
     }
-    assert!(material("matte", white()).answers_light());
+    assert!(material("matte", &white()).answers_light());
 }
 
 #[test]
 fn a_mirror_reflects_all_in_its_colour_and_others_nothing_unless_told() {
-    let mirror = material("mirror", Values::new().with("color", Value::Color(Rgb::new(1.0, 0.5, 0.0))));
+    let mirror = material("mirror", &Values::new().with("color", Value::Color(Rgb::new(1.0, 0.5, 0.0))));
     assert_eq!(mirror.reflectiveness().wide, 1.0);
     assert_eq!(mirror.reflection_color().rgb(), Rgb::new(1.0, 0.5, 0.0));
     assert_eq!(vector(mirror.own(&seen_from(0.0))), DVec3::ZERO);

@@ -2,6 +2,7 @@
 //! what is none of them?
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
+#[allow(dead_code, reason = "the tests of shapes use the rest")]
 mod samples;
 
 use std::fmt::Debug;
