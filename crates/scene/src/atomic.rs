@@ -11,7 +11,10 @@ use std::sync::atomic::{AtomicU32, Ordering};
 ///
 /// # Errors
 /// Whatever the file system or `write` refuses.
-pub(crate) fn write(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+pub(crate) fn write(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> io::Result<()> {
     // A link is followed, so that it stays one.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let (passing, file) = create_beside(&target)?;

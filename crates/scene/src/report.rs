@@ -205,7 +205,12 @@ impl Complaints {
     }
 
     /// The same, with a hint.
-    pub(crate) fn add_with(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
+    pub(crate) fn add_with(
+        &mut self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
         self.found.push((span, message.into(), Some(help.into())));
     }
 

@@ -21,6 +21,8 @@ pub(crate) enum Mark {
     Comment {
         /// How deep comments lie inside it, itself included.
         depth: usize,
+        /// Whether it ends before the text does.
+        closed: bool,
     },
 }
 
@@ -61,7 +63,7 @@ impl<'a> Marks<'a> {
         }
     }
 
-    fn skip_comment(&mut self) -> usize {
+    fn skip_comment(&mut self) -> Mark {
         let (mut depth, mut deepest) = (0_usize, 0);
         while self.at < self.bytes.len() {
             if self.starts_with(b"/*") {
@@ -78,7 +80,7 @@ impl<'a> Marks<'a> {
                 self.at += 1;
             }
         }
-        deepest
+        Mark::Comment { depth: deepest, closed: depth == 0 }
     }
 
     /// Goes past a string, given that a quote stands here; one that is not closed ends with its line.
@@ -120,8 +122,8 @@ impl Iterator for Marks<'_> {
                 b'#' => self.skip_hashes(),
                 b'/' if self.starts_with(b"//") => self.skip_line(),
                 b'/' if self.starts_with(b"/*") => {
-                    let depth = self.skip_comment();
-                    return Some((here, Mark::Comment { depth }));
+                    let mark = self.skip_comment();
+                    return Some((here, mark));
                 }
                 byte => {
                     let mark = match byte {
@@ -148,7 +150,7 @@ pub(crate) fn too_deep(text: &str) -> Option<usize> {
         match mark {
             Mark::Open => depth += 1,
             Mark::Close => depth = depth.saturating_sub(1),
-            Mark::Comment { depth } if depth > DEEPEST => return Some(at),
+            Mark::Comment { depth, .. } if depth > DEEPEST => return Some(at),
             Mark::Comment { .. } | Mark::Slashdash => {}
         }
         if depth > DEEPEST {
@@ -156,6 +158,12 @@ pub(crate) fn too_deep(text: &str) -> Option<usize> {
         }
     }
     None
+}
+
+/// Where a comment begins that is never closed, if there is one.
+pub(crate) fn unclosed_comment(text: &str) -> Option<usize> {
+    Marks::from(text, 0)
+        .find_map(|(at, mark)| matches!(mark, Mark::Comment { closed: false, .. }).then_some(at))
 }
 
 /// The block of a node whose text is `node` in `text`: from its `{` to past its `}`. Blocks that are commented out
@@ -194,7 +202,8 @@ mod tests {
     #[test]
     fn braces_in_strings_and_comments_are_no_blocks() {
         let text = "a \"{\\\"{\" #\"{\"{\"# /* { /* { */ { */ // {\n\"\"\"{\n\"{\"\n\"\"\" b { c }";
-        let marks: Vec<_> = Marks::from(text, 0).filter(|(_, m)| *m != Mark::Comment { depth: 2 }).collect();
+        let marks: Vec<_> =
+            Marks::from(text, 0).filter(|(_, m)| *m != Mark::Comment { depth: 2, closed: true }).collect();
         assert_eq!(marks, [(text.len() - 5, Mark::Open), (text.len() - 1, Mark::Close)]);
     }
 

@@ -13,8 +13,8 @@ use std::path::Path;
 
 use catoptra_core::TriangleMesh;
 
-pub use error::{MeshError, Place};
 use error::Fault;
+pub use error::{MeshError, Place};
 
 /// Endings of the files that [`read`] understands.
 pub const ENDINGS: &[&str] = &["ply", "obj"];

@@ -10,8 +10,23 @@ use super::{Polygons, finite};
 
 /// Keywords that say nothing about triangles.
 const PASSED_OVER: &[&str] = &[
-    "o", "g", "s", "l", "p", "vp", "usemtl", "mtllib", "mg", "usemap", "maplib", "shadow_obj", "trace_obj", "lod",
-    "bevel", "c_interp", "d_interp",
+    "o",
+    "g",
+    "s",
+    "l",
+    "p",
+    "vp",
+    "usemtl",
+    "mtllib",
+    "mg",
+    "usemap",
+    "maplib",
+    "shadow_obj",
+    "trace_obj",
+    "lod",
+    "bevel",
+    "c_interp",
+    "d_interp",
 ];
 
 /// Stands for "none" in a corner.
@@ -58,7 +73,10 @@ impl Tables {
             Some("f") => self.read_face(words, place)?,
             Some(word) if PASSED_OVER.contains(&word) => {}
             Some(word) => {
-                return Err(Fault::new(place, format!("\"{word}\" is no keyword of an OBJ file of triangles")));
+                return Err(Fault::new(
+                    place,
+                    format!("\"{word}\" is no keyword of an OBJ file of triangles"),
+                ));
             }
         }
         Ok(())
@@ -67,7 +85,10 @@ impl Tables {
     fn read_face<'a>(&mut self, words: impl Iterator<Item = &'a str>, place: Place) -> Result<(), Fault> {
         let corners = words.map(|word| self.corner(word, place)).collect::<Result<Vec<_>, _>>()?;
         if corners.len() < 3 {
-            return Err(Fault::new(place, format!("a face has {} corners, and needs at least 3", corners.len())));
+            return Err(Fault::new(
+                place,
+                format!("a face has {} corners, and needs at least 3", corners.len()),
+            ));
         }
         self.corners.extend((1..corners.len() - 1).map(|i| [corners[0], corners[i], corners[i + 1]]));
         Ok(())
@@ -76,7 +97,11 @@ impl Tables {
     /// Reads `position`, `position/uv`, `position//normal` or `position/uv/normal`.
     fn corner(&self, word: &str, place: Place) -> Result<Corner, Fault> {
         let mut parts = word.split('/');
-        let tables = [("vertex", self.positions.len()), ("texture coordinate", self.uvs.len()), ("normal", self.normals.len())];
+        let tables = [
+            ("vertex", self.positions.len()),
+            ("texture coordinate", self.uvs.len()),
+            ("normal", self.normals.len()),
+        ];
         let mut corner = [NONE; 3];
         for ((what, count), slot) in tables.into_iter().zip(&mut corner) {
             match parts.next() {
@@ -107,7 +132,8 @@ impl Tables {
         let mut vertices: HashMap<Corner, u32> = HashMap::new();
         for triangle in &self.corners {
             let triangle = triangle.map(|[position, uv, normal]| {
-                let key = [position, if has_uvs { uv } else { NONE }, if has_normals { normal } else { NONE }];
+                let key =
+                    [position, if has_uvs { uv } else { NONE }, if has_normals { normal } else { NONE }];
                 *vertices.entry(key).or_insert_with(|| {
                     out.positions.push(self.positions[position as usize]);
                     if let Some(uvs) = &mut out.uvs {
@@ -158,6 +184,9 @@ fn index(text: &str, what: &str, count: usize, place: Place) -> Result<u32, Faul
     let from_zero = if given < 0 { given.saturating_add(count as i64) } else { given - 1 };
     match u32::try_from(from_zero) {
         Ok(index) if (index as usize) < count && index != NONE => Ok(index),
-        _ => Err(Fault::new(place, format!("a face refers to {what} {given}, but only {count} stand above it"))),
+        _ => Err(Fault::new(
+            place,
+            format!("a face refers to {what} {given}, but only {count} stand above it"),
+        )),
     }
 }

@@ -57,6 +57,10 @@ fn span_of(span: miette::SourceSpan) -> Span {
 
 /// Passes on what the KDL library complains about, with hints for slips that it does not know.
 fn syntax(text: &str, error: &kdl::KdlError, complaints: &mut Complaints) {
+    if let Some(at) = scan::unclosed_comment(text) {
+        complaints.add_with(at..at + 2, "this comment is never closed", "close it with */");
+        return;
+    }
     for found in &error.diagnostics {
         let span = span_of(found.span);
         let message = found.message.clone().unwrap_or_else(|| "this is no valid KDL".to_owned());

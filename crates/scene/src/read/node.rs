@@ -69,12 +69,17 @@ impl Reader<'_> {
 
     /// Reads the name and the properties.
     fn read_head(&mut self, node: &KdlNode, item: &mut Item) {
+        let complaints = self.complaints.count();
         for entry in node.entries() {
             match entry.name().map(kdl::KdlIdentifier::value) {
                 None => self.read_name(entry, item),
                 Some(MATERIAL) if matches!(item.sort, Sort::Shape(_)) => self.read_material(entry, item),
                 Some(property) => self.read_property(property, entry, item),
             }
+        }
+        if self.complaints.count() > complaints {
+            // What seems to be missing may be there, misspelled.
+            return;
         }
         let word = item.sort.word();
         if item.name.is_none() && !matches!(item.sort, Sort::Settings) {
@@ -132,7 +137,9 @@ impl Reader<'_> {
                 let help = format!("write it in the block of the node: {name} x y z");
                 self.complaints.add_with(span, format!("{name} takes three numbers"), help);
             }
-            Some(field) => self.read_field(FieldText { field, span, values: Vec::new(), property: true }, &[entry], item),
+            Some(field) => {
+                self.read_field(FieldText { field, span, values: Vec::new(), property: true }, &[entry], item)
+            }
         }
     }
 
@@ -147,7 +154,11 @@ impl Reader<'_> {
                 let span = span.start..span.start + self.text[span].trim_end().len();
                 let entries = self.arguments(child);
                 self.refuse_block(child);
-                self.read_field(FieldText { field, span, values: Vec::new(), property: false }, &entries, item);
+                self.read_field(
+                    FieldText { field, span, values: Vec::new(), property: false },
+                    &entries,
+                    item,
+                );
             } else if item.sort.is_entity() && STEPS.iter().any(|(step, ..)| *step == word) {
                 self.read_step(child, item);
             } else if matches!(item.sort, Sort::Group) {

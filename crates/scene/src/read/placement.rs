@@ -56,7 +56,11 @@ impl Reader<'_> {
             let entries = self.arguments(child);
             if node.name().value() != "turn" || child.name().value() != "about" {
                 let message = format!("{} has no {}", node.name().value(), child.name().value());
-                self.complaints.add_with(span, message, "a turn may have a centre: turn 30 0 1 0 { about x y z }");
+                self.complaints.add_with(
+                    span,
+                    message,
+                    "a turn may have a centre: turn 30 0 1 0 { about x y z }",
+                );
             } else if entries.len() != 3 {
                 self.complaints.add(span, "about takes three numbers: x y z");
             } else if let Some(point) = self.read_three("about", &entries) {

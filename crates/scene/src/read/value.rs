@@ -17,7 +17,9 @@ fn arity(kind: FieldKind) -> (&'static [usize], &'static str) {
         FieldKind::Mesh => (&[1], "the path of a mesh file"),
         FieldKind::Flag => (&[1], "#true or #false"),
         FieldKind::Angle => (&[1], "one number (degrees)"),
-        FieldKind::Number | FieldKind::Length | FieldKind::Count | FieldKind::Fraction => (&[1], "one number"),
+        FieldKind::Number | FieldKind::Length | FieldKind::Count | FieldKind::Fraction => {
+            (&[1], "one number")
+        }
     }
 }
 
@@ -39,7 +41,8 @@ impl Reader<'_> {
         let (counts, words) = arity(field.kind);
         if !counts.contains(&entries.len()) {
             let found = entries.len();
-            self.complaints.add(span, format!("{} takes {words}, not {found} value{}", field.name, plural(found)));
+            self.complaints
+                .add(span, format!("{} takes {words}, not {found} value{}", field.name, plural(found)));
             return None;
         }
         match field.kind {
@@ -57,7 +60,9 @@ impl Reader<'_> {
                 let [r, g, b] = self.read_three(field.name, entries)?;
                 Some(Value::Color(Rgb::new(r, g, b)))
             }
-            FieldKind::Angle => self.read_number(field.name, entries[0]).map(|v| Value::Number(v.to_radians())),
+            FieldKind::Angle => {
+                self.read_number(field.name, entries[0]).map(|v| Value::Number(v.to_radians()))
+            }
             FieldKind::Number | FieldKind::Length | FieldKind::Count | FieldKind::Fraction => {
                 self.read_number(field.name, entries[0]).map(Value::Number)
             }

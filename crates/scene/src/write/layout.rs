@@ -133,6 +133,9 @@ pub(crate) fn gap_at_start(text: &str, item: &Item) -> Option<Gap> {
     if rest.trim().is_empty() && end < block.end {
         Some(Gap::at_line(text, end, &indent))
     } else {
-        Some(Gap { after: format!("{}{indent}", newline(text)), ..Gap::within_line(text, block.start + 1, &indent, outer) })
+        Some(Gap {
+            after: format!("{}{indent}", newline(text)),
+            ..Gap::within_line(text, block.start + 1, &indent, outer)
+        })
     }
 }

@@ -65,6 +65,10 @@ pub(super) fn edit(text: &str, item: &Item, new: &Placement, splices: &mut Vec<S
     if last.is_move
         && let Some(by) = move_between(&last.before, new)
     {
+        if by == DVec3::ZERO {
+            splices.push(Splice::new(layout::whole_node(text, &last.span), ""));
+            return Vec::new();
+        }
         let words = by.to_array().map(number);
         for (word, span) in words.iter().zip(&last.numbers) {
             // A number that did not change keeps its spelling.

@@ -20,7 +20,11 @@ impl Splice {
 
 /// Applies splices that do not overlap. Answers with the new text, where each place of `kept` has gone (`None` if
 /// it was replaced), and the ids of the new nodes with the places at which their text begins.
-pub(crate) fn apply(text: &str, mut splices: Vec<Splice>, kept: &[usize]) -> (String, Vec<Option<usize>>, Vec<Id>) {
+pub(crate) fn apply(
+    text: &str,
+    mut splices: Vec<Splice>,
+    kept: &[usize],
+) -> (String, Vec<Option<usize>>, Vec<Id>) {
     splices.sort_by_key(|s| (s.range.start, s.range.end));
     let mut out = String::with_capacity(text.len());
     let mut from = 0;
@@ -44,7 +48,8 @@ fn follow(splices: &[Splice], at: usize) -> Option<usize> {
     for splice in splices.iter().take_while(|s| s.range.start <= at) {
         if splice.range.contains(&at) {
             // A node whose first word is replaced still begins where it began.
-            return (splice.range.start == at && splice.ids.is_empty() && !splice.text.is_empty()).then_some(moved);
+            return (splice.range.start == at && splice.ids.is_empty() && !splice.text.is_empty())
+                .then_some(moved);
         }
         moved = moved + splice.text.len() - splice.range.len();
     }

@@ -30,7 +30,8 @@ pub(crate) fn remove(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -
 /// change (a new member of a group that is to move) waits for the next call.
 pub(crate) fn arrange(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -> Vec<Splice> {
     let places = ids.iter().enumerate().map(|(i, &id)| (id, i)).collect();
-    let mut arranging = Arranging { text, outline, ids, scene, places, splices: Vec::new(), moves: Vec::new() };
+    let mut arranging =
+        Arranging { text, outline, ids, scene, places, splices: Vec::new(), moves: Vec::new() };
     arranging.add_settings();
     arranging.add_materials();
     arranging.arrange_members(None);
@@ -119,7 +120,8 @@ impl Arranging<'_> {
                 Some(p) => self.moves.push((p, gap.clone())),
                 None => {
                     let mut nodes = Nodes::default();
-                    nodes.add_entity(self.scene, id, &|member| !self.places.contains_key(&Id::Entity(member)));
+                    nodes
+                        .add_entity(self.scene, id, &|member| !self.places.contains_key(&Id::Entity(member)));
                     self.put(&gap, nodes);
                 }
             }
@@ -151,9 +153,9 @@ impl Arranging<'_> {
             let within = |at: usize, cut: &Span| cut.start < at && at < cut.end;
             let blocked = within(gap.at, &cut)
                 || self.splices.iter().any(|s| within(s.range.start, &cut))
-                || cuts.iter().any(|other| {
-                    within(gap.at, other) || (other.start < cut.end && cut.start < other.end)
-                });
+                || cuts
+                    .iter()
+                    .any(|other| within(gap.at, other) || (other.start < cut.end && cut.start < other.end));
             if blocked {
                 continue;
             }

@@ -33,7 +33,9 @@ pub(crate) fn degrees(radians: f64) -> String {
     // 12 decimals are the most that a turn of 360 degrees can use.
     let short = (0..=12).map(|decimals| format!("{exact:.decimals$}")).find(|text| reads_back(text));
     let text = short
-        .or_else(|| [exact, exact.next_up(), exact.next_down()].map(number).into_iter().find(|t| reads_back(t)))
+        .or_else(|| {
+            [exact, exact.next_up(), exact.next_down()].map(number).into_iter().find(|t| reads_back(t))
+        })
         .unwrap_or_else(|| number(exact));
     if text == "-0" { "0".to_owned() } else { text }
 }
@@ -87,7 +89,15 @@ mod tests {
 
     #[test]
     fn any_text_survives_quoting() {
-        for text in ["", "a b", "\"\\\"", "line\nend\r\t\u{8}\u{c}", "\u{202e}x\u{feff}", "日本語 {}#\"#", "\0\u{7f}\u{85}"] {
+        for text in [
+            "",
+            "a b",
+            "\"\\\"",
+            "line\nend\r\t\u{8}\u{c}",
+            "\u{202e}x\u{feff}",
+            "日本語 {}#\"#",
+            "\0\u{7f}\u{85}",
+        ] {
             let document: kdl::KdlDocument = format!("node {}", quoted(text)).parse().unwrap();
             assert_eq!(document.get_arg("node").and_then(|v| v.as_string()).unwrap_or("?"), text);
         }

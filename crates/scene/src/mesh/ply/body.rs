@@ -21,7 +21,8 @@ pub(super) trait Body {
 
 fn too_many(element: &Element, most: usize) -> Fault {
     let (count, name) = (element.count, &element.name);
-    let message = format!("the header announces {count} rows of {name}, the file has room for at most {most}");
+    let message =
+        format!("the header announces {count} rows of {name}, the file has room for at most {most}");
     Fault::new(Place::Line(element.line), message)
 }
 

@@ -106,6 +106,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Header, Fault> {
             return Err(Fault::new(Place::Line(line), ended(bytes)));
         };
         body += raw.len();
+        if body == LONGEST_HEADER && bytes.len() > LONGEST_HEADER {
+            return Err(Fault::new(Place::Line(line), ended(bytes)));
+        }
         let text = String::from_utf8_lossy(raw);
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
         let wrong = |message: String| Err(Fault::new(Place::Line(line), message));
@@ -147,7 +150,10 @@ fn encoding_named(name: &str, line: usize) -> Result<Encoding, Fault> {
         "binary_big_endian" => Ok(Encoding::Big),
         _ => {
             let known = "ascii, binary_little_endian, binary_big_endian";
-            Err(Fault::new(Place::Line(line), format!("unknown format \"{name}\": it must be one of {known}")))
+            Err(Fault::new(
+                Place::Line(line),
+                format!("unknown format \"{name}\": it must be one of {known}"),
+            ))
         }
     }
 }
@@ -165,13 +171,17 @@ fn element(name: &str, count: &str, line: usize, before: &[Element]) -> Result<E
 
 fn property(words: &[&str], line: usize, before: &[Property]) -> Result<Property, Fault> {
     let sort = |word: &str| {
-        Sort::named(word).ok_or_else(|| Fault::new(Place::Line(line), format!("unknown number type \"{word}\"")))
+        Sort::named(word)
+            .ok_or_else(|| Fault::new(Place::Line(line), format!("unknown number type \"{word}\"")))
     };
     let property = match words {
         ["list", count, item, name] => {
             let count = sort(count)?;
             if count.range().is_none() {
-                return Err(Fault::new(Place::Line(line), "the count of a list must be of a whole number type"));
+                return Err(Fault::new(
+                    Place::Line(line),
+                    "the count of a list must be of a whole number type",
+                ));
             }
             Property { name: (*name).to_owned(), sort: sort(item)?, list: Some(count) }
         }
@@ -191,7 +201,9 @@ fn check_order(header: &Header) -> Result<(), Fault> {
     match (place("vertex"), place("face")) {
         (None, _) => Err(Fault::new(line, "the header announces no element vertex")),
         (_, None) => Err(Fault::new(line, "the header announces no element face")),
-        (Some(vertex), Some(face)) if face < vertex => Err(Fault::new(line, "the faces stand before the vertices")),
+        (Some(vertex), Some(face)) if face < vertex => {
+            Err(Fault::new(line, "the faces stand before the vertices"))
+        }
         _ => match header.elements.iter().find(|e| e.count > 0 && e.properties.is_empty()) {
             Some(e) => Err(Fault::new(Place::Line(e.line), format!("element {} has no properties", e.name))),
             None => Ok(()),

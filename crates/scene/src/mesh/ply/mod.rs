@@ -70,7 +70,8 @@ const COLUMNS: [&[&str]; 8] = [
 ];
 
 fn read_vertices<B: Body>(element: &Element, body: &mut B, found: &mut Polygons) -> Result<(), Fault> {
-    let column = |property: &Property| COLUMNS.iter().position(|names| names.contains(&property.name.as_str()));
+    let column =
+        |property: &Property| COLUMNS.iter().position(|names| names.contains(&property.name.as_str()));
     let columns: Vec<Option<usize>> = element.properties.iter().map(column).collect();
     let has = |wanted: std::ops::Range<usize>| wanted.clone().all(|c| columns.contains(&Some(c)));
     if !has(0..3) {
@@ -135,7 +136,10 @@ fn fan(polygon: &[f64], vertices: usize, place: Place, out: &mut Vec<[u32; 3]>) 
         return Err(Fault::new(place, format!("a face has {} corners, and needs at least 3", polygon.len())));
     }
     if let Some(bad) = polygon.iter().find(|&&v| !(v >= 0.0 && v < vertices as f64 && v.fract() == 0.0)) {
-        return Err(Fault::new(place, format!("a face refers to vertex {bad}, but there are {vertices} (from 0)")));
+        return Err(Fault::new(
+            place,
+            format!("a face refers to vertex {bad}, but there are {vertices} (from 0)"),
+        ));
     }
     let index = |i: usize| polygon[i] as u32;
     out.extend((1..polygon.len() - 1).map(|i| [index(0), index(i), index(i + 1)]));

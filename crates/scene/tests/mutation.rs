@@ -1,0 +1,165 @@
+//! Does any damaged file end in an error rather than a panic? Truncations and changed bytes of good files, always the same.
+
+use std::path::Path;
+
+use catoptra_core::scene::Edit;
+use catoptra_scene::mesh::read_bytes;
+use catoptra_scene::parse;
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, end: usize) -> usize {
+        (self.next() % end.max(1) as u64) as usize
+    }
+}
+
+/// Bytes that mean something in scene text or a mesh, so that damage goes deep.
+const TELLING: &[u8] = b"{}\"#/-*;=()\\ \n\r0123456789.eE+-nif\0\x7f\xc2\xe2\xff";
+
+fn damaged(original: &[u8], random: &mut Random) -> Vec<u8> {
+    let mut bytes = original.to_vec();
+    if random.below(4) == 0 {
+        bytes.truncate(random.below(bytes.len() + 1));
+    }
+    for _ in 0..random.below(6) {
+        let at = random.below(bytes.len() + 1);
+        let telling = TELLING[random.below(TELLING.len())];
+        match random.below(5) {
+            0 if at < bytes.len() => bytes[at] ^= 1 << random.below(8),
+            1 if at < bytes.len() => bytes[at] = telling,
+            2 if at < bytes.len() => drop(bytes.remove(at)),
+            3 => {
+                let end = (at + random.below(40)).min(bytes.len());
+                let piece = bytes[at..end].to_vec();
+                let to = random.below(bytes.len() + 1);
+                bytes.splice(to..to, piece);
+            }
+            _ => bytes.insert(at, telling),
+        }
+    }
+    bytes
+}
+
+fn scenes() -> Vec<Vec<u8>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let mut files: Vec<_> = ["seed", "gallery"]
+        .iter()
+        .flat_map(|name| std::fs::read_dir(folder.join(name)).unwrap())
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|ending| ending == "kdl"))
+        .collect();
+    files.sort();
+    files.iter().map(|path| std::fs::read(path).unwrap()).collect()
+}
+
+#[test]
+fn no_damaged_scene_panics() {
+    let scenes = scenes();
+    let mut random = Random(1);
+    let (mut read, mut refused) = (0, 0);
+    for i in 0..2500 {
+        let bytes = damaged(&scenes[i % scenes.len()], &mut random);
+        let text = String::from_utf8_lossy(&bytes);
+        match parse(&text, "damaged.kdl", None) {
+            Ok((mut scene, mut file)) => {
+                read += 1;
+                file.update(&scene);
+                assert_eq!(file.text(), text, "no edit changes no byte");
+                // What survives damage survives edits too.
+                let first = scene.entities().next();
+                if let Some(first) = first {
+                    scene.apply(Edit::Name(first, "another".into())).unwrap();
+                    file.update(&scene);
+                    parse(&file.text(), "edited.kdl", None)
+                        .unwrap_or_else(|e| panic!("{e}\n{text}\n{}", file.text()));
+                }
+            }
+            Err(error) => {
+                refused += 1;
+                let _ = error.to_string();
+                let _ = format!("{:?}", miette::Report::new(error));
+            }
+        }
+    }
+    assert!(
+        read > 250 && refused > 250,
+        "{read} read, {refused} refused: the damage is not of the right size"
+    );
+}
+
+fn meshes() -> Vec<(&'static str, Vec<u8>)> {
+    let header = |format: &str| {
+        format!(
+            "ply\nformat {format} 1.0\ncomment small\nelement vertex 4\nproperty float x\nproperty float y\n\
+             property float z\nproperty float nx\nproperty float ny\nproperty float nz\nelement face 2\n\
+             property list uchar int vertex_indices\nproperty uchar flags\nend_header\n"
+        )
+    };
+    let mut ascii = header("ascii").into_bytes();
+    ascii.extend(b"0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2 0\n4 0 1 2 3 255\n");
+    let mut all = vec![("a.ply", ascii)];
+    for (format, big) in [("binary_little_endian", false), ("binary_big_endian", true)] {
+        let mut bytes = header(format).into_bytes();
+        let mut put = |mut word: [u8; 4]| {
+            if big {
+                word.reverse();
+            }
+            bytes.extend(word);
+        };
+        for v in 0..24_u8 {
+            put(f32::from(v % 5).to_le_bytes());
+        }
+        for face in [&[0_i32, 1, 2][..], &[0, 1, 2, 3][..]] {
+            bytes.push(face.len() as u8);
+            for i in face {
+                bytes.extend(if big { i.to_be_bytes() } else { i.to_le_bytes() });
+            }
+            bytes.push(7);
+        }
+        all.push(("a.ply", bytes));
+    }
+    let obj = "# small\no a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\ng b\n\
+               f 1/1/1 2/2/1 3/1/1\nf -4//-1 -2//-1 -1//1\nf 1 2 3 4\n";
+    all.push(("a.obj", obj.as_bytes().to_vec()));
+    all
+}
+
+#[test]
+fn no_damaged_mesh_panics() {
+    let meshes = meshes();
+    let mut random = Random(2);
+    let (mut read, mut refused) = (0, 0);
+    for i in 0..40_000 {
+        let (name, original) = &meshes[i % meshes.len()];
+        match read_bytes(&damaged(original, &mut random), Path::new(name)) {
+            Ok(_) => read += 1,
+            Err(error) => {
+                refused += 1;
+                let _ = error.to_string();
+            }
+        }
+    }
+    assert!(
+        read > 1000 && refused > 1000,
+        "{read} read, {refused} refused: the damage is not of the right size"
+    );
+}
+
+#[test]
+fn every_truncation_of_a_mesh_is_refused_or_read() {
+    for (name, bytes) in meshes() {
+        read_bytes(&bytes, Path::new(name)).unwrap();
+        for end in 0..bytes.len() {
+            let _ = read_bytes(&bytes[..end], Path::new(name));
+        }
+    }
+}

@@ -1,0 +1,431 @@
+//! Does saving an edited scene change only what was edited, and does the saved text mean the edited scene?
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::scene::{Edit, EntityId, Node, Role, Scene, Settings, Subtree};
+use catoptra_core::{Camera, Light, Material, Placement, Rgb, Shape, Value, Values};
+use catoptra_scene::{SceneFile, load, parse};
+
+const TEXT: &str = r#"// A small room.
+settings { max-depth 3 } // three are enough
+
+matte "white" { color 1.0 1.00 1 } /* plain */
+phong "red" {
+    diffuse 0.9 0.1 0.1   // strong
+    shininess 0x20
+}
+
+group "balls" {
+    move 1 0 0    // to the right
+    sphere "left" material="white" { center -1 0.50 0; radius 5e-1 }
+    // the other one
+    sphere "right" material="red" {
+        center +1 0.5 0
+        radius 0.5 // same
+    }
+}
+
+plane "floor" material="white"
+spot-light "lamp" shadow=#false {
+    position 0 5 0
+    direction 0 -1 0
+    intensity 10
+    inner 20; outer 40.0
+}
+/- sphere "off" material="white" { radius 1 }
+
+camera "main" { eye 0 1 5; target 0 0 0; fov 60 }
+// the end
+"#;
+
+fn start() -> (Scene, SceneFile) {
+    parse(TEXT, "room.kdl", None).unwrap_or_else(|e| panic!("{:?}", miette::Report::new(e)))
+}
+
+fn id(scene: &Scene, name: &str) -> EntityId {
+    scene.entity_named(name).unwrap()
+}
+
+/// Everything in a scene, by name and in order.
+fn contents(scene: &Scene) -> Vec<String> {
+    fn tree(scene: &Scene, group: Option<EntityId>, out: &mut Vec<String>) {
+        for id in scene.children(group) {
+            let material = scene.material_of(id).map(|m| scene.material_name(m).to_owned());
+            let (shape, light, camera) = (scene.shape(id), scene.light(id), scene.camera(id));
+            let parent = group.and_then(|g| scene.name(g));
+            out.push(format!(
+                "{:?} {:?} in {parent:?} {shape:?} {light:?} {camera:?} {material:?} {:?}",
+                scene.role(id),
+                scene.name(id),
+                scene.placement(id)
+            ));
+            tree(scene, Some(id), out);
+        }
+    }
+    let mut out = vec![format!("{:?}", scene.settings())];
+    let mut materials: Vec<String> = scene.materials().map(|(_, name, m)| format!("{name} {m:?}")).collect();
+    materials.sort();
+    out.extend(materials);
+    tree(scene, None, &mut out);
+    out
+}
+
+/// Applies the edit, updates the text, checks that it means the same scene, and answers with it.
+fn edited(edit: impl FnOnce(&mut Scene)) -> String {
+    let (mut scene, mut file) = start();
+    edit(&mut scene);
+    file.update(&scene);
+    let text = file.text();
+    let again =
+        parse(&text, "again.kdl", None).unwrap_or_else(|e| panic!("{:?}\n{text}", miette::Report::new(e)));
+    assert_eq!(contents(&again.0), contents(&scene), "{text}");
+    // Once more, from the kept state and from the new one, changes nothing.
+    file.update(&scene);
+    assert_eq!(file.text(), text);
+    text
+}
+
+/// The lines of `text` that are not in the original, and the lines of the original that are not in `text`.
+fn difference(text: &str) -> (Vec<&str>, Vec<&str>) {
+    let new = text.lines().filter(|line| !TEXT.lines().any(|old| old == *line)).map(str::trim).collect();
+    let old = TEXT.lines().filter(|old| !text.lines().any(|line| line == *old)).map(str::trim).collect();
+    (new, old)
+}
+
+fn set_shape(scene: &mut Scene, name: &str, field: &'static str, value: Value) {
+    let id = id(scene, name);
+    let shape = scene.shape(id).unwrap().with(field, value).unwrap();
+    scene.apply(Edit::Shape(id, shape)).unwrap();
+}
+
+fn place(scene: &mut Scene, name: &str, change: impl FnOnce(Placement) -> Placement) {
+    let id = id(scene, name);
+    let placement = change(scene.placement(id).unwrap());
+    scene.apply(Edit::Placement(id, placement)).unwrap();
+}
+
+#[test]
+fn no_edit_changes_no_byte() {
+    assert_eq!(edited(|_| ()), TEXT);
+}
+
+#[test]
+fn a_changed_number_leaves_its_neighbours_spelled_as_they_were() {
+    let text = edited(|scene| {
+        set_shape(scene, "left", "center", Value::Vector(DVec3::new(-1.0, 0.75, 0.0)));
+    });
+    let (new, old) = difference(&text);
+    assert_eq!(new, [r#"sphere "left" material="white" { center -1 0.75 0; radius 5e-1 }"#]);
+    assert_eq!(old.len(), 1);
+}
+
+#[test]
+fn a_changed_material_value_keeps_the_comment_behind_it() {
+    let text = edited(|scene| {
+        let red = scene.material_named("red").unwrap();
+        let material = scene.material(red).with("diffuse", Value::Color(Rgb::new(0.9, 0.2, 0.1))).unwrap();
+        scene.apply(Edit::Material(red, material)).unwrap();
+    });
+    assert_eq!(difference(&text).0, ["diffuse 0.9 0.2 0.1   // strong"]);
+}
+
+#[test]
+fn a_value_that_was_left_out_is_added_in_its_place() {
+    let text = edited(|scene| {
+        let lamp = id(scene, "lamp");
+        let light = scene.light(lamp).unwrap().with("falloff", Value::Number(2.0)).unwrap();
+        scene.apply(Edit::Light(lamp, light)).unwrap();
+    });
+    let (new, old) = difference(&text);
+    assert_eq!((new, old), (vec!["falloff 2"], vec![]));
+}
+
+#[test]
+fn grey_light_becomes_coloured_and_angles_are_degrees() {
+    let text = edited(|scene| {
+        let lamp = id(scene, "lamp");
+        let light = scene.light(lamp).unwrap();
+        let light = light.with("intensity", Value::Color(Rgb::new(10.0, 5.0, 0.0))).unwrap();
+        let light = light.with("inner", Value::Number(25.5_f64.to_radians())).unwrap();
+        scene.apply(Edit::Light(lamp, light)).unwrap();
+    });
+    assert_eq!(difference(&text).0, ["intensity 10 5 0", "inner 25.5; outer 40.0"]);
+}
+
+#[test]
+fn a_property_changes_where_it_stands() {
+    let text = edited(|scene| {
+        let lamp = id(scene, "lamp");
+        let light = scene.light(lamp).unwrap().with("shadow", Value::Flag(true)).unwrap();
+        scene.apply(Edit::Light(lamp, light)).unwrap();
+    });
+    assert_eq!(difference(&text).0, [r#"spot-light "lamp" shadow=#true {"#]);
+}
+
+#[test]
+fn a_node_without_a_block_gets_one() {
+    let text = edited(|scene| {
+        set_shape(scene, "floor", "point", Value::Vector(DVec3::new(0.0, -1.0, 0.0)));
+    });
+    assert!(text.contains("plane \"floor\" material=\"white\" {\n    point 0 -1 0\n}\nspot-light"), "{text}");
+}
+
+#[test]
+fn a_move_changes_the_move_that_is_there() {
+    let text = edited(|scene| place(scene, "balls", |p| p.moved(DVec3::new(0.0, 2.0, 0.0)).unwrap()));
+    assert_eq!(difference(&text).0, ["move 1 2 0    // to the right"]);
+}
+
+#[test]
+fn a_move_is_added_where_there_was_none() {
+    let text = edited(|scene| place(scene, "right", |p| p.moved(DVec3::new(0.25, 0.0, 0.0)).unwrap()));
+    assert_eq!(difference(&text), (vec!["move 0.25 0 0"], vec![]));
+}
+
+#[test]
+fn a_turn_is_spelled_as_steps_and_reads_back_to_within_rounding() {
+    let (mut scene, mut file) = start();
+    place(&mut scene, "balls", |p| {
+        p.turned(DVec3::new(1.0, 0.0, 3.0), DVec3::new(1.0, 2.0, 0.5), 0.7).unwrap()
+    });
+    place(&mut scene, "right", |p| p.scaled(1.5).unwrap().turned(DVec3::ZERO, DVec3::Y, 1.0).unwrap());
+    file.update(&scene);
+    let (again, _) = parse(&file.text(), "again.kdl", None).unwrap();
+    for name in ["balls", "right"] {
+        let (new, old) =
+            (again.placement(id(&again, name)).unwrap(), scene.placement(id(&scene, name)).unwrap());
+        assert!((new.rotation() - old.rotation()).length() < 1e-15, "{name}");
+        assert_eq!((new.translation(), new.scale()), (old.translation(), old.scale()), "{name}");
+    }
+    assert!(file.text().contains("// the other one"));
+}
+
+#[test]
+fn turning_by_round_degrees_is_written_round() {
+    let text = edited(|scene| {
+        place(scene, "lamp", |p| p.turned(DVec3::ZERO, DVec3::Y, 30_f64.to_radians()).unwrap())
+    });
+    assert_eq!(difference(&text).0, ["turn 30 0 1 0"]);
+}
+
+#[test]
+fn unmoved_again_the_step_goes() {
+    let text = edited(|scene| place(scene, "balls", |_| Placement::IDENTITY));
+    let (new, old) = difference(&text);
+    assert_eq!((new, old), (vec![], vec!["move 1 0 0    // to the right"]));
+}
+
+#[test]
+fn names_and_references_follow() {
+    let text = edited(|scene| {
+        let red = scene.material_named("red").unwrap();
+        scene.apply(Edit::RenameMaterial(red, "a \"deep\" red".into())).unwrap();
+        scene.apply(Edit::Name(id(scene, "right"), "rightmost".into())).unwrap();
+        scene.apply(Edit::MaterialOf(id(scene, "left"), red)).unwrap();
+    });
+    assert_eq!(
+        difference(&text).0,
+        [
+            r#"phong "a \"deep\" red" {"#,
+            r#"sphere "left" material="a \"deep\" red" { center -1 0.50 0; radius 5e-1 }"#,
+            r#"sphere "rightmost" material="a \"deep\" red" {"#,
+        ]
+    );
+}
+
+#[test]
+fn names_can_be_swapped() {
+    edited(|scene| {
+        let (left, right) = (id(scene, "left"), id(scene, "right"));
+        scene.apply(Edit::Name(left, "x".into())).unwrap();
+        scene.apply(Edit::Name(right, "left".into())).unwrap();
+        scene.apply(Edit::Name(left, "right".into())).unwrap();
+    });
+}
+
+#[test]
+fn what_is_removed_goes_with_its_lines_and_nothing_else() {
+    let text = edited(|scene| {
+        scene.apply(Edit::Remove(id(scene, "right"))).unwrap();
+        scene.apply(Edit::Remove(id(scene, "floor"))).unwrap();
+    });
+    let (new, old) = difference(&text);
+    assert_eq!(new, Vec::<&str>::new());
+    assert_eq!(old.len(), 5, "{old:?}");
+    assert!(text.contains("// the other one"));
+}
+
+#[test]
+fn a_removed_name_can_be_used_again() {
+    edited(|scene| {
+        scene.apply(Edit::Remove(id(scene, "balls"))).unwrap();
+        let white = scene.material_named("white").unwrap();
+        let sphere = make_shape("sphere", Values::new().with("radius", Value::Number(2.0)));
+        scene.add_shape("balls", sphere, white, None).unwrap();
+    });
+}
+
+fn make_shape(kind: &str, values: Values) -> Shape {
+    (Shape::kind_named(kind).unwrap().make)(&values).unwrap()
+}
+
+#[test]
+fn new_things_are_written_where_they_belong() {
+    let text = edited(|scene| {
+        let mirror = (Material::kind_named("mirror").unwrap().make)(&Values::new()).unwrap();
+        let mirror = scene.add_material("silver", mirror).unwrap();
+        let sphere = make_shape("sphere", Values::new().with("radius", Value::Number(0.1)));
+        let group = scene.add_group("inner", Some(id(scene, "balls"))).unwrap();
+        scene.add_shape("tiny", sphere.clone(), mirror, Some(group)).unwrap();
+        scene.add_shape("last", sphere.clone(), mirror, None).unwrap();
+        let node = Node::shape("first", sphere, mirror);
+        scene.apply(Edit::insert(Subtree { node, parent: None, index: Some(0) })).unwrap();
+    });
+    let (new, old) = difference(&text);
+    assert_eq!(old, Vec::<&str>::new(), "{text}");
+    assert_eq!(new.iter().filter(|line| **line == "radius 0.1").count(), 3);
+    assert!(text.contains("mirror \"silver\"\n\ngroup") || text.contains("mirror \"silver\"\n"), "{text}");
+    assert!(text.find("\"first\"") < text.find("\"balls\""));
+}
+
+#[test]
+fn a_kind_can_change() {
+    let text = edited(|scene| {
+        let values =
+            Values::new().with("min", Value::Vector(DVec3::ZERO)).with("max", Value::Vector(DVec3::ONE));
+        scene.apply(Edit::Shape(id(scene, "right"), make_shape("box", values))).unwrap();
+        let lamp = id(scene, "lamp");
+        let values = scene.light(lamp).unwrap().values();
+        let values = values.iter().filter(|(name, _)| ["position", "intensity", "shadow"].contains(name));
+        let values = values.fold(Values::new(), |all, (name, value)| all.with(name, value.clone()));
+        let light = (Light::kind_named("point-light").unwrap().make)(&values).unwrap();
+        scene.apply(Edit::Light(lamp, light)).unwrap();
+    });
+    assert!(text.contains("box \"right\" material=\"red\" {"), "{text}");
+    assert!(text.contains("point-light \"lamp\" shadow=#false {"), "{text}");
+}
+
+#[test]
+fn members_change_groups_and_take_their_comments_along() {
+    let text = edited(|scene| {
+        scene.apply(Edit::Parent(id(scene, "right"), None)).unwrap();
+        scene.apply(Edit::Parent(id(scene, "floor"), Some(id(scene, "balls")))).unwrap();
+    });
+    assert!(text.contains("5e-1 }\n    plane \"floor\" material=\"white\"\n"), "{text}");
+    assert!(
+        text.contains(
+            "\nsphere \"right\" material=\"red\" {\n    center +1 0.5 0\n    radius 0.5 // same\n}\n"
+        ),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_member_outlives_its_group() {
+    let text = edited(|scene| {
+        scene.apply(Edit::Parent(id(scene, "left"), None)).unwrap();
+        scene.apply(Edit::Remove(id(scene, "balls"))).unwrap();
+    });
+    assert!(text.contains("center -1 0.50 0; radius 5e-1"), "{text}");
+}
+
+#[test]
+fn groups_change_places_inside_each_other() {
+    edited(|scene| {
+        let outer = id(scene, "balls");
+        let inner = scene.add_group("inner", Some(outer)).unwrap();
+        scene.apply(Edit::Parent(id(scene, "left"), Some(inner))).unwrap();
+        scene.apply(Edit::Parent(inner, None)).unwrap();
+        scene.apply(Edit::Parent(outer, Some(inner))).unwrap();
+        scene.apply(Edit::Order(inner, 0)).unwrap();
+    });
+}
+
+#[test]
+fn the_order_of_siblings_follows() {
+    let text = edited(|scene| {
+        scene.apply(Edit::Order(id(scene, "main"), 0)).unwrap();
+        scene.apply(Edit::Order(id(scene, "right"), 0)).unwrap();
+    });
+    assert!(text.find("camera") < text.find("group"), "{text}");
+    assert!(text.ends_with("// the end\n"));
+}
+
+#[test]
+fn settings_change_or_appear() {
+    let text = edited(|scene| {
+        scene.apply(Edit::Settings(Settings::new(Rgb::new(0.0, 0.0, 0.1), 4).unwrap())).unwrap();
+    });
+    assert!(
+        text.contains("settings { max-depth 4 \n    background 0 0 0.1\n} // three are enough"),
+        "{text}"
+    );
+    let (mut scene, mut file) = parse("// nothing yet\n", "empty.kdl", None).unwrap();
+    scene.apply(Edit::Settings(Settings::default().with_max_depth(9).unwrap())).unwrap();
+    file.update(&scene);
+    assert_eq!(file.text(), "// nothing yet\nsettings {\n    max-depth 9\n}\n");
+}
+
+#[test]
+fn a_camera_that_aims_elsewhere_keeps_the_other_numbers() {
+    let text = edited(|scene| {
+        let main = id(scene, "main");
+        let old = scene.camera(main).unwrap();
+        let camera = Camera::looking(old.eye(), DVec3::NEG_Z, old.up_hint(), old.fov()).unwrap();
+        scene.apply(Edit::Camera(main, camera)).unwrap();
+    });
+    assert!(text.contains("eye 0 1 5; ") && text.contains("fov 60") && !text.contains("target"), "{text}");
+}
+
+#[test]
+fn a_scene_without_text_gets_one() {
+    let (scene, _) = start();
+    let text = SceneFile::new(&scene).text();
+    let (again, _) =
+        parse(&text, "new.kdl", None).unwrap_or_else(|e| panic!("{:?}\n{text}", miette::Report::new(e)));
+    assert_eq!(contents(&again), contents(&scene));
+}
+
+#[test]
+fn line_ends_of_the_file_are_kept() {
+    let text = TEXT.replace('\n', "\r\n");
+    let (mut scene, mut file) = parse(&text, "room.kdl", None).unwrap();
+    set_shape(&mut scene, "floor", "point", Value::Vector(DVec3::new(0.0, -1.0, 0.0)));
+    scene.apply(Edit::Parent(id(&scene, "right"), None)).unwrap();
+    file.update(&scene);
+    assert!(!file.text().replace("\r\n", "").contains('\n'));
+}
+
+#[test]
+fn many_new_things_are_written_in_one_go() {
+    let (mut scene, mut file) = start();
+    let white = scene.material_named("white").unwrap();
+    let sphere = make_shape("sphere", Values::new().with("radius", Value::Number(0.1)));
+    for i in 0..500 {
+        scene.add_shape(&format!("grain {i}"), sphere.clone(), white, None).unwrap();
+    }
+    file.update(&scene);
+    let (again, _) = parse(&file.text(), "again.kdl", None).unwrap();
+    assert_eq!(contents(&again), contents(&scene));
+}
+
+#[test]
+fn saving_and_loading_gives_an_equal_scene_and_no_other_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("room.kdl");
+    std::fs::write(&path, TEXT).unwrap();
+    let (mut scene, mut file) = load(&path).unwrap();
+    set_shape(&mut scene, "left", "radius", Value::Number(0.625));
+    file.save(&scene, &path).unwrap();
+    let (again, file) = load(&path).unwrap();
+    assert_eq!(contents(&again), contents(&scene));
+    assert_eq!(file.path(), Some(path.as_path()));
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    assert_eq!(scene.entities_of(Role::Shape).count(), 3);
+}
+
+#[test]
+fn a_refused_save_leaves_the_file_alone() {
+    let (scene, mut file) = start();
+    let error = file.save(&scene, std::path::Path::new("/no/such/folder/room.kdl")).unwrap_err();
+    assert!(error.to_string().starts_with("/no/such/folder/room.kdl: cannot be written"), "{error}");
+}
