@@ -9,7 +9,7 @@ use catoptra_core::scene::Scene;
 use catoptra_core::{Camera, Light, Material, Rgb, Shape, Span, Value, Values};
 use catoptra_raster::{DepthField, Layer, Overlay, OverlayStyle, Pixmap};
 use std::error::Error;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 const WIDTH: u32 = 1280;
@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         for (backdrop, brightness) in [("dark", 0.22), ("bright", 0.97)] {
             let (mut picture, metres) = shade(&scene, &camera, brightness);
             overlay(&scene, &camera, &metres, &mut picture);
-            save(&picture, directory.join(format!("{view}-{backdrop}.png")))?;
+            save(&picture, &directory.join(format!("{view}-{backdrop}.png")))?;
         }
     }
     Ok(())
@@ -56,7 +56,7 @@ fn overlay(scene: &Scene, camera: &Camera, metres: &[f32], picture: &mut [u32]) 
     println!("drawn in {drawn:?}, blended in {:?}", start.elapsed() - drawn);
 }
 
-pub(crate) fn scene() -> Result<Scene, Box<dyn Error>> {
+fn scene() -> Result<Scene, Box<dyn Error>> {
     let mut scene = Scene::new();
     let white = scene.add_material(
         "white",
@@ -115,7 +115,7 @@ fn part<T>(
 }
 
 /// The scene lit from over the camera's shoulder, as 0x00RRGGBB, and how far each pixel sees.
-pub(crate) fn shade(scene: &Scene, camera: &Camera, brightness: f64) -> (Vec<u32>, Vec<f32>) {
+fn shade(scene: &Scene, camera: &Camera, brightness: f64) -> (Vec<u32>, Vec<f32>) {
     let shapes: Vec<Shape> = scene.entities().filter_map(|id| scene.world_shape(id)).collect();
     let towards = (camera.up() + camera.right() * 0.5 - camera.forward()).normalize();
     let mut picture = Vec::new();
@@ -132,13 +132,13 @@ pub(crate) fn shade(scene: &Scene, camera: &Camera, brightness: f64) -> (Vec<u32
     (picture, metres)
 }
 
-fn save(picture: &[u32], path: PathBuf) -> Result<(), Box<dyn Error>> {
+fn save(picture: &[u32], path: &Path) -> Result<(), Box<dyn Error>> {
     let mut pixmap = Pixmap::new(WIDTH, HEIGHT).ok_or("an empty picture")?;
     for (bytes, pixel) in pixmap.data_mut().chunks_exact_mut(4).zip(picture) {
         let [_, red, green, blue] = pixel.to_be_bytes();
         bytes.copy_from_slice(&[red, green, blue, 255]);
     }
-    pixmap.save_png(&path)?;
+    pixmap.save_png(path)?;
     println!("{}", path.display());
     Ok(())
 }

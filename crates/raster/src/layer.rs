@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn transparent_pixels_stay_untouched() {
-        let mut picture: Vec<u32> = (0..40 * 10).map(|index| index * 977 | 0xab00_0000).collect();
+        let mut picture: Vec<u32> = (0..40 * 10).map(|index| (index * 977) | 0xab00_0000).collect();
         let before = picture.clone();
         square(40, 10).blend_over(&mut picture);
         let changed: Vec<usize> = (0..picture.len()).filter(|&at| picture[at] != before[at]).collect();

@@ -97,7 +97,7 @@ impl Projection {
 
     /// Where `point` stands in the picture; `None` when it is not in front of the eye or not finite.
     pub fn project(&self, point: DVec3) -> Option<Projected> {
-        let seen = self.to_camera(point);
+        let seen = self.camera_space(point);
         let spot = self.spot(seen)?;
         Some(Projected { x: spot.x, y: spot.y, distance: seen.length() })
     }
@@ -112,13 +112,13 @@ impl Projection {
     ///
     /// Marks of a constant size in the picture are measured with this.
     pub fn metres_per_pixel(&self, point: DVec3) -> Option<f64> {
-        let seen = self.to_camera(point);
+        let seen = self.camera_space(point);
         self.spot(seen).map(|_| seen.z / self.focal)
     }
 
     /// The part of the segment from `start` to `end` that can be seen, in pixels; `None` when no part can.
     pub(crate) fn segment(&self, start: DVec3, end: DVec3) -> Option<[Spot; 2]> {
-        let (start, end) = (self.to_camera(start), self.to_camera(end));
+        let (start, end) = (self.camera_space(start), self.camera_space(end));
         if !(start.is_finite() && end.is_finite()) {
             return None;
         }
@@ -134,7 +134,7 @@ impl Projection {
                 last = last.min(from / (from - to));
             }
         }
-        if !(first <= last) {
+        if first > last {
             return None;
         }
         Some([self.spot_within(start.lerp(end, first))?, self.spot_within(start.lerp(end, last))?])
@@ -142,7 +142,7 @@ impl Projection {
 
     /// The visible part of a flat convex polygon, as the corners of a polygon in pixels; empty when nothing is seen.
     pub(crate) fn polygon(&self, corners: &[DVec3]) -> Vec<Spot> {
-        let mut seen: Vec<DVec3> = corners.iter().map(|&corner| self.to_camera(corner)).collect();
+        let mut seen: Vec<DVec3> = corners.iter().map(|&corner| self.camera_space(corner)).collect();
         if !seen.iter().all(|corner| corner.is_finite()) {
             return Vec::new();
         }
@@ -162,7 +162,7 @@ impl Projection {
         ((x - 0.5 * self.width) / self.focal, (0.5 * self.height - y) / self.focal)
     }
 
-    fn to_camera(&self, point: DVec3) -> DVec3 {
+    fn camera_space(&self, point: DVec3) -> DVec3 {
         let offset = point - self.eye;
         DVec3::new(offset.dot(self.right), offset.dot(self.up), offset.dot(self.forward))
     }

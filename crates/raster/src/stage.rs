@@ -78,7 +78,7 @@ impl<'a> Stage<'a> {
     pub(crate) fn extent(&self) -> Aabb {
         *self.extent.get_or_init(|| {
             let bounds = self.scene.entities_of(Role::Shape).filter_map(|id| self.scene.world_bounds(id));
-            let extent = bounds.fold(Aabb::EMPTY, |all, bounds| all.union(bounds));
+            let extent = bounds.fold(Aabb::EMPTY, Aabb::union);
             if extent.is_empty() { Aabb { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) } } else { extent }
         })
     }

@@ -106,7 +106,7 @@ fn lines(canvas: &mut Canvas<'_>, cone: &Cone, tint: Tint, selected: bool) {
         cone.inner,
         Ink { casing: 0.3, ..bright }.with_width(1.2).with_opacity(0.7 * strength),
     );
-    canvas.segment(
+    canvas.straight(
         cone.apex,
         cone.apex + cone.axis * cone.reach,
         Ink { casing: 0.0, ..bright }.with_width(1.0).with_opacity(0.5 * strength),
@@ -118,7 +118,7 @@ fn lines(canvas: &mut Canvas<'_>, cone: &Cone, tint: Tint, selected: bool) {
 /// The two lines along which a cone turns its edge to the eye.
 fn edges(canvas: &mut Canvas<'_>, cone: &Cone, half: f64, ink: Ink) {
     for azimuth in cone.edges(half, canvas.view().eye()).into_iter().flatten() {
-        canvas.segment(cone.apex, cone.point(half, azimuth), ink);
+        canvas.straight(cone.apex, cone.point(half, azimuth), ink);
     }
 }
 
