@@ -429,3 +429,70 @@ fn a_refused_save_leaves_the_file_alone() {
     let error = file.save(&scene, std::path::Path::new("/no/such/folder/room.kdl")).unwrap_err();
     assert!(error.to_string().starts_with("/no/such/folder/room.kdl: cannot be written"), "{error}");
 }
+
+/// SplitMix64 (Steele, Lea, Flood 2014), below `end`.
+fn random(state: &mut u64, end: usize) -> usize {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let z = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) % end.max(1) as u64) as usize
+}
+
+/// One edit of any kind to anything; some are refused, which is as good.
+fn random_edit(scene: &mut Scene, count: usize, state: &mut u64) {
+    let all = scene.walk();
+    let Some(&any) = all.get(random(state, all.len())) else { return };
+    let other = all[random(state, all.len())];
+    let materials: Vec<_> = scene.materials().map(|(id, ..)| id).collect();
+    let material = materials[random(state, materials.len())];
+    let number = random(state, 1000) as f64 / 64.0;
+    let by = DVec3::new(number, 0.0, -number);
+    let sphere = make_shape("sphere", Values::new().with("radius", Value::Number(number + 0.5)));
+    let edit = match random(state, 12) {
+        0 => Edit::Remove(any),
+        1 => Edit::Shape(any, sphere),
+        2 => Edit::Placement(any, Placement::IDENTITY.moved(by).unwrap()),
+        3 => Edit::MaterialOf(any, material),
+        4 => Edit::Parent(any, Some(other)),
+        5 => Edit::Parent(any, None),
+        6 => Edit::Order(any, random(state, 6)),
+        7 => Edit::Name(any, format!("named {count}")),
+        8 => Edit::RenameMaterial(material, format!("worn {count}")),
+        9 => {
+            let node = Node::group(
+                format!("new {count}"),
+                vec![Node::shape(format!("in {count}"), sphere, material)],
+            );
+            Edit::insert(Subtree { node, parent: None, index: Some(random(state, 5)) })
+        }
+        10 => {
+            let node = Node::shape(format!("new {count}"), sphere, material);
+            Edit::insert(Subtree { node, parent: Some(other), index: Some(random(state, 3)) })
+        }
+        _ => Edit::Settings(Settings::new(Rgb::grey(number), random(state, 9) as u32).unwrap()),
+    };
+    let _ = scene.apply(edit);
+}
+
+#[test]
+fn any_edits_in_any_order_are_saved() {
+    for seed in 0..150 {
+        let mut state = seed;
+        let (mut scene, mut file) = start();
+        for round in 0..4 {
+            for i in 0..=random(&mut state, 8) {
+                random_edit(&mut scene, 100 * round + i, &mut state);
+            }
+            let before = file.text();
+            file.update(&scene);
+            let text = file.text();
+            let (again, _) = parse(&text, "again.kdl", None).unwrap_or_else(|e| {
+                panic!("seed {seed}: {:?}\n{before}\n-----\n{text}", miette::Report::new(e))
+            });
+            assert_eq!(contents(&again), contents(&scene), "seed {seed}\n{before}\n-----\n{text}");
+            for comment in ["// A small room.", "/* plain */", "// the end"] {
+                assert!(text.contains(comment), "seed {seed}: {comment} is gone from\n{text}");
+            }
+        }
+    }
+}

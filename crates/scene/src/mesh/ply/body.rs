@@ -100,39 +100,55 @@ impl Body for Ascii<'_> {
     }
 }
 
-/// Numbers byte by byte, without gaps.
-pub(super) struct Binary<'a> {
+/// Numbers byte by byte, without gaps; `BIG` where the highest byte comes first.
+pub(super) struct Binary<'a, const BIG: bool> {
     bytes: &'a [u8],
     at: usize,
     /// Byte of the file at which the body begins.
     offset: usize,
-    decode: fn(Sort, [u8; 8]) -> f64,
 }
 
-impl<'a> Binary<'a> {
-    pub(super) fn new(bytes: &'a [u8], offset: usize, decode: fn(Sort, [u8; 8]) -> f64) -> Self {
-        Self { bytes, at: 0, offset, decode }
+impl<'a, const BIG: bool> Binary<'a, BIG> {
+    pub(super) fn new(bytes: &'a [u8], offset: usize) -> Self {
+        Self { bytes, at: 0, offset }
     }
 
     fn rest(&self) -> usize {
         self.bytes.len() - self.at
     }
+
+    /// The next `N` bytes, lowest first.
+    #[inline]
+    fn take<const N: usize>(&mut self) -> Result<[u8; N], Fault> {
+        let Some(bytes) = self.bytes[self.at..].first_chunk::<N>() else {
+            return Err(Fault::new(self.place(), "the file ends in the middle of a row"));
+        };
+        self.at += N;
+        let mut bytes = *bytes;
+        if BIG {
+            bytes.reverse();
+        }
+        Ok(bytes)
+    }
 }
 
-impl Body for Binary<'_> {
+impl<const BIG: bool> Body for Binary<'_, BIG> {
     fn begin_row(&mut self) -> Result<Place, Fault> {
         Ok(self.place())
     }
 
+    #[inline]
     fn scalar(&mut self, sort: Sort) -> Result<f64, Fault> {
-        let size = sort.bytes();
-        let Some(bytes) = self.bytes.get(self.at..self.at + size) else {
-            return Err(Fault::new(self.place(), "the file ends in the middle of a row"));
-        };
-        let mut eight = [0; 8];
-        eight[..size].copy_from_slice(bytes);
-        self.at += size;
-        Ok((self.decode)(sort, eight))
+        Ok(match sort {
+            Sort::I8 => f64::from(i8::from_le_bytes(self.take()?)),
+            Sort::U8 => f64::from(u8::from_le_bytes(self.take()?)),
+            Sort::I16 => f64::from(i16::from_le_bytes(self.take()?)),
+            Sort::U16 => f64::from(u16::from_le_bytes(self.take()?)),
+            Sort::I32 => f64::from(i32::from_le_bytes(self.take()?)),
+            Sort::U32 => f64::from(u32::from_le_bytes(self.take()?)),
+            Sort::F32 => f64::from(f32::from_le_bytes(self.take()?)),
+            Sort::F64 => f64::from_le_bytes(self.take()?),
+        })
     }
 
     fn end_row(&mut self) -> Result<(), Fault> {
