@@ -74,6 +74,14 @@ impl Cone {
         })
     }
 
+    /// Whether a point lies in the cone of a half angle, between its apex and its ring.
+    pub(crate) fn holds(&self, half: f64, point: DVec3) -> bool {
+        let offset = point - self.apex;
+        let along = offset.dot(self.axis);
+        let aside = (offset - self.axis * along).length();
+        along > 0.0 && along <= self.reach * half.cos() && aside <= along * half.tan()
+    }
+
     /// Azimuth of the point of a ring that is nearest to a point of the world.
     pub(crate) fn azimuth_of(&self, point: DVec3) -> f64 {
         let offset = point - self.apex;

@@ -228,6 +228,13 @@ mod tests {
     }
 
     #[test]
+    fn an_eye_inside_a_cone_sees_its_glow_everywhere() {
+        let (scene, _) = lit_by(spot(DVec3::new(0.0, 2.0, 11.0), DVec3::NEG_Z, 100.0, 140.0));
+        let camera = sample::camera();
+        assert!(alphas(&sample::overlay(&scene, &camera, CONES)).iter().all(|&alpha| alpha > 10));
+    }
+
+    #[test]
     fn the_glow_of_a_cone_follows_its_falloff() {
         // Seen end-on, halfway between the rings: full light is over one level there, half over another.
         let (scene, light) = lit_by(spot(DVec3::new(0.0, 2.0, 0.0), DVec3::NEG_Z, 10.0, 80.0));

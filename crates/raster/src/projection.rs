@@ -152,6 +152,14 @@ impl Projection {
         seen.into_iter().filter_map(|corner| self.spot_within(corner)).collect()
     }
 
+    /// The corners of the picture with its margin, in order.
+    pub(crate) fn frame(&self) -> Vec<Spot> {
+        let (right, bottom) = (self.width + MARGIN, self.height + MARGIN);
+        [(-MARGIN, -MARGIN), (right, -MARGIN), (right, bottom), (-MARGIN, bottom)]
+            .map(|(x, y)| Spot { x, y, inverse_depth: 1.0 })
+            .to_vec()
+    }
+
     /// Metres from the eye per metre of depth, on the ray through a pixel: 1 in the centre, more towards the corners.
     pub(crate) fn slant(&self, x: f64, y: f64) -> f64 {
         let (across, upward) = self.slopes(x, y);
@@ -281,6 +289,13 @@ mod tests {
         let [start, end] = ahead().segment(DVec3::new(0.5, 0.0, -5.0), DVec3::new(0.5, 0.0, 5.0)).unwrap();
         assert!((start.x - 105.0).abs() < 1e-9);
         assert!((end.x - (200.0 + MARGIN)).abs() < 1e-6, "leaves on its own side, at {}", end.x);
+    }
+
+    #[test]
+    fn a_segment_that_starts_in_the_eye_is_seen_from_the_near_plane_on() {
+        let [start, end] = ahead().segment(DVec3::ZERO, DVec3::new(1.0, 0.0, -4.0)).unwrap();
+        assert!((start.inverse_depth * NEAR - 1.0).abs() < 1e-9);
+        assert!((start.x - end.x).abs() < 1e-6 && (end.x - 112.5).abs() < 1e-9);
     }
 
     #[test]

@@ -71,11 +71,15 @@ fn beam(canvas: &mut Canvas<'_>, cone: &Cone, tint: Tint, selected: bool) {
     canvas.glow(&outlines, (tint, opacity), fade(canvas, cone));
 }
 
-/// The outline of a cone in the picture.
+/// The outline of a cone in the picture: of its sides and its base, or the whole picture where the eye is in it.
 fn silhouette(canvas: &Canvas<'_>, cone: &Cone, half: f64) -> Vec<Spot> {
+    if cone.holds(half, canvas.view().eye()) {
+        return canvas.view().frame();
+    }
     let ring = cone.ring(half);
+    let base = canvas.view().polygon(&ring[1..]);
     let sides = ring.windows(2).flat_map(|side| canvas.view().polygon(&[cone.apex, side[0], side[1]]));
-    hull(sides.collect())
+    hull(sides.chain(base).collect())
 }
 
 /// Full at the apex, fainter towards the rings; one opacity where the cone is seen end-on or its apex is not seen.
