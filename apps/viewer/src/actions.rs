@@ -140,7 +140,7 @@ fn save(viewer: &mut Viewer) {
 /// Writes the picture as it was traced, without overlays, under a free name in the current folder.
 pub(crate) fn write_picture(viewer: &mut Viewer, frame: &Frame) {
     viewer.picture_wanted = false;
-    let path = crate::document::free_name(Path::new("."), &viewer.document.name(), "png");
+    let path = crate::document::free_name(Path::new(""), &viewer.document.name(), "png");
     let rgb: Vec<u8> =
         frame.pixels.data.iter().flat_map(|p| [(p >> 16) as u8, (p >> 8) as u8, *p as u8]).collect();
     let written = catoptra_scene::image::write_png(&path, frame.pixels.width, frame.pixels.height, &rgb);

@@ -44,11 +44,6 @@ impl Document {
         &self.scene
     }
 
-    /// Where it is kept; `None` for the built-in scene until it is saved.
-    pub(crate) fn path(&self) -> Option<&Path> {
-        self.path.as_deref()
-    }
-
     /// A short name for titles and file names.
     pub(crate) fn name(&self) -> String {
         let stem = self.path.as_deref().and_then(Path::file_stem);
@@ -98,7 +93,7 @@ impl Document {
     pub(crate) fn save(&mut self) -> Result<PathBuf, String> {
         let path = match &self.path {
             Some(path) => path.clone(),
-            None => free_name(Path::new("."), WELCOME_NAME, "kdl"),
+            None => free_name(Path::new(""), WELCOME_NAME, "kdl"),
         };
         self.file.save(&self.scene, &path).map_err(|e| format!("{} was not saved: {e}", path.display()))?;
         self.history.mark_saved();

@@ -102,10 +102,10 @@ pub(crate) const BINDINGS: &[Binding] = &[
 /// What the mouse does, for the help: what is done with it, and what follows.
 pub(crate) const MOUSE: &[(&str, &str)] = &[
     ("Click", "select what is under the pointer"),
-    ("Left drag", "orbit the camera; in turntable mode turn the objects"),
+    ("Left drag", "orbit the camera; turntable: turn the objects"),
     ("Right or Shift drag", "pan"),
     ("Left drag on a ring", "change a spot light's cone angle"),
-    ("Wheel", "zoom to the pointer; in turntable mode move along the view"),
+    ("Wheel", "zoom to the pointer; turntable: along the view"),
     ("Ctrl wheel", "the other of the two"),
     ("Drop a file", "open a scene"),
 ];

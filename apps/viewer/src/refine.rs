@@ -13,20 +13,28 @@ const UNMEASURED: u32 = 8;
 /// Below this number of pixels a measurement says more about starting threads than about tracing.
 const TELLING_PIXELS: u64 = 1000;
 
+/// The share of the budget that a finer first frame than the last one must keep to, so that the first frames of a
+/// drag do not flicker between two divisors.
+const FINER: f64 = 0.75;
+
+/// The weight of a new measurement against all before it.
+const NEWEST: f64 = 0.3;
+
 /// How fast pixels have lately been traced.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Pace {
     seconds_per_pixel: Option<f64>,
+    last_first: u32,
 }
 
 impl Pace {
-    /// Takes in a finished frame of that many pixels; the newest frame weighs as much as all before it.
+    /// Takes in a finished frame of that many pixels.
     pub(crate) fn record(&mut self, pixels: u64, seconds: f64) {
         if pixels < TELLING_PIXELS || !(seconds > 0.0) {
             return;
         }
         let new = seconds / pixels as f64;
-        self.seconds_per_pixel = Some(self.seconds_per_pixel.map_or(new, |old| 0.5 * (old + new)));
+        self.seconds_per_pixel = Some(self.seconds_per_pixel.map_or(new, |old| old + NEWEST * (new - old)));
     }
 
     /// Notes that a first frame did not end in time: pixels are dearer than was thought.
@@ -35,8 +43,9 @@ impl Pace {
     }
 
     /// The divisors for a picture of `width` x `height`, coarsest first, always ending in 1.
-    pub(crate) fn steps(&self, width: u32, height: u32) -> Vec<u32> {
+    pub(crate) fn steps(&mut self, width: u32, height: u32) -> Vec<u32> {
         let mut divisor = self.first(width, height);
+        self.last_first = divisor;
         let mut steps = vec![divisor];
         while divisor > 1 {
             divisor /= 2;
@@ -47,7 +56,10 @@ impl Pace {
 
     fn first(&self, width: u32, height: u32) -> u32 {
         let Some(cost) = self.seconds_per_pixel else { return UNMEASURED };
-        let fits = |d: &&u32| pixels(reduced(width, height, **d)) as f64 * cost <= BUDGET;
+        let fits = |d: &&u32| {
+            let budget = if **d < self.last_first { FINER * BUDGET } else { BUDGET };
+            pixels(reduced(width, height, **d)) as f64 * cost <= budget
+        };
         DIVISORS.iter().find(fits).copied().unwrap_or(DIVISORS[DIVISORS.len() - 1])
     }
 }
@@ -100,6 +112,17 @@ mod tests {
             pace.overran();
         }
         assert!(pace.steps(1000, 1000)[0] > before);
+    }
+
+    #[test]
+    fn a_first_frame_becomes_finer_only_with_time_to_spare() {
+        let mut pace = Pace::default();
+        pace.record(1_000_000, 0.013);
+        assert_eq!(pace.steps(1000, 1000)[0], 2);
+        pace.seconds_per_pixel = Some(0.011e-6);
+        assert_eq!(pace.steps(1000, 1000)[0], 2);
+        pace.seconds_per_pixel = Some(0.008e-6);
+        assert_eq!(pace.steps(1000, 1000)[0], 1);
     }
 
     #[test]

@@ -81,7 +81,7 @@ impl Viewer {
             grid: false,
             axes: false,
             lights: true,
-            cones: true,
+            cones: false,
             selection: true,
             cameras: false,
             scale: 1.0,
@@ -190,10 +190,13 @@ impl Viewer {
         Overlay { scene: self.document.scene(), camera, width, height, depth: None, selection, style }
     }
 
-    /// Selects something or nothing.
+    /// Selects something or nothing. Cones are shown from the first spot light on that is selected.
     pub(crate) fn select(&mut self, id: Option<EntityId>) {
         if self.selection != id {
             self.selection = id;
+            let light = id.and_then(|id| self.document.scene().light(id));
+            let is_spot = light.is_some_and(|l| l.position().is_some() && l.direction().is_some());
+            self.settings.style.cones |= is_spot;
             self.stale.overlay = true;
             self.stale.panel = true;
         }

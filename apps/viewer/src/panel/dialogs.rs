@@ -27,11 +27,14 @@ pub(super) fn status(ui: &Ui, viewer: &Viewer, figures: &str, room: Rect) {
 }
 
 /// All keys.
-pub(super) fn help(ui: &Ui, viewer: &mut Viewer) {
+pub(super) fn help(ui: &Ui, viewer: &mut Viewer, room: Rect) {
     let mut open = viewer.shown.help;
     Window::new("Keys and mouse")
         .open(&mut open)
-        .anchor(Align2::CENTER_CENTER, egui::Vec2::ZERO)
+        .pivot(Align2::CENTER_CENTER)
+        .fixed_pos(room.center())
+        .constrain_to(room)
+        .max_height((room.height() - 60.0).max(60.0))
         .resizable(false)
         .collapsible(false)
         .vscroll(true)

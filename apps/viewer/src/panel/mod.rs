@@ -34,7 +34,7 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, status: &str) -> Rect {
             .show_inside(ui, |ui| side(ui, viewer));
     }
     dialogs::status(ui, viewer, status, room);
-    dialogs::help(ui, viewer);
+    dialogs::help(ui, viewer, room);
     dialogs::error(ui, viewer, room);
     if ui.input(|input| input.pointer.any_released()) {
         viewer.document.end_step();
