@@ -37,7 +37,7 @@ impl Layer {
     /// Lays the layer over `picture`: 0x00RRGGBB, row-major, of the layer's own size.
     ///
     /// Pixels under a fully transparent part keep their value to the bit. A picture of another size is left as it
-    /// is. About 0.2 ms where all of a picture of 1280 x 720 pixels was touched thinly.
+    /// is. Takes 0.5 to 1 ms where all of a picture of 1280 x 720 pixels was touched.
     pub fn blend_over(&self, picture: &mut [u32]) {
         let Some(pixmap) = &self.pixmap else { return };
         if let Some(part) = self.touched.within(pixmap) {

@@ -152,14 +152,6 @@ impl Projection {
         seen.into_iter().filter_map(|corner| self.spot_within(corner)).collect()
     }
 
-    /// The corners of the picture with its margin, in order.
-    pub(crate) fn frame(&self) -> Vec<Spot> {
-        let (right, bottom) = (self.width + MARGIN, self.height + MARGIN);
-        [(-MARGIN, -MARGIN), (right, -MARGIN), (right, bottom), (-MARGIN, bottom)]
-            .map(|(x, y)| Spot { x, y, inverse_depth: 1.0 })
-            .to_vec()
-    }
-
     /// Metres from the eye per metre of depth, on the ray through a pixel: 1 in the centre, more towards the corners.
     pub(crate) fn slant(&self, x: f64, y: f64) -> f64 {
         let (across, upward) = self.slopes(x, y);

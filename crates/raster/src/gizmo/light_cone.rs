@@ -71,10 +71,11 @@ fn beam(canvas: &mut Canvas<'_>, cone: &Cone, tint: Tint, selected: bool) {
     canvas.glow(&outlines, (tint, opacity), fade(canvas, cone));
 }
 
-/// The outline of a cone in the picture: of its sides and its base, or the whole picture where the eye is in it.
+/// The outline of a cone in the picture: of its sides and its base. Nothing where the eye is in it, since
+/// that would tint the whole picture and tell nothing.
 fn silhouette(canvas: &Canvas<'_>, cone: &Cone, half: f64) -> Vec<Spot> {
     if cone.holds(half, canvas.view().eye()) {
-        return canvas.view().frame();
+        return Vec::new();
     }
     let ring = cone.ring(half);
     let base = canvas.view().polygon(&ring[1..]);
