@@ -1,0 +1,196 @@
+//! Which commands, options and values are there?
+
+use std::path::PathBuf;
+
+use catoptra_tracer::Size;
+use clap::{Args, Parser, Subcommand};
+
+/// Renders scenes on the CPU, says what they cost, and compares pictures.
+#[derive(Parser)]
+#[command(name = "catoptra", version, propagate_version = true, after_help = EXIT_CODES)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const EXIT_CODES: &str =
+    "Exit codes: 0 done, 1 pictures differ past a limit, 2 bad usage or input, 130 interrupted.";
+
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    /// Render a scene to a picture, or time how long a frame takes
+    Render(RenderArgs),
+    /// Say what a scene needs, which kernels run and what work is skipped
+    Explain(ExplainArgs),
+    /// Measure how far a picture is from a reference
+    Compare(CompareArgs),
+}
+
+/// What a picture is made from: shared by the commands that trace.
+#[derive(Args)]
+pub(crate) struct JobArgs {
+    /// Scene file (.kdl)
+    pub(crate) scene: PathBuf,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = size)]
+    pub(crate) size: Size,
+    /// Camera to look through [default: the scene's first]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) camera: Option<String>,
+    /// Backend to trace with: wide (fast), scalar or oracle (exhaustive)
+    #[arg(long, value_name = "NAME", default_value = "wide")]
+    pub(crate) backend: String,
+    /// Threads to trace with [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Samples per pixel: a square number, 1, 4, 9 and so on
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = samples)]
+    pub(crate) samples: u32,
+    /// Reflections followed one after another [default: the scene's setting]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1000))]
+    pub(crate) max_depth: Option<u32>,
+}
+
+#[derive(Args)]
+pub(crate) struct RenderArgs {
+    #[command(flatten)]
+    pub(crate) job: JobArgs,
+    /// Picture to write: .png (8 bits, as displayed) or .exr (linear, 32 bits)
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Display transform of a .png: linear, srgb or filmic
+    #[arg(long, value_name = "NAME", default_value = "srgb")]
+    pub(crate) display: String,
+    /// Time N frames after a warm-up: from snapshot to film, without files and parsing
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) repeat: Option<u32>,
+    /// Write counts and times as a JSON object
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) stats: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub(crate) struct ExplainArgs {
+    #[command(flatten)]
+    pub(crate) job: JobArgs,
+    /// Answer with a JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct CompareArgs {
+    /// Picture taken as right (.png or .exr)
+    pub(crate) reference: PathBuf,
+    /// Picture that is judged
+    pub(crate) test: PathBuf,
+    /// Answer with a JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// A pixel counts as differing past this difference of a channel, in the unit of --max-difference
+    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = limit)]
+    pub(crate) threshold: f64,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
+}
+
+/// Limits past which a comparison ends with exit code 1.
+#[derive(Args)]
+pub(crate) struct LimitArgs {
+    /// Largest root mean squared error allowed
+    #[arg(long, value_name = "X", value_parser = limit)]
+    pub(crate) max_rmse: Option<f64>,
+    /// Largest relative mean squared error allowed
+    #[arg(long, value_name = "X", value_parser = limit)]
+    pub(crate) max_relmse: Option<f64>,
+    /// Largest difference of a channel allowed: bytes for two .png (0 to 255), values otherwise
+    #[arg(long, value_name = "X", value_parser = limit)]
+    pub(crate) max_difference: Option<f64>,
+    /// Largest mean FLIP allowed
+    #[arg(long, value_name = "X", value_parser = limit)]
+    pub(crate) max_flip: Option<f64>,
+    /// Most differing pixels allowed
+    #[arg(long, value_name = "N")]
+    pub(crate) max_differing: Option<u64>,
+}
+
+/// Widest and highest picture, in pixels; also what one side of a PNG viewer commonly takes.
+const LONGEST_SIDE: u32 = 32_768;
+
+/// Most pixels of a picture: a film of this many fits the memory of a common computer.
+const MOST_PIXELS: u64 = 1 << 27;
+
+/// Reads `WIDTHxHEIGHT`.
+fn size(text: &str) -> Result<Size, String> {
+    let wanted = || "a size is written WIDTHxHEIGHT in pixels, such as 640x480".to_owned();
+    let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(wanted)?;
+    let side = |digits: &str| digits.parse::<u32>().map_err(|_| wanted());
+    let (width, height) = (side(width)?, side(height)?);
+    if !(1..=LONGEST_SIDE).contains(&width) || !(1..=LONGEST_SIDE).contains(&height) {
+        return Err(format!("each side must be 1 to {LONGEST_SIDE} pixels"));
+    }
+    if u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(format!("a picture may have at most {MOST_PIXELS} pixels"));
+    }
+    Ok(Size { width, height })
+}
+
+/// Reads a square number of samples.
+fn samples(text: &str) -> Result<u32, String> {
+    let count: u32 = text.parse().map_err(|_| "samples are a whole number".to_owned())?;
+    let side = count.isqrt();
+    if !(1..=64).contains(&side) {
+        return Err("samples must be 1 to 4096".to_owned());
+    }
+    if side * side != count {
+        let (below, above) = (side * side, (side + 1) * (side + 1));
+        return Err(format!("samples must be a square number: {below} or {above} is near"));
+    }
+    Ok(count)
+}
+
+/// Reads a limit: a number from 0 up.
+fn limit(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number >= 0.0 && number.is_finite() => Ok(number),
+        _ => Err("a limit is a number from 0 up".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_options_are_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_are_two_positive_numbers() {
+        let found = size("450x300").unwrap();
+        assert_eq!((found.width, found.height), (450, 300));
+        for bad in
+            ["", "450", "x", "450x", "0x10", "10x0", "-1x5", "1x2x3", "1.5x2", "99999x1", "32768x32768"]
+        {
+            assert!(size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn samples_are_squares_and_the_message_names_the_neighbours() {
+        assert_eq!(samples("16"), Ok(16));
+        assert!(samples("15").unwrap_err().contains("9 or 16"));
+        assert!(samples("0").is_err());
+        assert!(samples("4294967295").is_err());
+    }
+
+    #[test]
+    fn limits_refuse_what_cannot_be_passed() {
+        for bad in ["NaN", "-1", "inf", "x"] {
+            assert!(limit(bad).is_err(), "{bad}");
+        }
+    }
+}

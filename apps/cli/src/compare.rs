@@ -1,0 +1,107 @@
+//! `catoptra compare`: how far is a picture from its reference, and is that within the limits?
+
+use catoptra_lab::{METRICS, Metric, Pair, Picture, Viewing};
+use miette::{Result, miette};
+use serde_json::{Map, Value, json};
+
+use crate::Outcome;
+use crate::args::{CompareArgs, LimitArgs};
+use crate::input::{Stored, read_picture};
+
+/// Compares two picture files.
+pub(crate) fn run(args: &CompareArgs) -> Result<Outcome> {
+    let (reference, test) = (read_picture(&args.reference)?, read_picture(&args.test)?);
+    if reference.is_encoded() != test.is_encoded() {
+        return Err(miette!(
+            help = "compare two .png (as displayed) or two .exr (linear light)",
+            "{} and {} do not hold the same kind of values",
+            args.reference.display(),
+            args.test.display()
+        ));
+    }
+    let measured = measure(&reference, &test, args.threshold)?;
+    let passed = |(metric, value): &(&Metric, f64)| {
+        limit_of(metric.name, &args.limits).is_none_or(|limit| *value <= limit)
+    };
+    let within = measured.iter().all(passed);
+    if args.json {
+        println!("{}", as_json(args, &reference.values, &measured, within));
+    } else {
+        print_table(&args.limits, &measured);
+    }
+    Ok(if within { Outcome::Done } else { Outcome::Differs })
+}
+
+/// Every metric of two pictures: over the values as they are stored, except FLIP, which judges the light a display emits.
+fn measure(reference: &Stored, test: &Stored, threshold: f64) -> Result<Vec<(&'static Metric, f64)>> {
+    let viewing = Viewing { threshold: threshold as f32, ..Viewing::default() };
+    let wrong_sizes = |error| miette!("the pictures cannot be compared: {error}");
+    let stored = Pair::new(&reference.values, &test.values).map_err(wrong_sizes)?;
+    let (light_of_reference, light_of_test) = (reference.light(), test.light());
+    let light = Pair::new(&light_of_reference, &light_of_test).map_err(wrong_sizes)?;
+    let pair_for = |metric: &Metric| if metric.name == "flip" { light } else { stored };
+    Ok(METRICS.iter().map(|metric| (metric, (metric.measure)(pair_for(metric), &viewing))).collect())
+}
+
+/// The limit that the user has set for a metric.
+fn limit_of(metric: &str, limits: &LimitArgs) -> Option<f64> {
+    match metric {
+        "rmse" => limits.max_rmse,
+        "relmse" => limits.max_relmse,
+        "max-difference" => limits.max_difference,
+        "flip" => limits.max_flip,
+        "differing" => limits.max_differing.map(|count| count as f64),
+        _ => None,
+    }
+}
+
+fn print_table(limits: &LimitArgs, measured: &[(&Metric, f64)]) {
+    for (metric, value) in measured {
+        let verdict = match limit_of(metric.name, limits) {
+            Some(limit) if *value <= limit => format!("  within {limit}"),
+            Some(limit) => format!("  PAST {limit}"),
+            None => String::new(),
+        };
+        println!("{:<15} {:>14}{verdict:<18}  {}", metric.name, number(*value), metric.doc);
+    }
+}
+
+/// A number as short as it can be read: whole ones without a point.
+fn number(value: f64) -> String {
+    if value.fract() == 0.0 { format!("{value:.0}") } else { format!("{value:.8}") }
+}
+
+fn as_json(args: &CompareArgs, reference: &Picture, measured: &[(&Metric, f64)], within: bool) -> Value {
+    let mut object = Map::new();
+    object.insert("reference".into(), json!(args.reference.display().to_string()));
+    object.insert("test".into(), json!(args.test.display().to_string()));
+    object.insert("size".into(), json!({ "width": reference.width(), "height": reference.height() }));
+    object.insert("threshold".into(), json!(args.threshold));
+    for (metric, value) in measured {
+        object.insert(metric.name.replace('-', "_"), json!(value));
+    }
+    object.insert("within_limits".into(), json!(within));
+    Value::Object(object)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_limit_belongs_to_a_metric() {
+        let all = LimitArgs {
+            max_rmse: Some(1.0),
+            max_relmse: Some(1.0),
+            max_difference: Some(1.0),
+            max_flip: Some(1.0),
+            max_differing: Some(1),
+        };
+        assert_eq!(METRICS.iter().filter(|metric| limit_of(metric.name, &all).is_some()).count(), 5);
+    }
+
+    #[test]
+    fn whole_numbers_have_no_point() {
+        assert_eq!((number(12.0), number(0.5)), ("12".to_owned(), "0.50000000".to_owned()));
+    }
+}

@@ -1,0 +1,211 @@
+//! `catoptra explain`: what does a scene need, what runs for it, and which work was skipped as it could not matter?
+
+use catoptra_core::Light;
+use catoptra_tracer::{Film, Needs, Skipped, Stats};
+use miette::Result;
+use serde_json::{Map, Value, json};
+
+use crate::args::ExplainArgs;
+use crate::job::Job;
+use crate::words::{bytes, counted, list, percent, thousands};
+use crate::{Outcome, interrupt, progress};
+
+/// Traces one frame to count its work, and says what was found.
+pub(crate) fn run(args: &ExplainArgs) -> Result<Outcome> {
+    let job = Job::new(&args.job)?;
+    let control = interrupt::control();
+    let mut film = Film::new(job.view.size);
+    let Ok((_, stats)) = progress::while_showing(&control, || job.frame(&mut film, &control)) else {
+        return Ok(Outcome::Interrupted);
+    };
+    let found = Found { needs: job.snapshot.needs(), ambient: ambient_lights(&job), job: &job, stats };
+    if args.json {
+        println!("{}", found.as_json());
+    } else {
+        print!("{}", found.as_text());
+    }
+    Ok(Outcome::Done)
+}
+
+fn ambient_lights(job: &Job) -> usize {
+    let lights = job.scene.entities().filter_map(|id| job.scene.light(id));
+    lights.filter(|light| matches!(light, Light::AmbientLight(_))).count()
+}
+
+/// A reason for which rays were not traced: its words, and how many rays.
+type Reason = (&'static str, fn(&Skipped) -> u64);
+
+/// Reasons against shadow rays.
+const NO_SHADOW_RAY: &[Reason] = &[
+    ("the surface faces away from the light", |skipped| skipped.facing_away),
+    ("the point lies outside the light's cone", |skipped| skipped.out_of_cone),
+    ("the light throws no shadows", |skipped| skipped.shadow_off),
+    ("the material shows no light of its own", |skipped| skipped.unlit_material),
+];
+
+/// Reasons against reflection rays.
+const NO_REFLECTION_RAY: &[Reason] = &[
+    ("the surface does not reflect", |skipped| skipped.not_reflective),
+    ("enough reflections one after another", |skipped| skipped.depth_limit),
+    ("too faint to change the picture", |skipped| skipped.weight_cutoff),
+];
+
+/// What is known of a scene after a frame.
+struct Found<'a> {
+    job: &'a Job,
+    needs: Needs,
+    ambient: usize,
+    stats: Stats,
+}
+
+impl Found<'_> {
+    fn as_json(&self) -> Value {
+        let needs = &self.needs;
+        json!({
+            "scene": self.job.scene_name,
+            "camera": self.job.camera_name,
+            "size": self.job.view.size,
+            "samples": self.job.view.samples(),
+            "max_depth": self.job.view.max_depth,
+            "backend": self.job.backend.name(),
+            "simd": self.job.backend.level(),
+            "threads": self.job.pool.threads(),
+            "shapes": by_kind(&needs.shapes),
+            "materials": by_kind(&needs.materials),
+            "lights": by_kind(&needs.lights),
+            "ambient_lights": self.ambient,
+            "shadowing_lights": needs.shadowing_lights,
+            "shapes_without_end": needs.unbounded,
+            "shapes_with_kernel": needs.with_kernel,
+            "meshes": needs.meshes,
+            "triangles": needs.triangles,
+            "tree_bytes": needs.tree_bytes,
+            "reflects": needs.reflects,
+            "counts": self.stats,
+        })
+    }
+
+    fn as_text(&self) -> String {
+        let (job, size) = (self.job, self.job.view.size);
+        let samples = counted(u64::from(job.view.samples()), "sample");
+        format!(
+            "{} through camera \"{}\" at {}x{}, {samples} a pixel\n\n\
+             The scene holds\n{}\nWhat runs\n{}\nOne frame traced\n{}\nIt did not trace\n{}\nHow sure it is\n{}",
+            job.scene_name,
+            job.camera_name,
+            size.width,
+            size.height,
+            lines(&self.holdings()),
+            lines(&self.runs()),
+            lines(&self.traced()),
+            lines(&self.skipped()),
+            lines(&self.certainty()),
+        )
+    }
+
+    fn holdings(&self) -> Vec<String> {
+        let needs = &self.needs;
+        let mut lines = vec![format!("{}{}", all_counted(&needs.shapes, "shape"), list(&needs.shapes))];
+        if needs.unbounded > 0 {
+            lines.push(format!(
+                "  {} without an end: tested for every ray, outside the tree",
+                needs.unbounded
+            ));
+        }
+        if needs.meshes > 0 {
+            let triangles = counted(needs.triangles as u64, "triangle");
+            lines.push(format!("{} of {triangles}", counted(needs.meshes as u64, "mesh file")));
+        }
+        lines.push(format!("{}{}", all_counted(&needs.materials, "material"), list(&needs.materials)));
+        lines.push(format!(
+            "{}{}; shadows are thrown by {}",
+            all_counted(&needs.lights, "light"),
+            list(&needs.lights),
+            needs.shadowing_lights
+        ));
+        if self.ambient > 0 {
+            lines.push(format!("{}: costs nothing", counted(self.ambient as u64, "ambient light")));
+        }
+        lines
+    }
+
+    fn runs(&self) -> Vec<String> {
+        let (job, needs) = (self.job, &self.needs);
+        let threads = counted(job.pool.threads() as u64, "thread");
+        let shapes: usize = needs.shapes.iter().map(|(_, count)| count).sum();
+        let kernels = match shapes - needs.with_kernel {
+            0 => "a SIMD kernel for every shape".to_owned(),
+            without => format!(
+                "SIMD kernels for {} of {shapes} shapes; {without} crossed one ray at a time",
+                needs.with_kernel
+            ),
+        };
+        let reflections = if needs.reflects {
+            format!("reflections, up to {} one after another", job.view.max_depth)
+        } else {
+            "no reflections: no surface in the scene reflects".to_owned()
+        };
+        let mut lines =
+            vec![format!("backend {} with {} on {threads}", job.backend.name(), job.backend.level())];
+        if job.backend.name() == "wide" {
+            lines.push(kernels);
+        }
+        lines.push(format!("trees of {}", bytes(needs.tree_bytes as u64)));
+        lines.push(reflections);
+        lines
+    }
+
+    fn traced(&self) -> Vec<String> {
+        let (rays, tests) = (&self.stats.rays, &self.stats.tests);
+        let each = |count: u64| format!("{:.1} a ray", count as f64 / rays.total().max(1) as f64);
+        vec![
+            counted(rays.primary, "primary ray"),
+            counted(rays.shadow, "shadow ray"),
+            counted(rays.reflection, "reflection ray"),
+            format!("{} against shapes and triangles, {}", counted(tests.shapes, "test"), each(tests.shapes)),
+            format!("{} against boxes of trees, {}", counted(tests.boxes, "test"), each(tests.boxes)),
+        ]
+    }
+
+    fn skipped(&self) -> Vec<String> {
+        let rays = &self.stats.rays;
+        let mut lines = self.skipped_of("shadow ray", rays.shadow, NO_SHADOW_RAY);
+        lines.extend(self.skipped_of("reflection ray", rays.reflection, NO_REFLECTION_RAY));
+        lines
+    }
+
+    fn skipped_of(&self, what: &str, traced: u64, reasons: &[Reason]) -> Vec<String> {
+        let counts = reasons.iter().map(|(words, count)| (*words, count(&self.stats.skipped)));
+        let counts: Vec<(&str, u64)> = counts.filter(|(_, count)| *count > 0).collect();
+        let skipped: u64 = counts.iter().map(|(_, count)| count).sum();
+        let possible = skipped + traced;
+        let share = percent(skipped, possible);
+        let mut lines =
+            vec![format!("{} of {} possible ({share})", counted(skipped, what), thousands(possible))];
+        for (words, count) in counts {
+            lines.push(format!("  {:>12} ({:>6})  {words}", thousands(count), percent(count, possible)));
+        }
+        lines
+    }
+
+    fn certainty(&self) -> Vec<String> {
+        let stats = &self.stats;
+        vec![
+            format!("{} f32 could not decide, and f64 did", counted(stats.settled, "answer")),
+            format!("{} f64 could not decide, and exact arithmetic did", counted(stats.exact, "answer")),
+            format!("{} not finite, put to black", counted(stats.not_finite, "colour")),
+        ]
+    }
+}
+
+fn lines(lines: &[String]) -> String {
+    lines.iter().map(|line| format!("  {line}\n")).collect()
+}
+
+fn all_counted(kinds: &[(&str, usize)], what: &str) -> String {
+    counted(kinds.iter().map(|(_, count)| *count as u64).sum(), what)
+}
+
+fn by_kind(kinds: &[(&str, usize)]) -> Map<String, Value> {
+    kinds.iter().map(|(name, count)| ((*name).to_owned(), json!(count))).collect()
+}

@@ -1,0 +1,88 @@
+//! What is to be traced? A scene file, a camera of it, a backend and threads, ready for frames.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+use catoptra_core::{Camera, EntityId, Role, Scene};
+use catoptra_tracer::{
+    Backend, Cancelled, Control, Film, Pool, Snapshot, Stats, View, backend_named, backends, render,
+};
+use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
+
+use crate::args::JobArgs;
+use crate::suggest::unknown;
+
+/// All that frames are made from.
+pub(crate) struct Job {
+    pub(crate) scene: Scene,
+    pub(crate) scene_name: String,
+    pub(crate) camera_name: String,
+    pub(crate) snapshot: Arc<Snapshot>,
+    /// How long it took to make the snapshot from the scene, trees included.
+    pub(crate) build_ms: f64,
+    pub(crate) view: View,
+    pub(crate) backend: &'static dyn Backend,
+    pub(crate) pool: Pool,
+}
+
+impl Job {
+    /// Reads the scene and looks up all names.
+    pub(crate) fn new(args: &JobArgs) -> Result<Self> {
+        let backend = find_backend(&args.backend)?;
+        let (scene, _) = catoptra_scene::load(&args.scene)?;
+        let camera_id = find_camera(&scene, args.camera.as_deref())?;
+        let view = View::of(&scene, placed_camera(&scene, camera_id)?, args.size).with_samples(args.samples);
+        let view = View { max_depth: args.max_depth.unwrap_or(view.max_depth), ..view };
+        let started = Instant::now();
+        let snapshot = Arc::new(Snapshot::extract(&scene));
+        let build_ms = milliseconds_since(started);
+        let pool = Pool::new(args.threads.map_or(0, usize::from)).into_diagnostic()?;
+        let camera_name = scene.name(camera_id).unwrap_or_default();
+        let scene_name = file_name(&args.scene);
+        Ok(Self { scene, scene_name, camera_name, snapshot, build_ms, view, backend, pool })
+    }
+
+    /// Traces one frame; how long it took from snapshot to film, and what was done.
+    pub(crate) fn frame(&self, film: &mut Film, control: &Control) -> Result<(f64, Stats), Cancelled> {
+        let started = Instant::now();
+        let stats = render(self.backend, &self.snapshot, &self.view, film, &self.pool, control)?;
+        Ok((milliseconds_since(started), stats))
+    }
+}
+
+fn milliseconds_since(started: Instant) -> f64 {
+    started.elapsed().as_secs_f64() * 1e3
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+fn find_backend(name: &str) -> Result<&'static dyn Backend> {
+    let names = || backends().iter().map(|backend| backend.name()).collect::<Vec<_>>();
+    backend_named(name).ok_or_else(|| unknown("backend", name, &names()))
+}
+
+fn find_camera(scene: &Scene, name: Option<&str>) -> Result<EntityId> {
+    let Some(name) = name else {
+        return scene.main_camera().ok_or_else(|| {
+            miette!(
+                help = "add one, such as:  camera \"eye\" { eye 0 1 5; target 0 1 0 }",
+                "the scene has no camera to look through"
+            )
+        });
+    };
+    let cameras: Vec<String> = scene.entities_of(Role::Camera).filter_map(|id| scene.name(id)).collect();
+    let known: Vec<&str> = cameras.iter().map(String::as_str).collect();
+    let found = scene.entity_named(name).filter(|id| scene.role(*id) == Some(Role::Camera));
+    found.ok_or_else(|| unknown("camera", name, &known))
+}
+
+/// The camera where its groups put it.
+fn placed_camera(scene: &Scene, id: EntityId) -> Result<Camera> {
+    let missing = || -> Report { miette!("the scene has no camera to look through") };
+    let camera = scene.camera(id).ok_or_else(missing)?;
+    let placement = scene.world_placement(id).ok_or_else(missing)?;
+    camera.placed(&placement).into_diagnostic().wrap_err("the camera cannot stand where its groups put it")
+}

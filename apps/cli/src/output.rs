@@ -1,0 +1,141 @@
+//! Where does a picture go, and how is it written so that no half of it is ever seen?
+
+use std::io::{Cursor, Write};
+use std::path::{Path, PathBuf};
+
+use catoptra_scene::image::write_png;
+use catoptra_tracer::{Display, Film};
+use exr::prelude::WritableImage;
+use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
+
+/// Kinds of picture files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    /// 8 bits a channel, encoded for a display.
+    Png,
+    /// 32-bit floating point, linear light.
+    Exr,
+}
+
+impl Format {
+    /// The format that the ending of a file's name says.
+    pub(crate) fn of(path: &Path) -> Result<Self> {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        match ending.as_deref() {
+            Some("png") => Ok(Self::Png),
+            Some("exr") => Ok(Self::Exr),
+            Some(other) => Err(miette!(
+                help = "pictures are .png (8 bits, as displayed) or .exr (linear, 32 bits)",
+                "{} ends in .{other}, which is no picture format known here",
+                path.display()
+            )),
+            None => Err(miette!(
+                help = "give the name an ending: .png (8 bits, as displayed) or .exr (linear, 32 bits)",
+                "{} does not say which picture format to write",
+                path.display()
+            )),
+        }
+    }
+}
+
+/// Refuses a path that cannot be written, before time is spent on rendering.
+pub(crate) fn check_folder(path: &Path) -> Result<()> {
+    let folder = folder_of(path);
+    if !folder.is_dir() {
+        return Err(miette!(
+            help = "make it first, or write somewhere else",
+            "the folder {} of {} does not exist",
+            folder.display(),
+            path.display()
+        ));
+    }
+    if path.is_dir() {
+        return Err(miette!("{} is a folder, not a file", path.display()));
+    }
+    Ok(())
+}
+
+fn folder_of(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
+
+/// Writes a film as the picture that the name asks for.
+pub(crate) fn write_film(path: &Path, film: &Film, display: Display) -> Result<()> {
+    match Format::of(path)? {
+        Format::Png => {
+            write_png(path, film.size().width, film.size().height, &display.rgb8(film)).into_diagnostic()
+        }
+        Format::Exr => write_file(path, &exr_bytes(film).map_err(|error| unwritable(path, &error))?),
+    }
+}
+
+fn exr_bytes(film: &Film) -> exr::error::Result<Vec<u8>> {
+    let size = film.size();
+    let pixel = |place: exr::math::Vec2<usize>| {
+        let [r, g, b] = film.radiance(place.x() as u32, place.y() as u32);
+        (r, g, b)
+    };
+    let channels = exr::image::SpecificChannels::rgb(pixel);
+    let image = exr::image::Image::from_channels((size.width as usize, size.height as usize), channels);
+    let mut bytes = Cursor::new(Vec::new());
+    image.write().non_parallel().to_buffered(&mut bytes)?;
+    Ok(bytes.into_inner())
+}
+
+/// Writes a whole file: beside its place first, moved there when complete, removed where that fails.
+pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let beside = folder_of(path).join(format!(".{name}.{}.part", std::process::id()));
+    let complete = || -> std::io::Result<()> {
+        let mut file = std::fs::File::create_new(&beside)?;
+        file.write_all(bytes)?;
+        file.sync_all()?;
+        std::fs::rename(&beside, path)
+    };
+    let written = complete();
+    if written.is_err() {
+        // The error that matters is the one reported; a part that was never made cannot be removed.
+        let _ = std::fs::remove_file(&beside);
+    }
+    written.into_diagnostic().wrap_err_with(|| format!("{} cannot be written", path.display()))
+}
+
+fn unwritable(path: &Path, reason: &dyn std::fmt::Display) -> Report {
+    miette!("{} cannot be written: {reason}", path.display())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ending_decides_whatever_its_case() {
+        assert_eq!(Format::of(Path::new("a.PNG")).unwrap(), Format::Png);
+        assert_eq!(Format::of(Path::new("b/c.exr")).unwrap(), Format::Exr);
+        assert!(Format::of(Path::new("a.jpg")).is_err());
+        assert!(Format::of(Path::new("png")).is_err());
+    }
+
+    #[test]
+    fn a_file_is_replaced_as_a_whole_and_leaves_nothing_beside() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x.json");
+        std::fs::write(&path, "old").unwrap();
+        write_file(&path, b"new").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"new");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_place_that_cannot_be_written_is_an_error_and_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("taken");
+        std::fs::create_dir(&path).unwrap();
+        std::fs::write(path.join("inside"), "").unwrap();
+        assert!(write_file(&path, b"new").is_err());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+}

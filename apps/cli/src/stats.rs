@@ -1,0 +1,74 @@
+//! What did the frames cost? Times and counts as one JSON object.
+
+use std::path::Path;
+
+use catoptra_tracer::Stats;
+use miette::{IntoDiagnostic, Result};
+use serde_json::{Value, json};
+
+use crate::job::Job;
+use crate::memory::peak_bytes;
+use crate::output::write_file;
+
+/// Milliseconds of the timed frames.
+pub(crate) struct FrameTimes {
+    pub(crate) min: f64,
+    pub(crate) median: f64,
+    pub(crate) frames: usize,
+}
+
+impl FrameTimes {
+    /// Of one time per frame; zeros without any. The median of an even number is the mean of the middle two.
+    pub(crate) fn of(mut times: Vec<f64>) -> Self {
+        times.sort_by(f64::total_cmp);
+        let frames = times.len();
+        let at = |index: usize| times.get(index).copied().unwrap_or(0.0);
+        Self { min: at(0), median: 0.5 * (at(frames.saturating_sub(1) / 2) + at(frames / 2)), frames }
+    }
+}
+
+/// The object that `--stats` writes.
+///
+/// `frame_ms` is the time from snapshot to film, `build_ms` that from scene to snapshot; counts are of one frame.
+fn as_json(job: &Job, times: &FrameTimes, stats: &Stats) -> Result<Value> {
+    let mut object = json!({
+        "scene": job.scene_name,
+        "camera": job.camera_name,
+        "backend": job.backend.name(),
+        "simd": job.backend.level(),
+        "threads": job.pool.threads(),
+        "size": job.view.size,
+        "samples": job.view.samples(),
+        "max_depth": job.view.max_depth,
+        "frames": times.frames,
+        "frame_ms": { "min": times.min, "median": times.median },
+        "build_ms": job.build_ms,
+        "peak_memory_bytes": peak_bytes(),
+    });
+    if let (Value::Object(object), Value::Object(counts)) =
+        (&mut object, serde_json::to_value(stats).into_diagnostic()?)
+    {
+        object.extend(counts);
+    }
+    Ok(object)
+}
+
+/// Writes the object, whole or not at all.
+pub(crate) fn write_stats(path: &Path, job: &Job, times: &FrameTimes, stats: &Stats) -> Result<()> {
+    let mut text = serde_json::to_string_pretty(&as_json(job, times, stats)?).into_diagnostic()?;
+    text.push('\n');
+    write_file(path, text.as_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::FrameTimes;
+
+    #[test]
+    fn the_median_lies_in_the_middle() {
+        let odd = FrameTimes::of(vec![3.0, 1.0, 9.0]);
+        assert_eq!((odd.min, odd.median, odd.frames), (1.0, 3.0, 3));
+        assert_eq!(FrameTimes::of(vec![4.0, 1.0, 2.0, 9.0]).median, 3.0);
+        assert_eq!(FrameTimes::of(vec![5.0]).median, 5.0);
+    }
+}

@@ -1,0 +1,32 @@
+//! Does `catoptra explain` say what a scene needs and what was skipped?
+
+use crate::program::{assert_refused, catoptra, folder};
+use serde_json::Value;
+
+#[test]
+fn parts_are_counted_by_kind_and_skipped_work_by_reason() {
+    let folder = folder();
+    let ran = catoptra(folder.path(), &["explain", "scene.kdl", "--size", "64x48"]);
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+    for words in ["1 plane", "1 sphere", "1 matte", "1 phong", "1 spot-light", "3,072 primary rays", "%"] {
+        assert!(ran.out.contains(words), "no `{words}` in\n{}", ran.out);
+    }
+}
+
+#[test]
+fn json_has_the_same_counts() {
+    let folder = folder();
+    let ran = catoptra(folder.path(), &["explain", "scene.kdl", "--size", "64x48", "--json"]);
+    let found: Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!(found["shapes"]["sphere"], 1);
+    assert_eq!(found["lights"]["spot-light"], 1);
+    assert_eq!(found["materials"]["phong"], 1);
+    assert_eq!(found["counts"]["rays"]["primary"], 3072);
+    assert!(found["counts"]["skipped"]["out_of_cone"].as_u64().unwrap() > 0);
+}
+
+#[test]
+fn a_scene_that_is_not_there_is_refused() {
+    let folder = folder();
+    assert_refused(folder.path(), &["explain", "nowhere.kdl"], &["nowhere.kdl"]);
+}

@@ -1,0 +1,7 @@
+//! Does the program `catoptra` keep what it promises to scripts: exit codes, messages, whole files?
+
+mod compare;
+mod explain;
+mod program;
+mod render;
+mod usage;
