@@ -1,0 +1,53 @@
+//! How long is it from a mesh to its tree, and from a scene to its snapshot?
+
+use std::sync::Arc;
+
+use catoptra_benches::{criterion, scene, wavy_ball};
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Rgb, Scene, geometry::Sphere, material::Matte};
+use catoptra_tracer::{MeshTree, Snapshot};
+use criterion::{BenchmarkId, Criterion, Throughput};
+
+fn trees(c: &mut Criterion) {
+    let mut group = c.benchmark_group("tree");
+    for rings in [32, 224] {
+        let mesh = wavy_ball(rings);
+        let triangles = mesh.triangles().len() as u64;
+        group.throughput(Throughput::Elements(triangles));
+        group.bench_with_input(BenchmarkId::from_parameter(triangles), &mesh, |b, mesh| {
+            b.iter(|| MeshTree::build(&Arc::clone(mesh)));
+        });
+    }
+    group.finish();
+}
+
+/// A cube of balls.
+fn balls(side: u32) -> Scene {
+    let mut scene = Scene::new();
+    let matte = Matte::new(Rgb::WHITE).expect("white");
+    let white = scene.add_material("white", matte).expect("a material");
+    for number in 0..side.pow(3) {
+        let place = [number % side, number / side % side, number / (side * side)].map(f64::from);
+        let ball = Sphere::new(3.0 * DVec3::from_array(place), 1.0).expect("a ball");
+        scene.add_shape(&format!("ball {number}"), ball, white, None).expect("a shape");
+    }
+    scene
+}
+
+fn extraction(c: &mut Criterion) {
+    let mut group = c.benchmark_group("extract");
+    let scenes = [("seed many", scene("seed/many.kdl")), ("1000 spheres", balls(10))];
+    for (name, scene) in &scenes {
+        group.bench_with_input(BenchmarkId::from_parameter(name), scene, |b, scene| {
+            b.iter(|| Snapshot::extract(scene));
+        });
+    }
+    group.finish();
+}
+
+fn main() {
+    let mut criterion = criterion();
+    trees(&mut criterion);
+    extraction(&mut criterion);
+    criterion.final_summary();
+}
