@@ -1,7 +1,7 @@
 //! How are hundreds of thin straight lines drawn in two milliseconds?
 //!
-//! A path painter sorts the edges of all lines for every row, which for a ground grid takes 18 ms of a
-//! picture of 1280 x 720 pixels. A straight line has a closed form: walking along its longer side, the coverage of each pixel
+//! A path painter sorts the edges of all lines for every row, which for a ground grid takes 18 ms of a picture of
+//! 1280 x 720 pixels. A straight line has a closed form: walking along its longer side, the coverage of each pixel
 //! across it follows from the distance to its middle. Line and casing are blended in one go, and a line's pieces
 //! meet without a gap or an overlap, because each row or column belongs to the piece that holds its middle.
 
