@@ -1,0 +1,80 @@
+//! Which scenes are tested, and what is in them?
+
+use std::path::{Path, PathBuf};
+
+use catoptra_core::{Camera, Scene, Shape};
+
+/// The folder `scenes/` of the repository.
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
+}
+
+/// A scene file by its path below `scenes/`, such as `seed/spot.kdl`.
+pub fn scene_file(name: &str) -> PathBuf {
+    folder().join(name)
+}
+
+/// Every scene file below `scenes/`, with its path below that folder as its name, sorted.
+///
+/// # Panics
+/// When the folder cannot be read.
+pub fn shipped_scenes() -> Vec<(String, Scene)> {
+    let mut files = Vec::new();
+    let mut folders = vec![folder()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).expect("the folder of scenes") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "kdl") {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    files.iter().map(|path| (name_of(path), load(path))).collect()
+}
+
+fn name_of(path: &Path) -> String {
+    path.strip_prefix(folder()).unwrap_or(path).display().to_string()
+}
+
+fn load(path: &Path) -> Scene {
+    match catoptra_scene::load(path) {
+        Ok((scene, _)) => scene,
+        Err(error) => panic!("{}: {error:?}", path.display()),
+    }
+}
+
+/// A scene written in a test.
+///
+/// # Panics
+/// When the text is no scene.
+pub fn parsed(text: &str) -> Scene {
+    match catoptra_scene::parse(text, "test", None) {
+        Ok((scene, _)) => scene,
+        Err(error) => panic!("{error:?}"),
+    }
+}
+
+/// The first camera of a scene, in the world.
+///
+/// # Panics
+/// When there is none.
+pub fn camera_of(scene: &Scene) -> Camera {
+    let id = scene.main_camera().expect("a scene with a camera");
+    let (camera, placement) = (scene.camera(id), scene.world_placement(id));
+    camera
+        .zip(placement)
+        .and_then(|(camera, at)| camera.placed(&at).ok())
+        .expect("a camera that can be placed")
+}
+
+/// How many triangles all meshes of a scene have.
+pub fn triangles(scene: &Scene) -> usize {
+    let of = |shape: Shape| match shape {
+        Shape::Mesh(mesh) => mesh.triangles().triangles().len(),
+        _ => 0,
+    };
+    scene.entities().filter_map(|id| scene.shape(id)).map(of).sum()
+}
