@@ -1,4 +1,5 @@
 //! Is every bad mesh file refused with its place, and every good one read as it is?
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 use std::path::Path;
 
@@ -44,6 +45,7 @@ const BIG: fn(&[u8; 4]) -> [u8; 4] = |b| [b[3], b[2], b[1], b[0]];
 /// A bad file and what its refusal says after the file's name.
 struct Case(&'static str, Vec<u8>, &'static str);
 
+#[allow(clippy::too_many_lines, reason = "a table")]
 fn bad_plys() -> Vec<Case> {
     let le = "binary_little_endian";
     let whole = binary(le, 3, 1, &body([0, 1, 2], 0.0, LITTLE));

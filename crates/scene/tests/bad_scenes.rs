@@ -1,4 +1,5 @@
 //! Is every bad scene file refused with its place, what is wrong, and what to do about it?
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 use std::path::Path;
 

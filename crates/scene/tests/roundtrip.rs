@@ -1,4 +1,5 @@
 //! Does saving an edited scene change only what was edited, and does the saved text mean the edited scene?
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::scene::{Edit, EntityId, Node, Role, Scene, Settings, Subtree};
@@ -202,7 +203,7 @@ fn a_turn_is_spelled_as_steps_and_reads_back_to_within_rounding() {
 #[test]
 fn turning_by_round_degrees_is_written_round() {
     let text = edited(|scene| {
-        place(scene, "lamp", |p| p.turned(DVec3::ZERO, DVec3::Y, 30_f64.to_radians()).unwrap())
+        place(scene, "lamp", |p| p.turned(DVec3::ZERO, DVec3::Y, 30_f64.to_radians()).unwrap());
     });
     assert_eq!(difference(&text).0, ["turn 30 0 1 0"]);
 }
@@ -259,13 +260,13 @@ fn a_removed_name_can_be_used_again() {
     edited(|scene| {
         scene.apply(Edit::Remove(id(scene, "balls"))).unwrap();
         let white = scene.material_named("white").unwrap();
-        let sphere = make_shape("sphere", Values::new().with("radius", Value::Number(2.0)));
+        let sphere = make_shape("sphere", &Values::new().with("radius", Value::Number(2.0)));
         scene.add_shape("balls", sphere, white, None).unwrap();
     });
 }
 
-fn make_shape(kind: &str, values: Values) -> Shape {
-    (Shape::kind_named(kind).unwrap().make)(&values).unwrap()
+fn make_shape(kind: &str, values: &Values) -> Shape {
+    (Shape::kind_named(kind).unwrap().make)(values).unwrap()
 }
 
 #[test]
@@ -273,7 +274,7 @@ fn new_things_are_written_where_they_belong() {
     let text = edited(|scene| {
         let mirror = (Material::kind_named("mirror").unwrap().make)(&Values::new()).unwrap();
         let mirror = scene.add_material("silver", mirror).unwrap();
-        let sphere = make_shape("sphere", Values::new().with("radius", Value::Number(0.1)));
+        let sphere = make_shape("sphere", &Values::new().with("radius", Value::Number(0.1)));
         let group = scene.add_group("inner", Some(id(scene, "balls"))).unwrap();
         scene.add_shape("tiny", sphere.clone(), mirror, Some(group)).unwrap();
         scene.add_shape("last", sphere.clone(), mirror, None).unwrap();
@@ -292,7 +293,7 @@ fn a_kind_can_change() {
     let text = edited(|scene| {
         let values =
             Values::new().with("min", Value::Vector(DVec3::ZERO)).with("max", Value::Vector(DVec3::ONE));
-        scene.apply(Edit::Shape(id(scene, "right"), make_shape("box", values))).unwrap();
+        scene.apply(Edit::Shape(id(scene, "right"), make_shape("box", &values))).unwrap();
         let lamp = id(scene, "lamp");
         let values = scene.light(lamp).unwrap().values();
         let values = values.iter().filter(|(name, _)| ["position", "intensity", "shadow"].contains(name));
@@ -399,7 +400,7 @@ fn line_ends_of_the_file_are_kept() {
 fn many_new_things_are_written_in_one_go() {
     let (mut scene, mut file) = start();
     let white = scene.material_named("white").unwrap();
-    let sphere = make_shape("sphere", Values::new().with("radius", Value::Number(0.1)));
+    let sphere = make_shape("sphere", &Values::new().with("radius", Value::Number(0.1)));
     for i in 0..500 {
         scene.add_shape(&format!("grain {i}"), sphere.clone(), white, None).unwrap();
     }
@@ -447,7 +448,7 @@ fn random_edit(scene: &mut Scene, count: usize, state: &mut u64) {
     let material = materials[random(state, materials.len())];
     let number = random(state, 1000) as f64 / 64.0;
     let by = DVec3::new(number, 0.0, -number);
-    let sphere = make_shape("sphere", Values::new().with("radius", Value::Number(number + 0.5)));
+    let sphere = make_shape("sphere", &Values::new().with("radius", Value::Number(number + 0.5)));
     let edit = match random(state, 12) {
         0 => Edit::Remove(any),
         1 => Edit::Shape(any, sphere),

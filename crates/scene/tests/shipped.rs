@@ -1,4 +1,5 @@
 //! Do all scene files in `scenes/` load, come back from a save as they were, and stay what the documentation says?
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 use std::path::{Path, PathBuf};
 

@@ -138,7 +138,11 @@ impl Reader<'_> {
                 self.complaints.add_with(span, format!("{name} takes three numbers"), help);
             }
             Some(field) => {
-                self.read_field(FieldText { field, span, values: Vec::new(), property: true }, &[entry], item)
+                self.read_field(
+                    FieldText { field, span, values: Vec::new(), property: true },
+                    &[entry],
+                    item,
+                );
             }
         }
     }
