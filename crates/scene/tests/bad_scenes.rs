@@ -45,7 +45,7 @@ const AFTER_A_MATERIAL: &[Case] = &[
     ),
     Case("matte \"m\" { color 1; move 1 0 0 }", (2, 22), "a matte has no \"move\"", ""),
     Case("sphere \"s\" material=\"w\" { radius 1; movee 1 0 0 }", (2, 37), "no \"movee\"", "\"move\""),
-    Case("settings { depth 3 }", (2, 12), "a settings has no \"depth\"", "max-depth"),
+    Case("settings { depth 3 }", (2, 12), "settings has no \"depth\"", "max-depth"),
     // Numbers and kinds of values
     Case("sphere \"s\" material=\"w\" { radius -1 }", (2, 27), "radius must be greater than 0, not -1", ""),
     Case("sphere \"s\" material=\"w\" { radius 0 }", (2, 27), "radius must be greater than 0", ""),

@@ -24,7 +24,7 @@ impl Reader<'_> {
             Some(sort) if !in_group || sort.is_entity() => sort,
             Some(_) => {
                 let help = "put it at the top, outside of any group";
-                self.complaints.add_with(word_span, format!("a {word} cannot stand in a group"), help);
+                self.complaints.add_with(word_span, format!("{} cannot stand in a group", one(word)), help);
                 return;
             }
             None => {
@@ -101,11 +101,15 @@ impl Reader<'_> {
             }
             _ if item.name.is_some() => {
                 let help = "numbers stand in the block of the node, after the word for what they are";
-                self.complaints.add_with(span, format!("a {word} has only one name before its block"), help);
+                self.complaints.add_with(
+                    span,
+                    format!("{} has only one name before its block", one(word)),
+                    help,
+                );
             }
             None => {
                 let written = &self.text[span.clone()];
-                let message = format!("the name of a {word} stands in quotes, {written} does not");
+                let message = format!("the name of {} stands in quotes, {written} does not", one(word));
                 self.complaints.add(span, message);
                 item.name = Some(Word { value: String::new(), span: value_span(entry) });
             }
@@ -168,7 +172,7 @@ impl Reader<'_> {
             } else if matches!(item.sort, Sort::Group) {
                 members.push(child);
             } else if Sort::named(word).is_some_and(Sort::is_entity) {
-                let message = format!("a {} cannot have members; only a group can", item.sort.word());
+                let message = format!("{} cannot have members; only a group can", one(item.sort.word()));
                 self.complaints.add(name_span, message);
             } else {
                 self.unknown(word, name_span, item.sort);
@@ -204,7 +208,11 @@ impl Reader<'_> {
                     self.complaints.add(span, invalid.to_string());
                 } else {
                     let (word, field) = (item.sort.word(), invalid.field());
-                    self.complaints.add_with(span, format!("this {word} needs a {field}"), needs(item.sort));
+                    self.complaints.add_with(
+                        span,
+                        format!("this {word} needs {}", one(field)),
+                        needs(item.sort),
+                    );
                 }
             }
         }
@@ -218,7 +226,7 @@ impl Reader<'_> {
         if sort.is_entity() {
             known.extend(STEPS.iter().map(|(step, ..)| *step));
         }
-        let message = format!("a {} has no \"{name}\"", sort.word());
+        let message = format!("{} has no \"{name}\"", one(sort.word()));
         self.complaints.add_with(span, message, words::hint(name, &known, "what it has"));
     }
 
@@ -245,5 +253,14 @@ fn missing(item: &Item, field: &str) -> bool {
 /// What has to be given, for hints.
 fn needs(sort: Sort) -> String {
     let required: Vec<&str> = sort.fields().iter().filter(|f| f.default.is_none()).map(|f| f.name).collect();
-    format!("a {} must be given {}", sort.word(), required.join(", "))
+    format!("{} must be given {}", one(sort.word()), required.join(", "))
+}
+
+/// A word with its article; settings are many.
+fn one(word: &str) -> String {
+    match word.chars().next() {
+        _ if word == Sort::Settings.word() => word.to_owned(),
+        Some('a' | 'e' | 'i' | 'o' | 'u') => format!("an {word}"),
+        _ => format!("a {word}"),
+    }
 }
