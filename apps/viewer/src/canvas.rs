@@ -65,32 +65,97 @@ pub(crate) struct Pixels {
     pub(crate) data: Vec<u32>,
 }
 
+/// How the pixels of a traced film lie under those of the picture: both have the same middle and the same upper and
+/// lower edge, as a camera sees them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fit {
+    film: (u32, u32),
+    picture: (u32, u32),
+}
+
+impl Fit {
+    /// Of a film and a picture with these sizes.
+    pub(crate) fn new(film: (u32, u32), picture: (u32, u32)) -> Self {
+        Self { film, picture }
+    }
+
+    /// Pixels of the picture to a pixel of the film, along each axis.
+    pub(crate) fn scale(self) -> f64 {
+        f64::from(self.picture.1) / f64::from(self.film.1.max(1))
+    }
+
+    /// Where the corner (x, y) of a film's pixel lies in the picture.
+    pub(crate) fn corner(self, x: u32, y: u32) -> (f64, f64) {
+        let across = (f64::from(x) - 0.5 * f64::from(self.film.0)) * self.scale();
+        (across + 0.5 * f64::from(self.picture.0), f64::from(y) * self.scale())
+    }
+
+    /// For the middle of each column of the picture the film's column before it and the share of the next, of 256.
+    fn columns(self) -> Vec<Tap> {
+        let (film, picture) = (f64::from(self.film.0), f64::from(self.picture.0));
+        let at = |x: u32| (f64::from(x) + 0.5 - 0.5 * picture) / self.scale() + 0.5 * film;
+        (0..self.picture.0).map(|x| Tap::new(at(x), self.film.0)).collect()
+    }
+
+    /// The same for rows.
+    fn rows(self) -> impl Iterator<Item = Tap> {
+        (0..self.picture.1).map(move |y| Tap::new((f64::from(y) + 0.5) / self.scale(), self.film.1))
+    }
+}
+
+/// Two neighbouring pixels, and how much the second counts, of 256.
+#[derive(Debug, Clone, Copy)]
+struct Tap {
+    first: usize,
+    second: usize,
+    share: u32,
+}
+
+impl Tap {
+    /// The pixels whose middles lie about `at`, held within 0..`count`.
+    fn new(at: f64, count: u32) -> Self {
+        let last = f64::from(count.saturating_sub(1));
+        let before = (at - 0.5).clamp(0.0, last);
+        let first = before.floor();
+        let share = ((before - first) * 256.0) as u32;
+        Self { first: first as usize, second: (first + 1.0).min(last) as usize, share }
+    }
+}
+
 /// The picture with all that is drawn over it, below egui.
 #[derive(Debug, Default)]
 pub(crate) struct Canvas {
     picture: Pixels,
+    /// A row of the film between two of its rows.
+    row: Vec<u32>,
 }
 
 impl Canvas {
-    /// Lays a traced picture out to a size in pixels, each of its pixels standing for `divisor` x `divisor`; what
-    /// it does not reach becomes backdrop.
-    pub(crate) fn lay(&mut self, traced: &Pixels, divisor: u32, (width, height): (u32, u32)) {
+    /// Lays a traced picture out to a size in pixels, smoothly where it is coarser. Without one there is backdrop.
+    pub(crate) fn lay(&mut self, traced: &Pixels, (width, height): (u32, u32)) {
         self.picture.width = width;
         self.picture.height = height;
         self.picture.data.resize(width as usize * height as usize, BACKDROP);
-        if width == 0 {
-            return;
+        if traced.data.is_empty() || width == 0 {
+            self.picture.data.fill(BACKDROP);
+        } else if (traced.width, traced.height) == (width, height) {
+            self.picture.data.copy_from_slice(&traced.data);
+        } else {
+            self.stretch(traced, Fit::new((traced.width, traced.height), (width, height)));
         }
-        let reach = |pixels: u32, room: u32| pixels.saturating_mul(divisor).min(room) as usize;
-        let (right, bottom) = (reach(traced.width, width), reach(traced.height, height));
-        let divisor = divisor.max(1) as usize;
-        for (y, row) in self.picture.data.chunks_exact_mut(width as usize).enumerate() {
-            if y < bottom {
-                let from = &traced.data[y / divisor * traced.width as usize..][..traced.width as usize];
-                stretch(from, divisor, &mut row[..right]);
-                row[right..].fill(BACKDROP);
-            } else {
-                row.fill(BACKDROP);
+    }
+
+    fn stretch(&mut self, traced: &Pixels, fit: Fit) {
+        let columns = fit.columns();
+        let wide = traced.width as usize;
+        let rows = self.picture.data.chunks_exact_mut(self.picture.width as usize);
+        for (row, tap) in rows.zip(fit.rows()) {
+            let upper = &traced.data[tap.first * wide..][..wide];
+            let lower = &traced.data[tap.second * wide..][..wide];
+            self.row.clear();
+            self.row.extend(upper.iter().zip(lower).map(|(a, b)| mixed(*a, *b, tap.share)));
+            for (pixel, tap) in row.iter_mut().zip(&columns) {
+                *pixel = mixed(self.row[tap.first], self.row[tap.second], tap.share);
             }
         }
     }
@@ -122,14 +187,14 @@ impl Canvas {
     }
 }
 
-fn stretch(from: &[u32], divisor: usize, to: &mut [u32]) {
-    if divisor == 1 {
-        to.copy_from_slice(&from[..to.len()]);
-        return;
-    }
-    for (block, pixel) in to.chunks_mut(divisor).zip(from) {
-        block.fill(*pixel);
-    }
+/// Between two colours: `share` of 256 of the second.
+#[inline]
+fn mixed(a: u32, b: u32, share: u32) -> u32 {
+    const RED_BLUE: u32 = 0x00ff_00ff;
+    const GREEN: u32 = 0x0000_ff00;
+    let blend = |mask: u32| (((a & mask) >> 8) * (256 - share) + ((b & mask) >> 8) * share) & mask;
+    let red_blue = (((a & RED_BLUE) * (256 - share) + (b & RED_BLUE) * share) >> 8) & RED_BLUE;
+    red_blue | blend(GREEN)
 }
 
 #[cfg(test)]
@@ -141,23 +206,48 @@ mod tests {
     }
 
     #[test]
-    fn a_coarse_picture_fills_its_place_in_blocks() {
+    fn a_picture_of_its_size_is_copied() {
         let mut canvas = Canvas::default();
-        canvas.lay(&traced(), 2, (3, 4));
-        assert_eq!(canvas.picture_mut().data, [1, 1, 2, 1, 1, 2, 3, 3, 4, 3, 3, 4]);
+        canvas.lay(&traced(), (2, 2));
+        assert_eq!(canvas.picture_mut(), &traced());
     }
 
     #[test]
-    fn a_picture_larger_than_its_place_is_cut() {
+    fn a_coarse_picture_is_laid_out_smoothly() {
         let mut canvas = Canvas::default();
-        canvas.lay(&traced(), 1, (1, 3));
-        assert_eq!(canvas.picture_mut().data, [1, 3, BACKDROP]);
+        canvas.lay(&Pixels { width: 2, height: 1, data: vec![0x0000_0000, 0x0040_8020] }, (4, 2));
+        let row = [0x0000_0000, 0x0010_2008, 0x0030_6018, 0x0040_8020];
+        assert_eq!(canvas.picture_mut().data, [row, row].concat());
+    }
+
+    #[test]
+    fn colours_between_equal_colours_are_equal() {
+        for color in [0, 0x00ff_ffff, 0x0012_3456] {
+            assert!((0..=256).all(|share| mixed(color, color, share) == color));
+        }
+        assert_eq!(mixed(0x00ff_0080, 0x0000_ff00, 128), 0x007f_7f40);
+    }
+
+    #[test]
+    fn film_and_picture_share_their_middle_and_their_edges() {
+        let fit = Fit::new((101, 88), (805, 701));
+        assert_eq!(fit.corner(0, 0).1, 0.0);
+        assert!((fit.corner(0, 88).1 - 701.0).abs() < 1e-9);
+        assert!((fit.corner(50, 0).0 + fit.corner(51, 0).0 - 805.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn without_a_picture_there_is_backdrop() {
+        let mut canvas = Canvas::default();
+        canvas.lay(&traced(), (2, 2));
+        canvas.lay(&Pixels::default(), (2, 1));
+        assert_eq!(canvas.picture_mut().data, [BACKDROP; 2]);
     }
 
     #[test]
     fn an_empty_place_takes_anything() {
         let mut canvas = Canvas::default();
-        canvas.lay(&traced(), 1, (0, 2));
+        canvas.lay(&traced(), (0, 2));
         let mut frame = [7; 2];
         canvas.copy_to(&mut frame, 2);
         assert_eq!(frame, [BACKDROP; 2]);
@@ -166,7 +256,7 @@ mod tests {
     #[test]
     fn a_frame_holds_the_picture_and_backdrop_round_it() {
         let mut canvas = Canvas::default();
-        canvas.lay(&traced(), 1, (2, 2));
+        canvas.lay(&traced(), (2, 2));
         let mut frame = [7; 9];
         canvas.copy_to(&mut frame, 3);
         let b = BACKDROP;

@@ -3,22 +3,18 @@
 use catoptra_core::scene::EntityId;
 use catoptra_tracer::{Film, Size};
 
-use crate::canvas::Pixels;
+use crate::canvas::{Fit, Pixels};
 
 /// The colour of the outline, 0x00RRGGBB.
 const COLOR: u32 = 0x00ff_b02e;
 
-/// Draws the outline of all that `selected` says yes to, `width` pixels wide, over a picture in which each pixel of
-/// the film stands for `divisor` x `divisor`.
-pub(crate) fn draw(
-    film: &Film,
-    divisor: u32,
-    width: u32,
-    selected: impl Fn(EntityId) -> bool,
-    picture: &mut Pixels,
-) {
+/// Draws the outline of all that `selected` says yes to over the picture that was laid out from the film, at least
+/// `width` pixels wide.
+pub(crate) fn draw(film: &Film, width: u32, selected: impl Fn(EntityId) -> bool, picture: &mut Pixels) {
     let Size { width: columns, height: rows } = film.size();
     let mask = mask(film, selected);
+    let fit = Fit::new((columns, rows), (picture.width, picture.height));
+    let side = f64::from(width).max(fit.scale());
     let at = |x: u32, y: u32| mask[y as usize * columns as usize + x as usize];
     for y in 0..rows {
         for x in 0..columns {
@@ -26,7 +22,8 @@ pub(crate) fn draw(
             let differs =
                 (x + 1 < columns && at(x + 1, y) != inside) || (y + 1 < rows && at(x, y + 1) != inside);
             if differs {
-                dot(picture, x * divisor, y * divisor, width.max(divisor));
+                let (left, top) = fit.corner(x, y);
+                dot(picture, (left, left + side), (top, top + side));
             }
         }
     }
@@ -44,12 +41,13 @@ fn mask(film: &Film, selected: impl Fn(EntityId) -> bool) -> Vec<bool> {
     (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| seen(film.surface(x, y))).collect()
 }
 
-fn dot(picture: &mut Pixels, x: u32, y: u32, side: u32) {
-    let right = (x + side).min(picture.width) as usize;
-    for row in y..(y + side).min(picture.height) {
-        let start = row as usize * picture.width as usize;
-        if let Some(span) = picture.data.get_mut(start + (x as usize).min(right)..start + right) {
-            span.fill(COLOR);
-        }
+/// Fills a square, as far as it lies in the picture.
+fn dot(picture: &mut Pixels, across: (f64, f64), down: (f64, f64)) {
+    // A negative number becomes 0.
+    let pixel = |v: f64, most: u32| (v.round() as u32).min(most) as usize;
+    let (left, right) = (pixel(across.0, picture.width), pixel(across.1, picture.width));
+    for row in pixel(down.0, picture.height)..pixel(down.1, picture.height) {
+        let start = row * picture.width as usize;
+        picture.data[start + left..start + right].fill(COLOR);
     }
 }

@@ -7,7 +7,7 @@ use catoptra_core::scene::EntityId;
 use catoptra_raster::{DepthField, Overlay};
 
 use crate::app::App;
-use crate::canvas::Region;
+use crate::canvas::{Pixels, Region};
 use crate::screen::Screen;
 use crate::status::{FrameFigures, REST};
 use crate::viewer::Viewer;
@@ -130,20 +130,20 @@ impl App {
         self.viewer.stale.overlay = false;
         let size = self.viewer.size;
         let Some(shown) = &mut self.shown else {
-            screen.canvas.lay(&Default::default(), 1, size);
+            screen.canvas.lay(&Pixels::default(), size);
             return;
         };
         if shown.frame.display != self.viewer.settings.display {
             shown.frame.encode(self.viewer.settings.display, &self.pool);
         }
         let frame = &shown.frame;
-        screen.canvas.lay(&frame.pixels, shown.divisor, size);
+        screen.canvas.lay(&frame.pixels, size);
         let selected: Vec<EntityId> = self.viewer.selection.into_iter().collect();
         let picture = screen.canvas.picture_mut();
         if let Some(id) = self.viewer.selection.filter(|_| frame.size == size) {
             let scene = self.viewer.document.scene();
             let width = self.viewer.settings.style.scale.round().max(1.0) as u32 * 2;
-            outline::draw(&frame.film, shown.divisor, width, |s| s == id || scene.lies_in(s, id), picture);
+            outline::draw(&frame.film, width, |s| s == id || scene.lies_in(s, id), picture);
         }
         let overlay = self.viewer.overlay(&frame.camera, &selected);
         if is_any_shown(&self.viewer) {
