@@ -1,0 +1,277 @@
+//! Where the viewer is put to be tried: a virtual screen of its own, a folder of its own, and a hand on mouse and keys.
+
+use std::fs::File;
+use std::io::{BufRead as _, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use crate::picture::Picture;
+
+/// How long anything may take before the test fails.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// How long the window must stay the same to count as at rest.
+const REST: Duration = Duration::from_millis(900);
+
+/// Set to 1, a missing program fails the tests instead of skipping them.
+const REQUIRE: &str = "CATOPTRA_REQUIRE_WINDOW";
+
+/// The viewer's size at the start, in pixels; its panel takes the right 272.
+pub(crate) const SIZE: (usize, usize) = (900, 600);
+
+/// The picture's part of that.
+pub(crate) const PICTURE: (usize, usize) = (SIZE.0 - 272, SIZE.1);
+
+/// One window at a time: the machine may have few cores.
+static ONE: Mutex<()> = Mutex::new(());
+
+/// A running viewer on a virtual screen.
+pub(crate) struct Stage {
+    viewer: Child,
+    screen: Child,
+    display: String,
+    window: String,
+    /// The folder that the viewer runs in.
+    pub(crate) folder: tempfile::TempDir,
+    buffer: tempfile::TempDir,
+    _turn: MutexGuard<'static, ()>,
+}
+
+impl Stage {
+    /// Starts the viewer on a scene with that text, or on its own scene. `None` where the machine lacks a program;
+    /// that is said, and a failure when the environment demands windows.
+    pub(crate) fn start(scene: Option<&str>) -> Option<Self> {
+        Self::start_scaled(scene, 1)
+    }
+
+    /// As [`start`](Self::start), on a screen with that many pixels to a point.
+    pub(crate) fn start_scaled(scene: Option<&str>, scale: u32) -> Option<Self> {
+        let turn = ONE.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(missing) = missing() {
+            let demanded = std::env::var_os(REQUIRE).is_some_and(|v| v == "1");
+            assert!(!demanded, "{REQUIRE}=1, but {missing} is missing");
+            eprintln!("skipped: {missing} is missing; {REQUIRE}=1 makes this a failure");
+            return None;
+        }
+        let folder = tempfile::tempdir().expect("a folder");
+        let buffer = tempfile::tempdir().expect("a folder");
+        let (screen, display) = open_screen(buffer.path());
+        let mut command = Command::new(viewer());
+        command.args(["--log-frames", "--threads", "2", "--size", &format!("{}x{}", SIZE.0, SIZE.1)]);
+        if let Some(text) = scene {
+            std::fs::write(folder.path().join("scene.kdl"), text).expect("the scene is written");
+            command.arg("scene.kdl");
+        }
+        command.current_dir(folder.path()).env("DISPLAY", &display).env_remove("WAYLAND_DISPLAY");
+        command.env("WINIT_X11_SCALE_FACTOR", scale.to_string());
+        command.stderr(File::create(folder.path().join("log")).expect("a log"));
+        let viewer = command.spawn().expect("the viewer starts");
+        let mut stage = Self { viewer, screen, display, window: String::new(), folder, buffer, _turn: turn };
+        stage.window = stage.find_window();
+        stage.xdotool(&["windowfocus", &stage.window.clone()]);
+        stage.wait("a first frame", |stage| stage.frames() > 0);
+        stage.rest();
+        Some(stage)
+    }
+
+    fn find_window(&self) -> String {
+        let mut found = String::new();
+        self.wait("the window", |stage| {
+            found = stage.xdotool(&["search", "--onlyvisible", "--name", "catoptra"]);
+            !found.is_empty()
+        });
+        found.lines().next().unwrap_or_default().to_owned()
+    }
+
+    /// Runs xdotool and answers what it says.
+    pub(crate) fn xdotool(&self, arguments: &[&str]) -> String {
+        let output = Command::new("xdotool").args(arguments).env("DISPLAY", &self.display).output();
+        String::from_utf8_lossy(&output.expect("xdotool runs").stdout).trim().to_owned()
+    }
+
+    /// Presses a key.
+    pub(crate) fn key(&self, key: &str) {
+        self.xdotool(&["key", key]);
+        self.rest();
+    }
+
+    /// Clicks there with the left button.
+    pub(crate) fn click(&self, x: usize, y: usize) {
+        self.point(x, y);
+        self.xdotool(&["click", "1"]);
+        self.rest();
+    }
+
+    /// Moves the pointer.
+    pub(crate) fn point(&self, x: usize, y: usize) {
+        self.xdotool(&["mousemove", &x.to_string(), &y.to_string()]);
+    }
+
+    /// Turns the wheel over that place; 4 is away from the person, 5 towards.
+    pub(crate) fn wheel(&self, x: usize, y: usize, button: &str, notches: u32) {
+        self.point(x, y);
+        self.xdotool(&["click", "--repeat", &notches.to_string(), "--delay", "30", button]);
+        self.rest();
+    }
+
+    /// Drags with a button, in ten steps.
+    pub(crate) fn drag(&self, from: (usize, usize), by: (i32, i32), button: &str) {
+        self.point(from.0, from.1);
+        self.xdotool(&["mousedown", button]);
+        for _ in 0..10 {
+            self.xdotool(&["mousemove_relative", "--", &(by.0 / 10).to_string(), &(by.1 / 10).to_string()]);
+            sleep(Duration::from_millis(15));
+        }
+        self.xdotool(&["mouseup", button]);
+        self.rest();
+    }
+
+    /// Makes the window another size.
+    pub(crate) fn resize(&self, width: usize, height: usize) {
+        self.xdotool(&["windowsize", &self.window, &width.to_string(), &height.to_string()]);
+        self.rest();
+    }
+
+    /// What the screen shows.
+    pub(crate) fn picture(&self) -> Picture {
+        Picture::read(&self.buffer.path().join("Xvfb_screen0")).expect("a screenshot")
+    }
+
+    /// Waits until nothing is traced and nothing changes on the screen.
+    pub(crate) fn rest(&self) {
+        let begin = Instant::now();
+        let mut since = Instant::now();
+        let mut last = (self.frames(), None);
+        while since.elapsed() < REST {
+            assert!(begin.elapsed() < PATIENCE, "the window does not come to rest");
+            sleep(Duration::from_millis(60));
+            let now = (self.frames(), Picture::read(&self.buffer.path().join("Xvfb_screen0")));
+            if now != last {
+                since = Instant::now();
+                last = now;
+            }
+        }
+    }
+
+    /// Waits for something to become true.
+    pub(crate) fn wait(&self, what: &str, mut done: impl FnMut(&Self) -> bool) {
+        let begin = Instant::now();
+        while !done(self) {
+            let failed = begin.elapsed() > PATIENCE || self.log().contains("error:");
+            assert!(!failed, "{what} did not come; the viewer said:\n{}", self.log());
+            sleep(Duration::from_millis(50));
+        }
+    }
+
+    /// What the viewer has written on stderr.
+    pub(crate) fn log(&self) -> String {
+        std::fs::read_to_string(self.folder.path().join("log")).unwrap_or_default()
+    }
+
+    /// How many frames it has logged.
+    pub(crate) fn frames(&self) -> usize {
+        self.log().lines().filter(|line| line.starts_with("frame ")).count()
+    }
+
+    /// Processor time used so far, in ticks.
+    pub(crate) fn ticks(&self) -> u64 {
+        let stat =
+            std::fs::read_to_string(format!("/proc/{}/stat", self.viewer.id())).expect("a running viewer");
+        let after_name = stat.rsplit(')').next().unwrap_or_default();
+        let fields: Vec<u64> = after_name.split_whitespace().map(|f| f.parse().unwrap_or(0)).collect();
+        fields[11] + fields[12]
+    }
+
+    /// Whether the viewer still runs.
+    pub(crate) fn runs(&mut self) -> bool {
+        matches!(self.viewer.try_wait(), Ok(None))
+    }
+
+    /// Waits for the viewer's end; its exit code.
+    pub(crate) fn exit_code(&mut self) -> Option<i32> {
+        let begin = Instant::now();
+        loop {
+            if let Ok(Some(status)) = self.viewer.try_wait() {
+                return status.code();
+            }
+            assert!(begin.elapsed() < PATIENCE, "the viewer does not end");
+            sleep(Duration::from_millis(30));
+        }
+    }
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        end(&mut self.viewer);
+        end(&mut self.screen);
+    }
+}
+
+fn missing() -> Option<&'static str> {
+    let lacks = |program: &&str| {
+        Command::new(program).arg("-help").stdout(Stdio::null()).stderr(Stdio::null()).status().is_err()
+    };
+    ["Xvfb", "xdotool"].into_iter().find(lacks)
+}
+
+/// Starts a virtual screen under a free number that it chooses itself, and sees that it answers: another screen may
+/// have been faster with that number.
+fn open_screen(buffer: &Path) -> (Child, String) {
+    for _ in 0..10 {
+        let mut screen = Command::new("Xvfb")
+            .args([
+                "-displayfd",
+                "1",
+                "-screen",
+                "0",
+                "1600x1000x24",
+                "-nolisten",
+                "tcp",
+                "-noreset",
+                "-fbdir",
+            ])
+            .arg(buffer)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("Xvfb starts");
+        let mut number = String::new();
+        let stdout = screen.stdout.as_mut().expect("it was piped");
+        BufReader::new(stdout).read_line(&mut number).expect("Xvfb names its display");
+        let display = format!(":{}", number.trim());
+        let probe = Command::new("xdotool").arg("getdisplaygeometry").env("DISPLAY", &display).output();
+        if probe.is_ok_and(|answer| answer.stdout.starts_with(b"1600 1000")) {
+            return (screen, display);
+        }
+        end(&mut screen);
+        sleep(Duration::from_millis(200));
+    }
+    panic!("Xvfb does not answer");
+}
+
+/// Ends a program, politely at first so that it can tidy up.
+fn end(child: &mut Child) {
+    let _ = Command::new("kill").arg(child.id().to_string()).stderr(Stdio::null()).status();
+    let begin = Instant::now();
+    while matches!(child.try_wait(), Ok(None)) && begin.elapsed() < Duration::from_secs(2) {
+        sleep(Duration::from_millis(20));
+    }
+    // It may have ended by itself.
+    let _ = child.kill();
+    let _ = child.wait();
+}
+
+/// The viewer that was built along with this test, or the one that the environment names.
+fn viewer() -> PathBuf {
+    if let Some(path) = std::env::var_os("CATOPTRA_VIEWER") {
+        return path.into();
+    }
+    let test = std::env::current_exe().expect("the test's own path");
+    let folder = test.parent().and_then(Path::parent).expect("a target folder");
+    let viewer = folder.join(format!("catoptra-viewer{}", std::env::consts::EXE_SUFFIX));
+    assert!(viewer.exists(), "{} is missing: build the workspace first", viewer.display());
+    viewer
+}
