@@ -13,9 +13,14 @@ pub(crate) fn thousands(number: u64) -> String {
     grouped
 }
 
-/// A number of things: `1 light`, `2 lights`.
+/// A number of things: `1 light`, `2 lights`, `3 boxes`.
 pub(crate) fn counted(number: u64, what: &str) -> String {
-    format!("{} {what}{}", thousands(number), if number == 1 { "" } else { "s" })
+    let ending = match number {
+        1 => "",
+        _ if what.ends_with('x') || what.ends_with("sh") => "es",
+        _ => "s",
+    };
+    format!("{} {what}{ending}", thousands(number))
 }
 
 /// A share of a whole: `12.5 %`; `0 %` of nothing.
@@ -26,9 +31,9 @@ pub(crate) fn percent(part: u64, whole: u64) -> String {
     }
 }
 
-/// Kinds and their counts after a colon, `: 3 plane, 1 sphere`; nothing without kinds.
+/// Kinds and their counts after a colon, `: 3 planes, 1 sphere`; nothing without kinds.
 pub(crate) fn list(kinds: &[(&str, usize)]) -> String {
-    let kinds: Vec<String> = kinds.iter().map(|(name, count)| format!("{count} {name}")).collect();
+    let kinds: Vec<String> = kinds.iter().map(|(name, count)| counted(*count as u64, name)).collect();
     if kinds.is_empty() { String::new() } else { format!(": {}", kinds.join(", ")) }
 }
 
@@ -52,7 +57,10 @@ mod tests {
 
     #[test]
     fn one_thing_is_singular() {
-        assert_eq!((counted(1, "ray"), counted(0, "ray")), ("1 ray".to_owned(), "0 rays".to_owned()));
+        assert_eq!(
+            [counted(1, "box"), counted(0, "ray"), counted(2, "mesh")],
+            ["1 box", "0 rays", "2 meshes"]
+        );
     }
 
     #[test]

@@ -10,7 +10,7 @@ use serde_json::Value;
 fn write(folder: &Path, name: &str, grey: u8, odd: u8) {
     let mut bytes = [grey; 48];
     bytes[..3].fill(odd);
-    write_png(&folder.join(name), 4, 4, &bytes).unwrap();
+    write_png(&folder.join(name), 4, 4, &bytes).expect("a picture is written");
 }
 
 /// Compares a grey picture with one in which one pixel is 51 bytes, a fifth of the range, brighter.

@@ -123,6 +123,21 @@ fn a_shipped_scene_renders() {
     assert_eq!(catoptra(folder.path(), &["render", &scene, "-o", "a.png", "--size", "45x45"]).code, 0);
 }
 
+/// The first block of scene text in the README.
+fn readme_scene() -> &'static str {
+    let readme = include_str!("../../../../README.md");
+    let (_, rest) = readme.split_once("```kdl\n").expect("a scene in the README");
+    rest.split_once("```").expect("the end of the scene").0
+}
+
+#[test]
+fn the_scene_of_the_readme_renders() {
+    let folder = folder();
+    std::fs::write(folder.path().join("readme.kdl"), readme_scene()).unwrap();
+    let ran = catoptra(folder.path(), &["render", "readme.kdl", "-o", "a.png", "--size", "45x45"]);
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+}
+
 #[test]
 fn nothing_to_do_is_refused() {
     let folder = folder();
