@@ -87,7 +87,7 @@ pub(crate) struct CompareArgs {
     /// Answer with a JSON object
     #[arg(long)]
     pub(crate) json: bool,
-    /// A pixel counts as differing past this difference of a channel, in the unit of --max-difference
+    /// A pixel counts as differing past this difference of a channel (a step of a .png is 0.00393)
     #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = limit)]
     pub(crate) threshold: f64,
     #[command(flatten)]
@@ -103,7 +103,7 @@ pub(crate) struct LimitArgs {
     /// Largest relative mean squared error allowed
     #[arg(long, value_name = "X", value_parser = limit)]
     pub(crate) max_relmse: Option<f64>,
-    /// Largest difference of a channel allowed: bytes for two .png (0 to 255), values otherwise
+    /// Largest difference of a channel allowed; the bytes of a .png count as 0 to 1, so a step is 0.00393
     #[arg(long, value_name = "X", value_parser = limit)]
     pub(crate) max_difference: Option<f64>,
     /// Largest mean FLIP allowed

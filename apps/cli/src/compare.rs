@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::Outcome;
 use crate::args::{CompareArgs, LimitArgs};
 use crate::input::{Stored, read_picture};
+use crate::output::print;
 
 /// Compares two picture files.
 pub(crate) fn run(args: &CompareArgs) -> Result<Outcome> {
@@ -24,11 +25,12 @@ pub(crate) fn run(args: &CompareArgs) -> Result<Outcome> {
         limit_of(metric.name, &args.limits).is_none_or(|limit| *value <= limit)
     };
     let within = measured.iter().all(passed);
-    if args.json {
-        println!("{}", as_json(args, &reference.values, &measured, within));
+    let answer = if args.json {
+        format!("{}\n", as_json(args, &reference.values, &measured, within))
     } else {
-        print_table(&args.limits, &measured);
-    }
+        as_table(&args.limits, &measured)
+    };
+    print(&answer)?;
     Ok(if within { Outcome::Done } else { Outcome::Differs })
 }
 
@@ -55,15 +57,16 @@ fn limit_of(metric: &str, limits: &LimitArgs) -> Option<f64> {
     }
 }
 
-fn print_table(limits: &LimitArgs, measured: &[(&Metric, f64)]) {
-    for (metric, value) in measured {
+fn as_table(limits: &LimitArgs, measured: &[(&Metric, f64)]) -> String {
+    let line = |(metric, value): &(&Metric, f64)| {
         let verdict = match limit_of(metric.name, limits) {
-            Some(limit) if *value <= limit => format!("  within {limit}"),
-            Some(limit) => format!("  PAST {limit}"),
+            Some(limit) if *value <= limit => format!("within {limit}"),
+            Some(limit) => format!("PAST {limit}"),
             None => String::new(),
         };
-        println!("{:<15} {:>14}{verdict:<18}  {}", metric.name, number(*value), metric.doc);
-    }
+        format!("{:<15} {:>16}  {verdict:<16}  {}\n", metric.name, number(*value), metric.doc)
+    };
+    measured.iter().map(line).collect()
 }
 
 /// A number as short as it can be read: whole ones without a point.

@@ -7,6 +7,7 @@ use serde_json::{Map, Value, json};
 
 use crate::args::ExplainArgs;
 use crate::job::Job;
+use crate::output::print;
 use crate::words::{bytes, counted, list, percent, thousands};
 use crate::{Outcome, interrupt, progress};
 
@@ -19,11 +20,7 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<Outcome> {
         return Ok(Outcome::Interrupted);
     };
     let found = Found { needs: job.snapshot.needs(), ambient: ambient_lights(&job), job: &job, stats };
-    if args.json {
-        println!("{}", found.as_json());
-    } else {
-        print!("{}", found.as_text());
-    }
+    print(&if args.json { format!("{}\n", found.as_json()) } else { found.as_text() })?;
     Ok(Outcome::Done)
 }
 

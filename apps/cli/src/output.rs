@@ -1,6 +1,6 @@
 //! Where does a picture go, and how is it written so that no half of it is ever seen?
 
-use std::io::{Cursor, Write};
+use std::io::{Cursor, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use catoptra_scene::image::write_png;
@@ -83,6 +83,17 @@ fn exr_bytes(film: &Film) -> exr::error::Result<Vec<u8>> {
     let mut bytes = Cursor::new(Vec::new());
     image.write().non_parallel().to_buffered(&mut bytes)?;
     Ok(bytes.into_inner())
+}
+
+/// Prints to standard output; a reader that has gone away, such as `head`, wants no more and is no error.
+pub(crate) fn print(text: &str) -> Result<()> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(error).into_diagnostic().wrap_err("standard output cannot be written")
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Writes a whole file: beside its place first, moved there when complete, removed where that fails.

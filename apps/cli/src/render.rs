@@ -5,7 +5,7 @@ use miette::{Result, miette};
 
 use crate::args::RenderArgs;
 use crate::job::Job;
-use crate::output::{Format, check_folder, write_film};
+use crate::output::{Format, check_folder, print, write_film};
 use crate::stats::{FrameTimes, write_stats};
 use crate::suggest::unknown;
 use crate::{Outcome, interrupt, progress};
@@ -27,7 +27,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome> {
         write_stats(path, &job, &times, &stats)?;
     }
     if args.repeat.is_some() {
-        println!("{}", summary(&job, &times));
+        print(&summary(&job, &times))?;
     }
     Ok(Outcome::Done)
 }
@@ -74,7 +74,7 @@ fn frames(
 fn summary(job: &Job, times: &FrameTimes) -> String {
     let size = job.view.size;
     format!(
-        "{} {}x{} threads {} {} {}: min {:.2} ms median {:.2} ms over {} frames",
+        "{} {}x{} threads {} {} {}: min {:.2} ms median {:.2} ms over {} frames\n",
         job.scene_name,
         size.width,
         size.height,
