@@ -232,3 +232,104 @@ pub(crate) fn wheel(viewer: &mut Viewer, notches: f64, ctrl: bool) {
     };
     viewer.look(camera);
 }
+
+#[cfg(test)]
+mod tests {
+    use catoptra_core::glam::DVec3;
+    use catoptra_tracer::Pool;
+
+    use super::*;
+    use crate::loader;
+
+    fn viewer() -> Viewer {
+        let mut viewer = Viewer::new(loader::welcome(&Pool::new(1).unwrap()).unwrap());
+        viewer.size = (640, 360);
+        viewer
+    }
+
+    fn placements(viewer: &Viewer) -> Vec<DVec3> {
+        let scene = viewer.document.scene();
+        scene.entities().filter_map(|id| scene.placement(id)).map(|p| p.point(DVec3::X)).collect()
+    }
+
+    #[test]
+    fn a_turntable_drag_turns_objects_by_three_tenths_of_a_degree_a_pixel_as_one_step() {
+        let mut viewer = viewer();
+        let before = placements(&viewer);
+        for _ in 0..10 {
+            gesture(&mut viewer, Gesture::Dragged { drag: Drag::Turn, by: (10.0, 0.0), to: (0.0, 0.0) });
+        }
+        gesture(&mut viewer, Gesture::Ended(Drag::Turn));
+        let scene = viewer.document.scene();
+        let floor = scene.entity_named("floor").unwrap();
+        let turned = scene.placement(floor).unwrap().direction(DVec3::X);
+        let angle = 30_f64.to_radians();
+        assert!((turned - DVec3::new(angle.cos(), 0.0, -angle.sin())).length() < 1e-12, "{turned}");
+        run(&mut viewer, Command::Undo);
+        assert_eq!(placements(&viewer), before);
+        assert!(viewer.document.is_saved());
+    }
+
+    #[test]
+    fn the_turntable_leaves_lights_and_cameras_alone() {
+        let mut viewer = viewer();
+        gesture(&mut viewer, Gesture::Dragged { drag: Drag::Turn, by: (40.0, 9.0), to: (0.0, 0.0) });
+        let scene = viewer.document.scene();
+        let others = scene.children(None).into_iter().filter(|id| !is_object(&viewer, *id));
+        let moved =
+            others.filter(|id| scene.placement(*id) != Some(catoptra_core::Placement::IDENTITY)).count();
+        assert_eq!(moved, 0);
+    }
+
+    #[test]
+    fn deleting_the_selected_thing_deselects_it_and_undo_brings_it_back() {
+        let mut viewer = viewer();
+        let floor = viewer.document.scene().entity_named("floor");
+        viewer.select(floor);
+        run(&mut viewer, Command::Delete);
+        viewer.follow_scene();
+        assert_eq!(viewer.document.scene().entity_named("floor"), None);
+        assert_eq!(viewer.selection, None);
+        run(&mut viewer, Command::Undo);
+        assert_eq!(viewer.document.scene().entity_named("floor"), floor);
+    }
+
+    #[test]
+    fn the_next_camera_comes_round_to_the_first() {
+        let mut viewer = viewer();
+        let (camera, cameras) =
+            (viewer.camera.clone(), viewer.document.scene().entities_of(Role::Camera).count());
+        run(&mut viewer, Command::NextCamera);
+        assert!(viewer.camera != camera);
+        for _ in 1..cameras {
+            run(&mut viewer, Command::NextCamera);
+        }
+        assert_eq!(viewer.camera, camera);
+    }
+
+    #[test]
+    fn the_wheel_keeps_the_view_and_comes_nearer() {
+        for mode in Mode::ALL {
+            let mut viewer = viewer();
+            viewer.settings.mode = mode;
+            viewer.pointer.at = (320.0, 180.0);
+            let before = viewer.camera.clone();
+            wheel(&mut viewer, 2.0, false);
+            let way = viewer.camera.eye() - before.eye();
+            assert!(way.dot(before.forward()) > 0.1, "{way}");
+            assert!((viewer.camera.forward() - before.forward()).length() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn moving_the_camera_reuses_the_snapshot_and_editing_does_not() {
+        let mut viewer = viewer();
+        let snapshot = std::sync::Arc::clone(&viewer.snapshot);
+        run(&mut viewer, Command::Step(1, 0));
+        viewer.follow_scene();
+        assert!(std::sync::Arc::ptr_eq(&snapshot, &viewer.snapshot));
+        gesture(&mut viewer, Gesture::Dragged { drag: Drag::Turn, by: (40.0, 9.0), to: (0.0, 0.0) });
+        viewer.follow_scene();
+        assert!(!std::sync::Arc::ptr_eq(&snapshot, &viewer.snapshot));
+    }
+}

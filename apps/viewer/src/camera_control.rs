@@ -24,6 +24,11 @@ pub(crate) fn focus(camera: &Camera) -> f64 {
     camera.focus().unwrap_or(USUAL_FOCUS)
 }
 
+/// The same view with its target at that distance in metres.
+pub(crate) fn aimed(camera: &Camera, distance: f64) -> Camera {
+    looking(camera, camera.eye(), camera.eye() + camera.forward() * distance, camera.up_hint())
+}
+
 fn target(camera: &Camera) -> DVec3 {
     camera.eye() + camera.forward() * focus(camera)
 }
@@ -175,6 +180,14 @@ mod tests {
                 assert!(d.dot(c.up()).abs() <= half && d.dot(c.right()).abs() <= half * aspect, "corner {i}");
             }
         }
+    }
+
+    #[test]
+    fn aiming_changes_the_target_and_nothing_that_is_seen() {
+        let aimed = aimed(&camera(), 3.0);
+        assert!((focus(&aimed) - 3.0).abs() < 1e-12);
+        assert!((aimed.forward() - camera().forward()).length() < 1e-12);
+        assert_eq!(aimed.eye(), camera().eye());
     }
 
     #[test]

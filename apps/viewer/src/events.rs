@@ -25,7 +25,7 @@ impl App {
     fn handle_on(&mut self, screen: &mut Screen, event: &WindowEvent) {
         match event {
             WindowEvent::CursorMoved { position, .. } => {
-                self.pointer_moved(screen, event, (position.x, position.y))
+                self.pointer_moved(screen, event, (position.x, position.y));
             }
             WindowEvent::MouseInput { state, button, .. } => self.button(screen, event, *state, *button),
             WindowEvent::MouseWheel { delta, .. } if self.over_picture => self.wheel(*delta),

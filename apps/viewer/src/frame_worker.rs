@@ -168,7 +168,7 @@ fn work<T: Tracing>(shared: &Shared<T>, mut tracing: T, wake: &impl Fn()) {
                 break;
             };
             let (w, h) = reduced(width, height, divisor);
-            pace.record(u64::from(w) * u64::from(h), took.as_secs_f64());
+            pace.record(u64::from(w) * u64::from(h), took);
             end(shared, spares, Some(Finished { frame, generation, divisor, took }));
             wake();
         }

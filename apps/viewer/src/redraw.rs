@@ -8,7 +8,7 @@ use catoptra_raster::{DepthField, Overlay};
 
 use crate::app::App;
 use crate::canvas::{Pixels, Region};
-use crate::screen::Screen;
+use crate::screen::{Fitted, Screen};
 use crate::status::{FrameFigures, REST};
 use crate::viewer::Viewer;
 use crate::{actions, outline, panel};
@@ -32,7 +32,7 @@ impl App {
     }
 
     fn redraw_on(&mut self, screen: &mut Screen) -> Result<(), String> {
-        let Some((size, resized)) = screen.fit()? else { return Ok(()) };
+        let Some(Fitted { size, new: resized }) = screen.fit()? else { return Ok(()) };
         let now = Instant::now();
         let new_frame = self.take_frame(now);
         self.viewer.settings.style.scale = screen.pixels_per_point();

@@ -1,6 +1,8 @@
 //! How coarse must a frame be to keep up with the hand, and by which steps does it become fine? Pure arithmetic:
 //! the seconds that recent pixels took decide the first divisor, and each later step halves it down to 1.
 
+use std::time::Duration;
+
 /// What tracing one frame may take while something moves, in seconds: a 60 Hz frame less the time to show it.
 pub(crate) const BUDGET: f64 = 0.0115;
 
@@ -29,11 +31,11 @@ pub(crate) struct Pace {
 
 impl Pace {
     /// Takes in a finished frame of that many pixels.
-    pub(crate) fn record(&mut self, pixels: u64, seconds: f64) {
-        if pixels < TELLING_PIXELS || !(seconds > 0.0) {
+    pub(crate) fn record(&mut self, pixels: u64, took: Duration) {
+        if pixels < TELLING_PIXELS || took.is_zero() {
             return;
         }
-        let new = seconds / pixels as f64;
+        let new = took.as_secs_f64() / pixels as f64;
         self.seconds_per_pixel = Some(self.seconds_per_pixel.map_or(new, |old| old + NEWEST * (new - old)));
     }
 
@@ -80,14 +82,14 @@ mod tests {
     #[test]
     fn a_fast_scene_is_traced_in_full_at_once() {
         let mut pace = Pace::default();
-        pace.record(1_000_000, 0.005);
+        pace.record(1_000_000, Duration::from_secs_f64(0.005));
         assert_eq!(pace.steps(1280, 720), [1]);
     }
 
     #[test]
     fn a_slow_scene_starts_coarse_and_ends_in_full() {
         let mut pace = Pace::default();
-        pace.record(1280 * 720, 0.4);
+        pace.record(1280 * 720, Duration::from_secs_f64(0.4));
         assert_eq!(pace.steps(1280, 720), [6, 3, 1]);
     }
 
@@ -99,14 +101,14 @@ mod tests {
     #[test]
     fn the_coarsest_step_is_taken_when_nothing_fits() {
         let mut pace = Pace::default();
-        pace.record(10_000, 100.0);
+        pace.record(10_000, Duration::from_secs_f64(100.0));
         assert_eq!(pace.steps(1280, 720)[0], 24);
     }
 
     #[test]
     fn an_overrun_makes_the_next_frame_coarser() {
         let mut pace = Pace::default();
-        pace.record(1_000_000, 0.012);
+        pace.record(1_000_000, Duration::from_secs_f64(0.012));
         let before = pace.steps(1000, 1000)[0];
         for _ in 0..3 {
             pace.overran();
@@ -117,7 +119,7 @@ mod tests {
     #[test]
     fn a_first_frame_becomes_finer_only_with_time_to_spare() {
         let mut pace = Pace::default();
-        pace.record(1_000_000, 0.013);
+        pace.record(1_000_000, Duration::from_secs_f64(0.013));
         assert_eq!(pace.steps(1000, 1000)[0], 2);
         pace.seconds_per_pixel = Some(0.011e-6);
         assert_eq!(pace.steps(1000, 1000)[0], 2);
@@ -128,7 +130,7 @@ mod tests {
     #[test]
     fn a_handful_of_pixels_tells_nothing() {
         let mut pace = Pace::default();
-        pace.record(10, 1.0);
+        pace.record(10, Duration::from_secs_f64(1.0));
         assert_eq!(pace.steps(100, 100)[0], UNMEASURED);
     }
 

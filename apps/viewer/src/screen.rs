@@ -17,6 +17,14 @@ use crate::panel;
 /// A wish of egui to be shown again later than this is no wish.
 const NEVER: Duration = Duration::from_secs(3600);
 
+/// A surface that has the size of the window.
+pub(crate) struct Fitted {
+    /// Its size in pixels; neither is zero.
+    pub(crate) size: (u32, u32),
+    /// Whether it was another before.
+    pub(crate) new: bool,
+}
+
 /// The window and what is drawn in it.
 pub(crate) struct Screen {
     pub(crate) window: Rc<Window>,
@@ -66,11 +74,11 @@ impl Screen {
         egui_winit::pixels_per_point(&self.egui, &self.window)
     }
 
-    /// Fits the surface to the window. Its size in pixels, and whether that is new; `None` while it has none.
+    /// Fits the surface to the window; `None` while the window has no pixels.
     ///
     /// # Errors
     /// When the surface refuses the size.
-    pub(crate) fn fit(&mut self) -> Result<Option<((u32, u32), bool)>, String> {
+    pub(crate) fn fit(&mut self) -> Result<Option<Fitted>, String> {
         let PhysicalSize { width, height } = self.window.inner_size();
         let (Some(w), Some(h)) = (NonZeroU32::new(width), NonZeroU32::new(height)) else {
             self.size = (0, 0);
@@ -81,7 +89,7 @@ impl Screen {
             self.surface.resize(w, h).map_err(|e| e.to_string())?;
             self.size = (width, height);
         }
-        Ok(Some((self.size, new)))
+        Ok(Some(Fitted { size: self.size, new }))
     }
 
     /// Takes in what egui wants to show. Returns the region that differs from the last time.

@@ -7,7 +7,7 @@ use std::time::Instant;
 use catoptra_core::scene::{Edit, EntityId, Role, SceneError, Subject};
 use catoptra_core::{Aabb, Camera};
 use catoptra_raster::{Overlay, OverlayStyle};
-use catoptra_tracer::{Backend, Display, Size, Snapshot, View, backends};
+use catoptra_tracer::{Backend, Display, Size, Snapshot, View, backends, pick};
 
 use crate::camera_control;
 use crate::document::Document;
@@ -143,10 +143,20 @@ impl Viewer {
         let seen = id.and_then(|id| scene.camera(id)?.placed(&scene.world_placement(id)?).ok());
         self.through = seen.as_ref().and(id);
         match seen {
+            Some(camera) if camera.focus().is_none() => self.look(self.aimed(&camera)),
             Some(camera) => self.look(camera),
             None => self.frame(self.everything()),
         }
         self.stale.overlay = true;
+    }
+
+    /// A camera that names no target is taken to look at the middle of what it sees in the middle of its picture.
+    fn aimed(&self, camera: &Camera) -> Camera {
+        let view = View::new(camera.clone(), Size::new(2, 2));
+        let Some(hit) = pick(&self.snapshot, &view, 1.0, 1.0) else { return camera.clone() };
+        let bounds = self.document.scene().world_bounds(hit.entity);
+        let depth = bounds.map_or(0.0, |bounds| (bounds.centre() - camera.eye()).dot(camera.forward()));
+        camera_control::aimed(camera, depth.max(hit.distance))
     }
 
     /// The box round all bounded shapes.

@@ -4,7 +4,7 @@ use std::hash::{Hash as _, Hasher as _};
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Field, FieldKind, Rgb, Value, Values};
-use egui::{ComboBox, DragValue, Slider, Ui};
+use egui::{ComboBox, DragValue, Slider, SliderClamping, Ui};
 
 /// The share of a number's size that one pixel of dragging changes.
 const DRAG_SPEED: f64 = 0.005;
@@ -68,14 +68,23 @@ fn edit(ui: &mut Ui, field: &Field, value: &Value) -> Option<Value> {
 fn slider(ui: &mut Ui, value: f64, range: std::ops::RangeInclusive<f64>, unit: &str) -> Option<f64> {
     let mut v = value;
     let widest = if *range.end() > 1.0 { 1 } else { 3 };
-    ui.add(Slider::new(&mut v, range).suffix(unit).max_decimals(widest)).changed().then_some(v)
+    let clamping = SliderClamping::Edits;
+    ui.add(Slider::new(&mut v, range).suffix(unit).max_decimals(widest).clamping(clamping))
+        .changed()
+        .then_some(v)
 }
 
 fn count(ui: &mut Ui, value: f64) -> Option<f64> {
     let mut v = value;
-    ui.add(DragValue::new(&mut v).speed(0.05).fixed_decimals(0).range(0.0..=f64::from(u32::MAX)))
-        .changed()
-        .then_some(v.round())
+    ui.add(
+        DragValue::new(&mut v)
+            .speed(0.05)
+            .fixed_decimals(0)
+            .range(0.0..=f64::from(u32::MAX))
+            .clamp_existing_to_range(false),
+    )
+    .changed()
+    .then_some(v.round())
 }
 
 fn speed(value: f64) -> f64 {
@@ -87,7 +96,7 @@ fn number(ui: &mut Ui, value: f64, unit: &str, positive: bool) -> Option<f64> {
     let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     let mut widget = DragValue::new(&mut v).speed(speed(value)).max_decimals(4).suffix(suffix);
     if positive {
-        widget = widget.range(1e-6..=f64::MAX);
+        widget = widget.range(1e-6..=f64::MAX).clamp_existing_to_range(false);
     }
     ui.add(widget).changed().then_some(v)
 }
@@ -121,7 +130,11 @@ fn quantity(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
     ui.horizontal(|ui| {
         let tint = color(ui, tint).map(|tint| (tint, strength));
         let mut s = strength;
-        let widget = DragValue::new(&mut s).speed(speed(strength)).max_decimals(4).range(0.0..=f64::MAX);
+        let widget = DragValue::new(&mut s)
+            .speed(speed(strength))
+            .max_decimals(4)
+            .range(0.0..=f64::MAX)
+            .clamp_existing_to_range(false);
         let strong = ui.add(widget).changed();
         tint.map(|(tint, strength)| tint * strength).or_else(|| {
             let tint = if strength > 0.0 { value * (1.0 / strength) } else { Rgb::WHITE };

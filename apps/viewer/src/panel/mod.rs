@@ -60,3 +60,65 @@ fn side(ui: &mut Ui, viewer: &mut Viewer) {
         switches::show(ui, viewer);
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use catoptra_core::Value;
+    use catoptra_core::scene::{Edit, EntityId};
+    use catoptra_tracer::Pool;
+
+    use super::*;
+    use crate::loader;
+
+    fn viewer() -> Viewer {
+        Viewer::new(loader::welcome(&Pool::new(1).unwrap()).unwrap())
+    }
+
+    fn show_twice(viewer: &mut Viewer) {
+        let context = egui::Context::default();
+        for _ in 0..2 {
+            let screen = Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(1280.0, 2000.0));
+            let input = egui::RawInput { screen_rect: Some(screen), ..Default::default() };
+            let _ = context.run_ui(input, |ui| {
+                show(ui, viewer, "");
+            });
+        }
+    }
+
+    #[test]
+    fn looking_at_a_thing_changes_nothing_of_it() {
+        let mut viewer = viewer();
+        let all: Vec<EntityId> = viewer.document.scene().entities().collect();
+        for id in all {
+            viewer.select(Some(id));
+            show_twice(&mut viewer);
+            assert!(viewer.document.is_saved(), "{:?} was changed", viewer.document.scene().name(id));
+        }
+    }
+
+    #[test]
+    fn an_angle_that_no_slider_would_give_is_kept() {
+        let mut viewer = viewer();
+        let scene = viewer.document.scene();
+        let spot = |id: &EntityId| scene.light(*id).is_some_and(|light| light.kind_name() == "spot-light");
+        let id = scene.entities().find(spot).unwrap();
+        let light = scene.light(id).unwrap().with("inner", Value::Number(0.123_456_789)).unwrap();
+        viewer.edit(Edit::Light(id, light.clone()));
+        viewer.select(Some(id));
+        show_twice(&mut viewer);
+        assert_eq!(viewer.document.scene().light(id), Some(light));
+    }
+
+    #[test]
+    fn the_panel_leaves_room_and_goes_when_there_is_none() {
+        let context = egui::Context::default();
+        let mut viewer = viewer();
+        for (width, room) in [(1280.0, 1280.0 - WIDTH), (300.0, 300.0)] {
+            let screen = Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(width, 400.0));
+            let input = egui::RawInput { screen_rect: Some(screen), ..Default::default() };
+            let mut left = Rect::NOTHING;
+            let _ = context.run_ui(input, |ui| left = show(ui, &mut viewer, ""));
+            assert_eq!(left.width(), room);
+        }
+    }
+}

@@ -26,7 +26,11 @@ pub(super) fn show(ui: &mut Ui, salt: u64, placement: &Placement) -> Option<Plac
         ui.label("scale").on_hover_text("alike in every direction");
         let mut scale = placement.scale();
         let speed = 0.005 * scale;
-        let widget = DragValue::new(&mut scale).speed(speed).max_decimals(4).range(1e-6..=1e9);
+        let widget = DragValue::new(&mut scale)
+            .speed(speed)
+            .max_decimals(4)
+            .range(1e-6..=1e9)
+            .clamp_existing_to_range(false);
         if ui.add(widget).changed() {
             changed = Placement::new(placement.rotation(), placement.translation(), scale).ok();
         }

@@ -76,7 +76,7 @@ fn overlays(ui: &mut Ui, viewer: &mut Viewer) {
 
 /// The settings that are saved with the scene: background and deepest reflection.
 fn settings(ui: &mut Ui, viewer: &mut Viewer) {
-    let now = viewer.document.scene().settings().clone();
+    let now = *viewer.document.scene().settings();
     let key = |field| step_key("settings", 0, field);
     if let Some((field, value)) = fields::show(ui, key(""), Settings::KIND.fields, &now.values()) {
         match now.with(field, value) {
