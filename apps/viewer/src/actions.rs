@@ -282,6 +282,26 @@ mod tests {
     }
 
     #[test]
+    fn a_dragged_ring_changes_the_angle_as_one_step() {
+        let mut viewer = viewer();
+        viewer.settings.style.cones = true;
+        let overlay = viewer.overlay(&viewer.camera, &[]);
+        let spots = (0..360).flat_map(|y| (0..640).map(move |x| (f64::from(x), f64::from(y))));
+        let (grip, at) = spots.filter_map(|(x, y)| Some((overlay.ring_at(x, y)?, (x, y)))).next().unwrap();
+        let light = |viewer: &Viewer| viewer.document.scene().light(grip.light).unwrap();
+        let before = light(&viewer);
+        for step in 1..10 {
+            let to = (at.0 + f64::from(step), at.1 + f64::from(step));
+            gesture(&mut viewer, Gesture::Dragged { drag: Drag::Ring(grip), by: (1.0, 1.0), to });
+        }
+        gesture(&mut viewer, Gesture::Ended(Drag::Ring(grip)));
+        assert!(light(&viewer) != before);
+        assert_eq!(viewer.selection, Some(grip.light));
+        run(&mut viewer, Command::Undo);
+        assert_eq!(light(&viewer), before);
+    }
+
+    #[test]
     fn deleting_the_selected_thing_deselects_it_and_undo_brings_it_back() {
         let mut viewer = viewer();
         let floor = viewer.document.scene().entity_named("floor");

@@ -53,6 +53,8 @@ pub(crate) struct App {
     pub(crate) closing: bool,
     /// Why the viewer had to stop.
     pub(crate) failure: Option<String>,
+    /// The scene named at the start is being read; until it is there nothing is traced.
+    starting: bool,
     proxy: EventLoopProxy<Wake>,
     ticket: u64,
 }
@@ -87,6 +89,7 @@ impl App {
             over_picture: false,
             closing: false,
             failure: None,
+            starting: options.file.is_some(),
             proxy,
             ticket: 0,
             options,
@@ -112,6 +115,7 @@ impl App {
         if outcome.ticket != self.ticket {
             return;
         }
+        self.starting = false;
         match outcome.result {
             Ok(opened) => {
                 self.viewer.show(*opened);
@@ -128,7 +132,7 @@ impl App {
     pub(crate) fn settle(&mut self) {
         self.viewer.follow_scene();
         let (width, height) = self.viewer.size;
-        if self.viewer.stale.trace && width > 0 && height > 0 {
+        if self.viewer.stale.trace && width > 0 && height > 0 && !self.starting {
             self.viewer.stale.trace = false;
             self.asked = self.worker.submit(self.viewer.request());
         }
