@@ -54,6 +54,14 @@ impl Frame {
     }
 }
 
+/// Below this number of pixels a film has small tiles: else few of them hold all the work, and threads wait.
+const SMALL: usize = 100_000;
+
+/// The edge of the tiles of a film, in pixels.
+fn tile_edge(size: Size) -> u32 {
+    if size.pixels() < SMALL { Film::TILE / 4 } else { Film::TILE }
+}
+
 /// Traces on a pool of threads.
 pub(crate) struct PoolTracing {
     /// The threads.
@@ -80,7 +88,7 @@ impl Tracing for PoolTracing {
         let spare = spares.iter().position(|s| s.film.size() == size).map(|i| spares.swap_remove(i));
         let (mut film, pixels) = match spare {
             Some(spare) => (spare.film, spare.pixels),
-            None => (Film::new(size), Pixels::default()),
+            None => (Film::with_tiles(size, tile_edge(size)), Pixels::default()),
         };
         let view = View { max_depth: request.max_depth, ..View::new(request.camera.clone(), size) };
         let stats = render(request.backend, &request.snapshot, &view, &mut film, &self.pool, control).ok()?;

@@ -34,21 +34,23 @@ pub(super) fn help(ui: &Ui, viewer: &mut Viewer, room: Rect) {
         .pivot(Align2::CENTER_CENTER)
         .fixed_pos(room.center())
         .constrain_to(room)
-        .max_height((room.height() - 60.0).max(60.0))
-        .resizable(false)
+        .auto_sized()
         .collapsible(false)
-        .vscroll(true)
         .show(ui.ctx(), |ui| {
-            egui::Grid::new("keys").num_columns(2).spacing([18.0, 3.0]).show(ui, |ui| {
-                let keys = BINDINGS.iter().map(|binding| (binding.label, binding.doc));
-                for (what, does) in MOUSE.iter().copied().chain(keys) {
-                    ui.strong(what);
-                    ui.label(does);
-                    ui.end_row();
-                }
-            });
+            egui::ScrollArea::vertical().max_height((room.height() - 70.0).max(60.0)).show(ui, list_keys);
         });
     viewer.shown.help = open;
+}
+
+fn list_keys(ui: &mut Ui) {
+    egui::Grid::new("keys").num_columns(2).spacing([18.0, 3.0]).show(ui, |ui| {
+        let keys = BINDINGS.iter().map(|binding| (binding.label, binding.doc));
+        for (what, does) in MOUSE.iter().copied().chain(keys) {
+            ui.strong(what);
+            ui.label(does);
+            ui.end_row();
+        }
+    });
 }
 
 /// What is wrong with a file.
