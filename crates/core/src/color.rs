@@ -44,6 +44,7 @@ impl Rgb {
     }
 
     /// Red, green, blue.
+    #[inline]
     #[must_use]
     pub const fn to_array(self) -> [f64; 3] {
         [self.r, self.g, self.b]

@@ -21,6 +21,7 @@ pub struct Coefficient {
 
 impl Coefficient {
     /// Keeps `value` and its rounding.
+    #[inline(always)]
     #[must_use]
     pub const fn new(value: f64) -> Self {
         Self { wide: value, narrow: value as f32 }
@@ -81,12 +82,14 @@ pub trait Lane: Arithmetic + Div<Output = Self> {
     fn real_power(self, exponent: Coefficient) -> Self;
 
     /// A constant given on the spot.
+    #[inline(always)]
     #[must_use]
     fn number(self, value: f64) -> Self {
         self.of(Coefficient::new(value))
     }
 
     /// `self` to the power `exponent` ≥ 0; `self` ≥ 0. Small whole powers are products, so x¹ is x exactly.
+    #[inline(always)]
     #[must_use]
     fn power(self, exponent: Coefficient) -> Self {
         let whole = exponent.wide as u32;

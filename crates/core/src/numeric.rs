@@ -19,6 +19,12 @@ pub const RIGHT_ANGLE_TOLERANCE: f64 = 1e-9;
 /// size, √3 of it in length: 5.2, and the products that follow stay below 8.
 pub const EDGE_ROUNDING: f64 = 8.0 * UNIT_ROUNDOFF_F64;
 
+/// How far, in cells, the edges of a pattern lie beside whole numbers: 2⁻¹⁴.
+///
+/// Scenes are written in whole numbers, and so whole rows of pixels fall exactly on an edge, where rounding would
+/// decide. Beside it, `f32` and `f64` agree for patterns of up to a thousand cells from the origin.
+pub const PATTERN_SHIFT: f64 = 1.0 / (1_u64 << 14) as f64;
+
 /// γₙ = n·u / (1 − n·u): the relative error bound of `n` accumulated roundings in `f32`
 /// (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., lemma 3.1).
 #[must_use]

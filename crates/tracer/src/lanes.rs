@@ -90,7 +90,7 @@ impl<S: Simd> F<S> {
             6.931_472e-1,
             1.0,
         ];
-        let mantissa = terms.iter().fold(Self::splat(s, 0.0), |sum, &c| sum.mul_add(part, Self::splat(s, c)));
+        let mantissa = polynomial(part, terms);
         let exponent: S::i32s = (whole + Self::splat(s, 127.0)).0.to_int();
         let bits = exponent.bitcast::<S::u32s>() << 23;
         mantissa * Self(bits.bitcast())
@@ -110,9 +110,20 @@ impl<S: Simd> F<S> {
         let z = (mantissa - one) / (mantissa + one);
         let z2 = z * z;
         let terms: [f32; 5] = [0.320_598_9, 0.412_198_6, 0.577_078, 0.961_796_7, 2.885_390_1];
-        let series = terms.iter().fold(Self::splat(s, 0.0), |sum, &c| sum.mul_add(z2, Self::splat(s, c)));
+        let series = polynomial(z2, terms);
         series.mul_add(z, Self(exponent))
     }
+}
+
+/// The polynomial with those coefficients, highest power first.
+#[inline(always)]
+fn polynomial<S: Simd, const N: usize>(x: F<S>, coefficients: [f32; N]) -> F<S> {
+    let s = x.0.token();
+    let mut sum = F::splat(s, coefficients[0]);
+    for &c in &coefficients[1..] {
+        sum = sum.mul_add(x, F::splat(s, c));
+    }
+    sum
 }
 
 macro_rules! binary {
@@ -187,7 +198,7 @@ impl<S: Simd> M<S> {
 }
 
 /// The lanes of a mask that hold, lowest first.
-pub(crate) struct Bits(u64);
+pub(crate) struct Bits(pub(crate) u64);
 
 impl Iterator for Bits {
     type Item = usize;

@@ -49,4 +49,4 @@ pub use pool::{NoPool, Pool};
 pub use render::{Cancelled, render};
 pub use snapshot::{Hit, Needs, Place, Prim, Snapshot};
 pub use stats::{Rays, Skipped, Stats, Tests};
-pub use view::{Size, View};
+pub use view::{Size, Skip, View};

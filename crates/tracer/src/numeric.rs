@@ -28,6 +28,11 @@ pub(crate) const DIRECTION_ERROR: f32 = 16.0 * U;
 /// 3u·2LR and the sum of three products γ₃·2LR: 22uLR, rounded up.
 pub(crate) const EDGE_ERROR: f32 = 24.0 * U;
 
+/// Share by which balls, boxes and margins are widened before a tile's shapes are left out: it covers the roundings of
+/// the few `f64` operations of those tests (below 2⁻⁴⁵) and of points that were rounded to `f32` (2⁻²² of their
+/// coordinates), with room to spare.
+pub(crate) const PLAN_MARGIN: f64 = 1.0 / (1_u64 << 18) as f64;
+
 /// Far ends of box intervals are stretched by 1 + 2γ₃ (Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013), with two
 /// more roundings for a direction that was itself converted and scaled: 1 + 2γ₅.
 pub(crate) const BOX_STRETCH: f32 = 1.0 + 10.0 * U / (1.0 - 5.0 * U);

@@ -33,6 +33,8 @@ pub struct Skipped {
     pub shadow_off: u64,
     /// Shadow rays: the material shows no light of its own.
     pub unlit_material: u64,
+    /// Shadow rays answered without tracing: nothing stands between the tile's surfaces and the light.
+    pub nothing_between: u64,
     /// Reflection rays: the surface reflects nothing.
     pub not_reflective: u64,
     /// Reflection rays: deep enough already.
@@ -71,7 +73,7 @@ macro_rules! add_fields {
 add_fields!(Rays: primary, shadow, reflection);
 add_fields!(Tests: shapes, boxes);
 add_fields!(Skipped:
-    facing_away, out_of_cone, shadow_off, unlit_material, not_reflective, depth_limit, weight_cutoff);
+    facing_away, out_of_cone, shadow_off, unlit_material, nothing_between, not_reflective, depth_limit, weight_cutoff);
 add_fields!(Stats: rays, tests, skipped, settled, exact, not_finite);
 
 impl Rays {

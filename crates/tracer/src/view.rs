@@ -40,13 +40,31 @@ pub struct View {
     pub weight_cutoff: f32,
     /// Samples per pixel along each axis: 1 is the pixel's centre, n is an n x n grid.
     pub grid: u32,
+    /// Which work that cannot matter is left out; the picture's bits do not depend on it.
+    pub skip: Skip,
+}
+
+/// Work that is left out because it cannot matter. Switched off, the same bits are computed the long way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Skip {
+    /// Shapes that no camera ray of a tile can see first are not tested for it.
+    pub hidden: bool,
+    /// Shapes that cannot stand between what a tile shows and a light are not tested for its shadows.
+    pub shafts: bool,
+}
+
+impl Skip {
+    /// Everything that can be left out is.
+    pub const ALL: Self = Self { hidden: true, shafts: true };
+    /// Nothing is left out.
+    pub const NOTHING: Self = Self { hidden: false, shafts: false };
 }
 
 impl View {
     /// Through a pixel's centre, five reflections deep.
     #[must_use]
     pub const fn new(camera: Camera, size: Size) -> Self {
-        Self { camera, size, max_depth: 5, weight_cutoff: WEIGHT_CUTOFF, grid: 1 }
+        Self { camera, size, max_depth: 5, weight_cutoff: WEIGHT_CUTOFF, grid: 1, skip: Skip::ALL }
     }
 
     /// As deep as the scene's settings say, from the given camera.

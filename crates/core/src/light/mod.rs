@@ -95,18 +95,21 @@ impl Light {
     }
 
     /// See [`Emitter::position`].
+    #[inline]
     #[must_use]
     pub fn position(&self) -> Option<DVec3> {
         each_light!(self, light => light.position())
     }
 
     /// See [`Emitter::direction`].
+    #[inline]
     #[must_use]
     pub fn direction(&self) -> Option<DVec3> {
         each_light!(self, light => light.direction())
     }
 
     /// See [`Emitter::shadow`].
+    #[inline]
     #[must_use]
     pub fn shadow(&self) -> bool {
         each_light!(self, light => light.shadow())

@@ -2,6 +2,7 @@
 
 use super::{LAMBERT, REFLECTIVENESS, ShadingPoint, Surface};
 use crate::lane::Constant3;
+use crate::numeric::PATTERN_SHIFT;
 use crate::part::Given;
 use crate::{Coefficient, Field, FieldKind, InvalidPart, Lane, Part, Rgb, Triple, Value, Values};
 
@@ -31,7 +32,8 @@ impl Checker {
     #[inline(always)]
     fn albedo<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
         let scale = at.distance.of(self.scale);
-        let cell = (at.position.x * scale).floor() + (at.position.z * scale).floor();
+        let shift = at.distance.number(PATTERN_SHIFT);
+        let cell = at.position.x.mul_add(scale, shift).floor() + at.position.z.mul_add(scale, shift).floor();
         let half = cell * cell.number(0.5);
         let odd = cell.number(0.25).less(half - half.floor());
         Triple::select(odd, Triple::of(cell, &self.color), Triple::of(cell, &self.other))

@@ -103,18 +103,21 @@ impl Material {
     }
 
     /// See [`Surface::answers_light`].
+    #[inline]
     #[must_use]
     pub fn answers_light(&self) -> bool {
         each_material!(self, material => material.answers_light())
     }
 
     /// See [`Surface::reflectiveness`].
+    #[inline]
     #[must_use]
     pub fn reflectiveness(&self) -> Coefficient {
         each_material!(self, material => material.reflectiveness())
     }
 
     /// See [`Surface::reflection_color`].
+    #[inline]
     #[must_use]
     pub fn reflection_color(&self) -> Constant3 {
         each_material!(self, material => material.reflection_color())

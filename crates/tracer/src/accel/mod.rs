@@ -5,4 +5,4 @@ mod mesh_tree;
 mod tree;
 
 pub use mesh_tree::MeshTree;
-pub(crate) use tree::{Box32, MAX_DEPTH, Tree};
+pub(crate) use tree::{Box32, MAX_DEPTH, Node, Tree};

@@ -49,8 +49,7 @@ pub(crate) fn trace_pixels(search: &impl Search, frame: &Frame<'_>, tile: &mut T
 }
 
 /// Divides sums over `grid` x `grid` samples and puts lights that are not finite to black; how many those were.
-#[inline(always)]
-pub(crate) fn finish(tile: &mut Tile, grid: u32) -> u64 {
+fn finish(tile: &mut Tile, grid: u32) -> u64 {
     let share = 1.0 / (grid as f32 * grid as f32);
     let mut not_finite = 0;
     for column in &mut tile.radiance {

@@ -9,7 +9,7 @@ mod sphere;
 mod triangle;
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, Lane, Light, Ray, Span, Triple};
+use catoptra_core::{Arithmetic, Lane, Ray, Span, Triple};
 use fearless_simd::Simd;
 
 use crate::integrator::LIGHT_ITSELF;
@@ -65,16 +65,6 @@ pub(crate) struct Target<S: Simd> {
 }
 
 impl<S: Simd> Target<S> {
-    /// A light at the given distances; `None` for one that shines from nowhere in particular.
-    #[inline(always)]
-    pub(crate) fn of(light: &Light, distance: F<S>) -> Option<Self> {
-        match (light.position(), light.direction()) {
-            (Some(place), _) => Some(Self { distance, place, at_infinity: false }),
-            (None, Some(along)) => Some(Self { distance, place: -along, at_infinity: true }),
-            (None, None) => None,
-        }
-    }
-
     /// The way from a point to the light.
     pub(crate) fn way_from(&self, point: DVec3) -> (Ray, Span) {
         if self.at_infinity {
@@ -84,24 +74,11 @@ impl<S: Simd> Target<S> {
         }
     }
 
-    /// Directions from points to the light, as long as [`inverse_length`](Self::inverse_length) says.
+    /// Directions from points to the light, and 1 over their lengths.
     #[inline(always)]
-    pub(crate) fn directions(&self, s: S, from: D3<S>) -> D3<S> {
-        let place = splat_wide(s, self.place);
-        if self.at_infinity { place } else { place - from }
-    }
-
-    /// 1 over the length of each direction.
-    #[inline(always)]
-    pub(crate) fn inverse_length(&self, s: S) -> F<S> {
-        let one = F::splat(s, 1.0);
-        if self.at_infinity { one } else { one / self.distance }
-    }
-
-    /// What the light's own coordinates add to what rounding errors grow with.
-    #[inline(always)]
-    pub(crate) fn reach(&self, s: S) -> F<S> {
-        F::splat(s, if self.at_infinity { 0.0 } else { magnitude_of(self.place) })
+    pub(crate) fn directions(&self, s: S, from: D3<S>) -> (D3<S>, F<S>) {
+        let (place, one) = (splat_wide(s, self.place), F::splat(s, 1.0));
+        if self.at_infinity { (place, one) } else { (place - from, one / self.distance) }
     }
 }
 

@@ -4,7 +4,7 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::Simd;
 
-use super::{Blocking, Proposal, Rays, Target, magnitude_of, rounded};
+use super::{Blocking, Proposal, Rays, magnitude_of, rounded};
 use crate::lanes::{F, splat3};
 use crate::numeric::{DIRECTION_ERROR, POINT_ERROR};
 
@@ -56,19 +56,14 @@ impl PlaneRow {
         }
     }
 
-    /// A plane stands between two points that lie on different sides of it.
+    /// A plane stands between two points that lie on different sides of it; the target lies `target_behind` it.
     #[inline(always)]
-    pub(crate) fn block<S: Simd>(&self, s: S, rays: &Rays<S>, target: &Target<S>) -> Blocking<S> {
+    pub(crate) fn block<S: Simd>(&self, s: S, rays: &Rays<S>, target_behind: f64) -> Blocking<S> {
         let (behind, error) = self.behind(s, rays);
-        let side = if target.at_infinity {
-            -self.normal.dot(target.place)
-        } else {
-            self.distance - self.normal.dot(target.place)
-        };
         let zero = F::splat(s, 0.0);
-        let other = if side > 0.0 {
+        let other = if target_behind > 0.0 {
             behind.less(zero)
-        } else if side < 0.0 {
+        } else if target_behind < 0.0 {
             zero.less(behind)
         } else {
             zero.less(zero)

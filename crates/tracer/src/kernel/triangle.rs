@@ -63,14 +63,11 @@ impl Edges {
         let size = rays.reach + F::splat(s, self.reach);
         let spread = magnitude(rays.direction) * F::splat(s, self.length);
         let edge_error = spread * (size * F::splat(s, EDGE_ERROR));
-        let value = |i: usize| {
-            let from = splat3(s, self.corners[(i + 1) % 3]) - rays.origin;
-            cross(splat3(s, self.edges[i]), from).dot(rays.direction)
-        };
         let (mut above, mut below) = (zero.less(zero), zero.less(zero));
         let (mut all_above, mut all_below) = (!above, !above);
         for i in 0..3 {
-            let w = value(i);
+            let from = splat3(s, self.corners[(i + 1) % 3]) - rays.origin;
+            let w = cross(splat3(s, self.edges[i]), from).dot(rays.direction);
             let (up, down) = (edge_error.less(w), w.less(-edge_error));
             (above, below) = (above | up, below | down);
             (all_above, all_below) = (all_above & up, all_below & down);

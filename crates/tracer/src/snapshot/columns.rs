@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Placement, Shape};
+use catoptra_core::{Aabb, Placement, Shape};
 
 use super::Prim;
 use crate::accel::MeshTree;
@@ -47,6 +47,27 @@ pub(crate) enum Row {
     General,
 }
 
+/// A ball round a shape.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ball {
+    pub(crate) center: DVec3,
+    pub(crate) radius: f64,
+}
+
+impl Ball {
+    /// Round a box.
+    pub(crate) fn round(bounds: Aabb) -> Self {
+        Self { center: bounds.centre(), radius: bounds.size().length() / 2.0 }
+    }
+
+    fn of(shape: &Shape) -> Option<Self> {
+        match shape {
+            Shape::Sphere(sphere) => Some(Self { center: sphere.center(), radius: sphere.radius() }),
+            shape => shape.bounds().map(Self::round),
+        }
+    }
+}
+
 /// The rows of all kernels.
 #[derive(Debug, Default)]
 pub(crate) struct Columns {
@@ -59,13 +80,16 @@ pub(crate) struct Columns {
     pub(crate) rows: Vec<Row>,
     /// Shapes that have an end, in the order of the tree's items.
     pub(crate) bounded: Vec<u32>,
+    /// A ball round each of them, in the same order.
+    pub(crate) balls: Vec<Ball>,
     /// Shapes without an end that have no kernel.
     pub(crate) general_unbounded: Vec<u32>,
 }
 
 impl Columns {
     pub(crate) fn of(prims: &[Prim], bounded: &[u32], meshes: &[Arc<MeshTree>]) -> Self {
-        let mut columns = Self { bounded: bounded.to_vec(), ..Self::default() };
+        let balls = bounded.iter().filter_map(|&i| Ball::of(&prims[i as usize].shape)).collect();
+        let mut columns = Self { bounded: bounded.to_vec(), balls, ..Self::default() };
         for (prim, id) in prims.iter().zip(0..) {
             let row = columns.add(prim, id, meshes);
             columns.rows.push(row);

@@ -4,9 +4,11 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Aabb, EntityId, Light, MaterialId, Placement, Role, Scene, Shape, TriangleMesh};
+use catoptra_core::{
+    Aabb, EntityId, Light, Material, MaterialId, Placement, Rgb, Role, Scene, Shape, TriangleMesh,
+};
 
-use super::{Columns, Prim, Snapshot};
+use super::{Columns, LightRow, MaterialRow, Prim, Snapshot};
 use crate::accel::{MeshTree, Tree};
 
 impl Snapshot {
@@ -40,18 +42,26 @@ impl Snapshot {
             (0..prims.len() as u32).partition(|&i| prims[i as usize].shape.bounds().is_some());
         let boxes: Vec<_> =
             bounded.iter().filter_map(|&i| prims[i as usize].shape.bounds()).map(Into::into).collect();
+        let columns = Columns::of(&prims, &bounded, &trees.meshes);
+        let ambient = lights.iter().map(Light::ambient).fold(Rgb::BLACK, |a, b| a + b);
+        let lights: Vec<Light> =
+            lights.iter().filter(|l| shines(l)).map(|l| l.placed(&moved(-origin))).collect();
+        let materials: Vec<Material> = scene.materials().map(|(.., material)| material.clone()).collect();
         Self {
             origin,
-            columns: Columns::of(&prims, &bounded, &trees.meshes),
+            constants: [ambient.into(), scene.settings().background().into(), origin.into()],
+            material_rows: materials.iter().map(MaterialRow::new).collect(),
+            light_rows: lights.iter().map(|light| LightRow::new(light, &columns.planes)).collect(),
+            columns,
             tree: Tree::build(&boxes),
             entities: placed.iter().map(|(id, ..)| *id).collect(),
             prims,
             unbounded,
             bounded,
             meshes: trees.meshes,
-            materials: scene.materials().map(|(.., material)| material.clone()).collect(),
-            ambient: lights.iter().map(Light::ambient).fold(catoptra_core::Rgb::BLACK, |a, b| a + b),
-            lights: lights.iter().filter(|l| shines(l)).map(|l| l.placed(&moved(-origin))).collect(),
+            materials,
+            ambient,
+            lights,
             background: scene.settings().background(),
         }
     }

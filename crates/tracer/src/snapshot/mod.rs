@@ -2,15 +2,17 @@
 
 mod columns;
 mod extract;
+mod lighting;
 mod needs;
 mod search;
 
 use std::sync::Arc;
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{EntityId, Light, Material, Ray, Rgb, Shape};
+use catoptra_core::{Constant3, EntityId, Light, Material, Ray, Rgb, Shape};
 
-pub(crate) use columns::{Columns, Instance, Row};
+pub(crate) use columns::{Affine, Ball, Columns, Instance, Row};
+pub(crate) use lighting::{LightRow, MaterialRow};
 pub use needs::Needs;
 pub use search::{Hit, Place};
 
@@ -42,6 +44,10 @@ pub struct Snapshot {
     ambient: Rgb,
     background: Rgb,
     columns: Columns,
+    /// Ambient light, background and origin.
+    constants: [Constant3; 3],
+    material_rows: Vec<MaterialRow>,
+    light_rows: Vec<LightRow>,
 }
 
 impl Snapshot {
@@ -102,6 +108,34 @@ impl Snapshot {
     /// The shapes as the SIMD kernels read them.
     pub(crate) fn columns(&self) -> &Columns {
         &self.columns
+    }
+
+    /// The ambient light as a formula reads it.
+    #[inline]
+    pub(crate) fn ambient_light(&self) -> &Constant3 {
+        &self.constants[0]
+    }
+
+    /// The background as a formula reads it.
+    #[inline]
+    pub(crate) fn background_light(&self) -> &Constant3 {
+        &self.constants[1]
+    }
+
+    /// The origin as a formula reads it.
+    #[inline]
+    pub(crate) fn origin_constant(&self) -> &Constant3 {
+        &self.constants[2]
+    }
+
+    /// The materials as the SIMD backend reads them.
+    pub(crate) fn material_rows(&self) -> &[MaterialRow] {
+        &self.material_rows
+    }
+
+    /// The lights as the SIMD backend reads them.
+    pub(crate) fn light_rows(&self) -> &[LightRow] {
+        &self.light_rows
     }
 
     /// The tree over all shapes that have an end; its items are places in [`Columns::bounded`].

@@ -1,40 +1,41 @@
 //! What lights make the lanes of a packet show, and which ways to them are asked about.
 
-use catoptra_core::{Arrival, Lane, LaneMask, Light};
+use catoptra_core::{Arrival, Lane, LaneMask, Triple};
 use fearless_simd::Simd;
 
 use super::Tracer;
 use super::meet::Meeting;
-use super::packet::Packet;
+use super::packet::Left;
 use super::search::Best;
+use super::shadow::Ways;
 use crate::kernel::{Rays, Target, magnitude};
-use crate::lanes::{F, F3, M, splat3};
+use crate::lanes::{F, F3, M};
 
 impl<S: Simd> Tracer<'_, S> {
     /// The surfaces' own look, in the share that is not reflected.
     #[inline(always)]
-    pub(super) fn local(&mut self, packet: &Packet<S>, best: &Best<S>, meeting: &Meeting<S>) -> F3<S> {
+    pub(super) fn local(&mut self, best: &Best<S>, meeting: &Meeting<S>) -> F3<S> {
         let snapshot = self.frame.snapshot;
         let mut shown = super::dark(self.s);
         let mut lit = M::splat(self.s, false);
-        let ambient = splat3(self.s, snapshot.ambient().to_array().map(|c| c as f32));
-        for (mask, material) in meeting.groups.iter() {
-            let material = &snapshot.materials()[material];
-            if material.reflectiveness().wide >= 1.0 {
-                continue;
+        let ambient = Triple::of(shown.x, snapshot.ambient_light());
+        for group in 0..meeting.groups.len() {
+            let (mask, material) = meeting.groups.get(self.s, group);
+            let row = &snapshot.material_rows()[material];
+            if row.kept.narrow > 0.0 {
+                let own = row.material.own(&meeting.shading);
+                let own = row.material.under_ambient(&meeting.shading).times_add(ambient, own);
+                shown = F3::select(mask, own, shown);
             }
-            let own = material.own(&meeting.shading);
-            let own = material.under_ambient(&meeting.shading).times_add(ambient, own);
-            shown = F3::select(mask, own, shown);
-            if material.answers_light() {
+            if row.answers_light {
                 lit = lit | mask;
             }
         }
-        let lights = snapshot.lights();
+        let lights = snapshot.light_rows();
         self.stats.skipped.unlit_material += (meeting.hits & !lit).count() * lights.len() as u64;
         if lit.any() {
-            for light in lights {
-                self.add_light(packet, best, meeting, lit, light, &mut shown);
+            for light in 0..lights.len() {
+                self.add_light(best, meeting, lit, light, &mut shown);
             }
         }
         self.keep_unreflected(meeting, shown)
@@ -44,11 +45,11 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     fn keep_unreflected(&self, meeting: &Meeting<S>, shown: F3<S>) -> F3<S> {
         let mut kept = shown;
-        for (mask, material) in meeting.groups.iter() {
-            let reflected = self.frame.snapshot.materials()[material].reflectiveness();
-            if reflected.wide > 0.0 {
-                let share = F::splat(self.s, (1.0 - reflected.wide) as f32);
-                kept = F3::select(mask, shown.scale(share), kept);
+        for group in 0..meeting.groups.len() {
+            let (mask, material) = meeting.groups.get(self.s, group);
+            let row = &self.frame.snapshot.material_rows()[material];
+            if row.reflects() {
+                kept = F3::select(mask, shown.scale(shown.x.of(row.kept)), kept);
             }
         }
         kept
@@ -58,15 +59,15 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     fn add_light(
         &mut self,
-        packet: &Packet<S>,
         best: &Best<S>,
         meeting: &Meeting<S>,
         lit: M<S>,
-        light: &Light,
+        light: usize,
         shown: &mut F3<S>,
     ) {
         let zero = F::splat(self.s, 0.0);
-        let arrival = light.arriving(meeting.point);
+        let row = &self.frame.snapshot.light_rows()[light];
+        let arrival = row.light.arriving(meeting.point);
         let in_cone = lit & arrival.lit;
         self.stats.skipped.out_of_cone += (lit & !arrival.lit).count();
         let cosine = arrival.towards.dot(meeting.shading.normal);
@@ -78,20 +79,25 @@ impl<S: Simd> Tracer<'_, S> {
         if !facing.any() {
             return;
         }
-        let reached = if light.shadow() {
-            self.stats.rays.shadow += facing.count();
-            facing & !self.shadowed(packet, best, meeting, facing, light, &arrival)
-        } else {
+        let reached = if !row.shadow {
             self.stats.skipped.shadow_off += facing.count();
             facing
+        } else if self.between[light].is_empty() && self.frame.snapshot.columns().general_unbounded.is_empty()
+        {
+            self.stats.skipped.nothing_between += facing.count();
+            facing
+        } else {
+            self.stats.rays.shadow += facing.count();
+            facing & !self.shadowed(best, meeting, facing, light, &arrival)
         };
         if !reached.any() {
             return;
         }
-        for (mask, material) in meeting.groups.iter() {
+        for group in 0..meeting.groups.len() {
+            let (mask, material) = meeting.groups.get(self.s, group);
             let lanes = mask & reached;
             if lanes.any() {
-                let material = &self.frame.snapshot.materials()[material];
+                let material = &self.frame.snapshot.material_rows()[material].material;
                 let response = material.under_light(&meeting.shading, arrival.towards, cosine);
                 *shown = F3::select(lanes, response.times_add(arrival.irradiance, *shown), *shown);
             }
@@ -102,30 +108,24 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     fn shadowed(
         &mut self,
-        packet: &Packet<S>,
         best: &Best<S>,
         meeting: &Meeting<S>,
         facing: M<S>,
-        light: &Light,
+        light: usize,
         arrival: &Arrival<F<S>>,
     ) -> M<S> {
-        let Some(target) = Target::of(light, arrival.distance) else { return M::splat(self.s, false) };
-        let ways = Packet {
-            origin: meeting.settled.point,
-            direction: target.directions(self.s, meeting.settled.point),
+        let row = &self.frame.snapshot.light_rows()[light];
+        let ways = Ways {
+            point: meeting.settled.point,
             rays: Rays {
                 origin: meeting.point,
                 direction: arrival.towards,
-                reach: magnitude(meeting.point) + target.reach(self.s),
+                reach: magnitude(meeting.point) + F::splat(self.s, row.reach),
             },
-            inverse_length: target.inverse_length(self.s),
-            weight: packet.weight,
-            pixel: packet.pixel,
-            left_prim: best.prim,
-            left_facet: best.facet,
-            leaves: true,
+            left: Left { prim: best.prim, facet: best.facet, any: true },
             live: facing,
+            target: Target { distance: arrival.distance, place: row.place, at_infinity: row.at_infinity },
         };
-        self.blocked(&ways, &target)
+        self.blocked(&ways, light)
     }
 }

@@ -6,10 +6,9 @@ use fearless_simd::Simd;
 use super::packet::Packet;
 use super::queue::Leaving;
 use super::search::Best;
-use super::settle::{Groups, Settled, lanes_of, shading_of};
+use super::settle::{Groups, Settled};
 use super::{Tracer, dark};
-use crate::kernel::rounded;
-use crate::lanes::{D3, F, F3, M, narrow3, pick3, splat3};
+use crate::lanes::{D3, F, F3, M, narrow3, pick3};
 
 /// The lanes that have met something.
 pub(super) struct Meeting<S: Simd> {
@@ -21,7 +20,7 @@ pub(super) struct Meeting<S: Simd> {
     /// Points relative to the snapshot's origin, rounded.
     pub(super) point: F3<S>,
     pub(super) shading: ShadingPoint<F<S>>,
-    pub(super) groups: Groups<S>,
+    pub(super) groups: Groups,
 }
 
 impl<S: Simd> Tracer<'_, S> {
@@ -29,13 +28,12 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     pub(super) fn gather(&mut self, packet: &Packet<S>, best: &Best<S>, depth: u32) -> F3<S> {
         let hits = best.hits() & packet.live;
-        let background = splat3(self.s, self.frame.snapshot.background().to_array().map(|c| c as f32));
-        let sky = background.times(packet.weight);
+        let sky = F3::of(best.t, self.frame.snapshot.background_light()).times(packet.weight);
         if !hits.any() {
             return F3::select(packet.live, sky, dark(self.s));
         }
         let meeting = self.meet(packet, best, hits);
-        let local = self.local(packet, best, &meeting);
+        let local = self.local(best, &meeting);
         self.send_on(packet, best, &meeting, depth);
         let shown = local.times(packet.weight);
         F3::select(hits, shown, F3::select(packet.live, sky, dark(self.s)))
@@ -45,47 +43,67 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     fn meet(&mut self, packet: &Packet<S>, best: &Best<S>, hits: M<S>) -> Meeting<S> {
         let snapshot = self.frame.snapshot;
-        let mut groups = Groups::new(self.s);
+        let mut groups = Groups::new();
         let mut left = hits.bits();
-        let mut settled: Option<Settled<S>> = None;
+        let prim = best.prim.lane(left.trailing_zeros() as usize);
+        let mut mask = hits & best.prim.is(prim);
+        groups.add(mask.bits(), snapshot.prims()[prim as usize].material);
+        let mut settled = self.settle(packet, best, mask, prim);
+        left &= !mask.bits();
         while left != 0 {
             let prim = best.prim.lane(left.trailing_zeros() as usize);
-            let mask = lanes_of(best.prim, hits, prim);
-            groups.add(mask, snapshot.prims()[prim as usize].material);
-            let here = self.settle(packet, best, mask, prim);
-            settled = Some(match settled {
-                None => here,
-                Some(before) => here.over(mask, before),
-            });
+            mask = hits & best.prim.is(prim);
+            groups.add(mask.bits(), snapshot.prims()[prim as usize].material);
+            settled = self.settle_more(packet, best, mask, prim, settled);
             left &= !mask.bits();
         }
-        let settled = settled.unwrap_or_else(|| Settled::nothing(packet));
         let rays = &packet.rays;
-        let normal = narrow3(settled.normal);
-        let away = F::splat(self.s, 0.0).less(normal.dot(rays.direction));
-        let towards_viewer = |n: F3<S>| F3::select(away, F3::new(-n.x, -n.y, -n.z), n);
+        let away = F::splat(self.s, 0.0).less(settled.normal32.dot(rays.direction));
+        let normal = turned(away, settled.normal32);
         let point = narrow3(settled.point);
         let d = rays.direction;
         let shading = ShadingPoint {
-            position: point + splat3(self.s, rounded(snapshot.origin())),
-            normal: towards_viewer(shading_of(&settled)),
+            position: point + F3::of(best.t, snapshot.origin_constant()),
+            normal: match settled.shading {
+                Some(shading) => turned(away, narrow3(shading)),
+                None => normal,
+            },
             to_viewer: F3::new(-d.x, -d.y, -d.z),
             distance: best.t,
         };
-        Meeting { hits, settled, normal: towards_viewer(normal), point, shading, groups }
+        Meeting { hits, settled, normal, point, shading, groups }
+    }
+
+    /// Settles the lanes on another shape. Compiled apart: most packets meet one shape.
+    #[inline(always)]
+    fn settle_more(
+        &mut self,
+        packet: &Packet<S>,
+        best: &Best<S>,
+        mask: M<S>,
+        prim: u32,
+        before: Settled<S>,
+    ) -> Settled<S> {
+        let (packet, best) = (*packet, *best);
+        self.s.vectorize(
+            #[inline(always)]
+            || self.settle(&packet, &best, mask, prim).over(mask, before),
+        )
     }
 
     /// Queues the rays of lanes whose surfaces reflect.
     #[inline(always)]
     fn send_on(&mut self, packet: &Packet<S>, best: &Best<S>, meeting: &Meeting<S>, depth: u32) {
-        let materials = self.frame.snapshot.materials();
+        let materials = self.frame.snapshot.material_rows();
         let view = self.frame.view;
-        for (mask, material) in meeting.groups.iter() {
-            let material = &materials[material];
-            let reflectiveness = material.reflectiveness();
-            let color = material.reflection_color();
-            let tint = splat3(self.s, [color.x, color.y, color.z].map(|c| c.narrow * reflectiveness.narrow));
-            let weight = packet.weight.times(tint);
+        for group in 0..meeting.groups.len() {
+            let (mask, material) = meeting.groups.get(self.s, group);
+            let row = &materials[material];
+            if !row.reflects() {
+                self.stats.skipped.not_reflective += mask.count();
+                continue;
+            }
+            let weight = packet.weight.times(F3::of(best.t, &row.tint));
             let largest = weight.x.max(weight.y).max(weight.z);
             let positive = mask & F::splat(self.s, 0.0).less(largest);
             self.stats.skipped.not_reflective += (mask & !positive).count();
@@ -108,15 +126,11 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     fn reflect(&mut self, packet: &Packet<S>, best: &Best<S>, meeting: &Meeting<S>, on: M<S>, weight: F3<S>) {
         let d = packet.direction;
-        let about = |n: D3<S>| {
-            let along = d.dot(n);
-            n.scale_add(-(along + along), d)
-        };
-        let geometric = about(meeting.settled.normal);
+        let geometric = mirrored(d, meeting.settled.normal);
         let direction = match meeting.settled.shading {
             None => geometric,
             Some(shading) => {
-                let smooth = about(shading);
+                let smooth = mirrored(d, shading);
                 let above = F::splat(self.s, 0.0).less(narrow3(smooth).dot(meeting.normal));
                 pick3(above, smooth, geometric)
             }
@@ -131,4 +145,17 @@ impl<S: Simd> Tracer<'_, S> {
         };
         self.next.push(on, &leaving);
     }
+}
+
+/// The vector turned round where the mask holds.
+#[inline(always)]
+fn turned<S: Simd>(mask: M<S>, v: F3<S>) -> F3<S> {
+    F3::select(mask, F3::new(-v.x, -v.y, -v.z), v)
+}
+
+/// A direction mirrored about a unit normal.
+#[inline(always)]
+fn mirrored<S: Simd>(d: D3<S>, n: D3<S>) -> D3<S> {
+    let along = d.dot(n);
+    n.scale_add(-(along + along), d)
 }

@@ -1,26 +1,36 @@
 //! Packets of rays at the CPU's native width: `f32` kernels propose, `f64` settles.
 //!
-//! A tile is traced as streams. Its primary rays go packet by packet; lanes whose surfaces reflect are gathered in a
-//! queue, which is traced in full packets as the next stream, until no lane goes on. Every lane computes on its own,
+//! A tile is traced in batches: its camera rays, then streams of reflected rays. Lanes whose surfaces reflect are
+//! gathered in a queue, which is traced in full packets as the next stream, until no lane goes on. For each batch all
+//! rays find what they meet; then it is known where the points lie, and so what can stand between them and a light;
+//! then they gather their light. Every lane computes on its own,
 //! so a pixel's bits depend on neither the number of lanes nor its neighbours.
 
+mod batch;
 mod light;
 mod meet;
 mod packet;
+mod plan;
 mod queue;
 mod search;
 mod settle;
+mod shadow;
 mod walk;
 
+use std::cell::RefCell;
+
+use catoptra_core::Lane;
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::{Backend, Frame};
-use crate::film::{BLOCK, BLOCK_PIXELS};
-use crate::integrator::finish;
 use crate::lanes::{F, F3, splat3};
+use crate::numeric::PLAN_MARGIN;
 use crate::{Stats, Tile};
-use packet::{Packet, Primary};
+use batch::{Batch, Found};
+use packet::Primary;
+use plan::{Seen, Shapes};
 use queue::Queue;
+use search::Best;
 
 /// The default backend.
 pub(super) struct Wide;
@@ -36,29 +46,67 @@ impl Backend for Wide {
 
     fn level(&self) -> &'static str {
         // The detected level and its proof print as `Avx512(Avx512 { .. })`.
-        let level = format!("{:?}", Level::new());
-        let known = ["Avx512", "Avx2", "Sse4_2", "Sse2", "Neon", "WasmSimd128"];
-        known.iter().find(|name| level.starts_with(**name)).unwrap_or(&"fallback")
+        let level = format!("{:?}", Level::new()).to_lowercase();
+        let known = ["avx512", "avx2", "sse4_2", "sse2", "neon", "wasmsimd128"];
+        known.into_iter().find(|name| level.starts_with(name)).unwrap_or("fallback")
     }
 
     fn trace(&self, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
-        dispatch!(Level::new(), s => trace_tile(s, frame, tile))
+        ROOM.with_borrow_mut(|room| dispatch!(Level::new(), s => trace_tile(s, frame, tile, room)))
     }
+}
+
+thread_local! {
+    /// Room for what a tile needs, kept from tile to tile.
+    static ROOM: RefCell<Room> = RefCell::default();
+}
+
+/// Columns and lists that are filled anew for every tile.
+#[derive(Default)]
+struct Room {
+    streams: [Queue; 2],
+    found: Found,
+    first: Shapes,
+    between: Vec<Shapes>,
 }
 
 /// Traces one tile with the instructions that `s` stands for.
 #[inline(always)]
-fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
-    for column in &mut tile.radiance {
-        column.fill(0.0);
-    }
+fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
     let grid = frame.view.grid;
-    let mut tracer = Tracer { s, frame, stats: Stats::default(), next: Queue::default() };
+    let Room { streams: [current, next], found, first, between } = room;
+    between.resize_with(frame.snapshot.lights().len(), Shapes::default);
+    let mut tracer =
+        Tracer { s, frame, stats: Stats::default(), next, found, between, outside: outside(frame) };
     for sample in 0..grid * grid {
-        tracer.trace_sample(tile, sample % grid, sample / grid);
+        let (column, row) = (sample % grid, sample / grid);
+        if frame.view.skip.hidden {
+            first.seen_through(frame, tile);
+        } else {
+            first.all(frame.snapshot.columns());
+        }
+        tracer.trace(&Primary::new(s, frame, tile, column, row), first, &mut tile.radiance, 0);
+        if (column, row) == (grid / 2, grid / 2) {
+            batch::keep(tile, tracer.found);
+        }
+        first.all(frame.snapshot.columns());
+        for depth in 1.. {
+            std::mem::swap(current, tracer.next);
+            tracer.next.clear();
+            if current.len() == 0 {
+                break;
+            }
+            tracer.trace(&&*current, first, &mut tile.radiance, depth);
+        }
     }
-    tracer.stats.not_finite += finish(tile, grid);
+    tracer.finish(tile, grid);
     tracer.stats
+}
+
+/// Whether the eye, and so every ray, stays outside all spheres.
+fn outside(frame: &Frame<'_>) -> bool {
+    let spheres = &frame.snapshot.columns().spheres;
+    spheres.iter().all(|row| row.center.distance(frame.raster.eye) > row.radius * (1.0 + PLAN_MARGIN))
 }
 
 /// What tracing a tile keeps at hand.
@@ -67,94 +115,65 @@ struct Tracer<'a, S: Simd> {
     frame: &'a Frame<'a>,
     stats: Stats,
     /// Rays of the next stream.
-    next: Queue,
-}
-
-/// Where packets come from: the camera, or the stream gathered by the packets before.
-enum Source {
-    Camera(u32),
-    Stream { stream: Queue, at: usize, depth: u32 },
+    next: &'a mut Queue,
+    /// What the rays of the batch under way have met.
+    found: &'a mut Found,
+    /// For every light, what may stand between it and what the batch under way shows.
+    between: &'a mut [Shapes],
+    /// Whether every ray stays outside all spheres.
+    outside: bool,
 }
 
 impl<S: Simd> Tracer<'_, S> {
-    /// Adds one sample of every pixel to the tile.
+    /// Finds what the rays of a batch meet, then adds the light that arrives along them.
     #[inline(always)]
-    fn trace_sample(&mut self, tile: &mut Tile, column: u32, row: u32) {
-        let lanes = F::<S>::LANES;
-        let packets = tile.depth.len() / lanes;
-        let grid = self.frame.view.grid;
-        let keeps = (column, row) == (grid / 2, grid / 2);
-        let primary = Primary::new(self.s, self.frame, tile, column, row);
-        let mut source = Source::Camera(0);
-        loop {
-            let (packet, depth, start) = match &mut source {
-                Source::Camera(at) if (*at as usize) < packets => {
-                    *at += 1;
-                    (primary.packet(self.s, tile, *at - 1), 0, Some((*at - 1) as usize * lanes))
-                }
-                Source::Stream { stream, at, depth } if *at < stream.len() => {
-                    *at += lanes;
-                    (stream.packet(self.s, *at - lanes), *depth, None)
-                }
-                Source::Camera(_) => {
-                    source = Source::Stream { stream: std::mem::take(&mut self.next), at: 0, depth: 1 };
-                    continue;
-                }
-                Source::Stream { .. } if self.next.len() == 0 => break,
-                Source::Stream { stream, at, depth } => {
-                    stream.clear();
-                    std::mem::swap(stream, &mut self.next);
-                    (*at, *depth) = (0, *depth + 1);
-                    continue;
-                }
-            };
-            self.trace_packet(tile, packet, depth, start, keeps);
+    fn trace(&mut self, batch: &impl Batch<S>, shapes: &Shapes, radiance: &mut [Vec<f32>; 3], depth: u32) {
+        self.found.make_room(batch.rays());
+        let mut seen = Seen::nothing(self.s);
+        let mut rays = 0;
+        for at in (0..batch.rays()).step_by(F::<S>::LANES) {
+            let packet = batch.packet(self.s, at);
+            rays += packet.live.count();
+            let best = self.nearest(&packet, shapes);
+            best.t.store(&mut self.found.t[at..]);
+            best.prim.store(&mut self.found.prim[at..]);
+            best.facet.store(&mut self.found.facet[at..]);
+            seen.add(&packet, &best);
+        }
+        *if depth == 0 { &mut self.stats.rays.primary } else { &mut self.stats.rays.reflection } += rays;
+        self.plan_shadows(&seen);
+        for at in (0..batch.rays()).step_by(F::<S>::LANES) {
+            let packet = batch.packet(self.s, at);
+            let best = Best::found(self.s, self.found, at);
+            let light = self.gather(&packet, &best, depth);
+            batch.add(self.s, at, &packet, light, radiance);
         }
     }
 
-    /// Traces a packet and adds its light to the tile; `start` is where a camera packet lies in the tile's columns.
-    #[inline(always)]
-    fn trace_packet(
-        &mut self,
-        tile: &mut Tile,
-        packet: Packet<S>,
-        depth: u32,
-        start: Option<usize>,
-        keeps: bool,
-    ) {
-        let rays = if depth == 0 { &mut self.stats.rays.primary } else { &mut self.stats.rays.reflection };
-        *rays += packet.live.count();
-        let best = self.nearest(&packet);
-        let light = self.gather(&packet, &best, depth);
-        match start {
-            Some(start) => {
-                add_block(&mut tile.radiance, start, light, self.s);
-                if keeps {
-                    best.distance(self.s).store(&mut tile.depth[start..]);
-                    best.prim.store(&mut tile.surface[start..]);
-                }
+    /// Finds out for every light what may stand between it and what has been seen.
+    fn plan_shadows(&mut self, seen: &Seen<S>) {
+        let snapshot = self.frame.snapshot;
+        for (shapes, light) in self.between.iter_mut().zip(snapshot.light_rows()) {
+            if self.frame.view.skip.shafts {
+                shapes.between(snapshot.columns(), seen, light, self.outside);
+            } else {
+                shapes.all(snapshot.columns());
             }
-            None => add_lanes(&mut tile.radiance, &packet, light),
         }
     }
-}
 
-/// Adds a packet of neighbouring pixels.
-#[inline(always)]
-fn add_block<S: Simd>(radiance: &mut [Vec<f32>; 3], start: usize, light: F3<S>, s: S) {
-    for (column, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
-        let pixels = &mut column[start..];
-        (F::load(s, pixels) + light).store(pixels);
-    }
-}
-
-/// Adds a packet whose lanes belong to any pixels, each to one of its own.
-#[inline(always)]
-fn add_lanes<S: Simd>(radiance: &mut [Vec<f32>; 3], packet: &Packet<S>, light: F3<S>) {
-    for lane in packet.live.lanes() {
-        let pixel = packet.pixel.lane(lane) as usize;
-        for (column, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
-            column[pixel] += light.lane(lane);
+    /// Divides sums over `grid` x `grid` samples and puts lights that are not finite to black.
+    #[inline(always)]
+    fn finish(&mut self, tile: &mut Tile, grid: u32) {
+        let share = F::splat(self.s, 1.0 / (grid as f32 * grid as f32));
+        let (zero, infinite) = (F::splat(self.s, 0.0), F::splat(self.s, f32::INFINITY));
+        for column in &mut tile.radiance {
+            for at in (0..column.len()).step_by(F::<S>::LANES) {
+                let light = F::load(self.s, &column[at..]);
+                let finite = light.abs().less(infinite);
+                self.stats.not_finite += (!finite).count();
+                F::pick(finite, light * share, zero).store(&mut column[at..]);
+            }
         }
     }
 }
@@ -164,6 +183,3 @@ fn add_lanes<S: Simd>(radiance: &mut [Vec<f32>; 3], packet: &Packet<S>, light: F
 fn dark<S: Simd>(s: S) -> F3<S> {
     splat3(s, [0.0; 3])
 }
-
-const _: () =
-    assert!(BLOCK as usize * BLOCK as usize == BLOCK_PIXELS, "a block is whole packets of 4, 8 or 16");

@@ -1,6 +1,5 @@
 //! A packet of rays, and how the camera's packets are made.
 
-use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, Ray};
 use fearless_simd::Simd;
 
@@ -11,6 +10,7 @@ use crate::lanes::{D, D3, F, F3, M, U, lane3, narrow3, splat_wide};
 use crate::{Place, Tile};
 
 /// One ray in every lane.
+#[derive(Clone, Copy)]
 pub(super) struct Packet<S: Simd> {
     /// Origins, relative to the snapshot's.
     pub(super) origin: D3<S>,
@@ -24,34 +24,52 @@ pub(super) struct Packet<S: Simd> {
     pub(super) weight: F3<S>,
     /// Pixel of each lane, by its place in the tile's columns.
     pub(super) pixel: U<S>,
-    /// Shape that each ray leaves from, [`NOTHING`] for the camera.
-    pub(super) left_prim: U<S>,
-    /// Facet that each ray leaves from.
-    pub(super) left_facet: U<S>,
-    /// Whether any ray leaves a surface.
-    pub(super) leaves: bool,
+    /// Where the rays leave from.
+    pub(super) left: Left<S>,
     /// Lanes that are rays at all.
     pub(super) live: M<S>,
 }
 
 impl<S: Simd> Packet<S> {
     /// The ray of a lane.
-    #[inline(always)]
     pub(super) fn ray(&self, lane: usize) -> Ray {
         Ray::new(lane3(self.origin, lane), lane3(self.direction, lane))
     }
 
-    /// Where the ray of a lane leaves from.
-    #[inline(always)]
+    /// The place that the ray of a lane leaves from.
     pub(super) fn leaving(&self, lane: usize) -> Option<Place> {
-        let prim = self.left_prim.lane(lane);
-        (prim != NOTHING).then(|| Place { prim, facet: self.left_facet.lane(lane) })
+        self.left.lane(lane)
+    }
+}
+
+/// The places that the rays of a packet leave from.
+#[derive(Clone, Copy)]
+pub(super) struct Left<S: Simd> {
+    /// Shape that each ray leaves from, [`NOTHING`] for the camera.
+    pub(super) prim: U<S>,
+    /// Facet that each ray leaves from.
+    pub(super) facet: U<S>,
+    /// Whether any ray leaves a surface.
+    pub(super) any: bool,
+}
+
+impl<S: Simd> Left<S> {
+    /// Rays that leave no surface.
+    #[inline(always)]
+    pub(super) fn nothing(s: S) -> Self {
+        Self { prim: U::splat(s, NOTHING), facet: U::splat(s, 0), any: false }
+    }
+
+    /// Where the ray of a lane leaves from.
+    pub(super) fn lane(&self, lane: usize) -> Option<Place> {
+        let prim = self.prim.lane(lane);
+        (prim != NOTHING).then(|| Place { prim, facet: self.facet.lane(lane) })
     }
 
     /// Lanes whose rays leave from a facet of a shape.
     #[inline(always)]
-    pub(super) fn leaving_from(&self, s: S, prim: u32, facet: u32) -> M<S> {
-        if self.leaves { self.left_prim.is(prim) & self.left_facet.is(facet) } else { M::splat(s, false) }
+    pub(super) fn from(&self, s: S, prim: u32, facet: u32) -> M<S> {
+        if self.any { self.prim.is(prim) & self.facet.is(facet) } else { M::splat(s, false) }
     }
 }
 
@@ -67,13 +85,18 @@ pub(super) fn kernel_rays<S: Simd>(s: S, origin: D3<S>, direction: D3<S>) -> (Ra
 /// What the camera's packets of one tile have in common.
 pub(super) struct Primary<S: Simd> {
     eye: D3<S>,
-    /// Directions of the lanes of each part of a block, relative to the block's first pixel.
-    within: [D3<S>; BLOCK_PIXELS / 4],
-    /// Direction at the block at the tile's top left corner.
-    corner: DVec3,
-    across: DVec3,
-    down: DVec3,
-    blocks_across: u32,
+    corner: D3<S>,
+    across: D3<S>,
+    down: D3<S>,
+    /// Columns and rows of the lanes of each part of a block, in pixels from the block's corner.
+    within: [(D<S>, D<S>); BLOCK_PIXELS / 4],
+    left: u32,
+    top: u32,
+    width: u32,
+    height: u32,
+    pub(super) pixels: usize,
+    /// Whether pixels hold nothing yet.
+    pub(super) fresh: bool,
     weight: F3<S>,
     /// 0, 1, 2 …
     counted: U<S>,
@@ -83,41 +106,47 @@ impl<S: Simd> Primary<S> {
     /// For the sample at a column and row of the grid within each pixel.
     #[inline(always)]
     pub(super) fn new(s: S, frame: &Frame<'_>, tile: &Tile, column: u32, row: u32) -> Self {
-        let raster = &frame.raster;
         let share = |k: u32| (f64::from(k) + 0.5) / f64::from(frame.view.grid);
-        let within = std::array::from_fn(|part| {
-            let along = |axis: usize| {
-                let mut lanes = [0.0; BLOCK_PIXELS];
-                for (lane, v) in lanes.iter_mut().enumerate().take(F::<S>::LANES) {
-                    let pixel = (part * F::<S>::LANES + lane) as u32 % BLOCK_PIXELS as u32;
-                    let x = f64::from(pixel % BLOCK) + share(column);
-                    let y = f64::from(pixel / BLOCK) + share(row);
-                    *v = raster.across[axis] * x + raster.down[axis] * y;
-                }
-                D::load(s, &lanes)
-            };
-            D3::new(along(0), along(1), along(2))
-        });
+        // A block and a bit, so that the last part can be loaded whole.
+        let (mut columns, mut rows) = ([0.0; 2 * BLOCK_PIXELS], [0.0; 2 * BLOCK_PIXELS]);
+        for pixel in 0..BLOCK_PIXELS {
+            columns[pixel] = (pixel as u32 % BLOCK) as f64 + share(column);
+            rows[pixel] = (pixel as u32 / BLOCK) as f64 + share(row);
+        }
+        let mut within = [(D::splat(s, 0.0), D::splat(s, 0.0)); BLOCK_PIXELS / 4];
+        for (part, lanes) in within.iter_mut().enumerate().take(BLOCK_PIXELS / F::<S>::LANES) {
+            let at = part * F::<S>::LANES;
+            *lanes = (D::load(s, &columns[at..]), D::load(s, &rows[at..]));
+        }
+        let raster = &frame.raster;
         Self {
             eye: splat_wide(s, raster.eye),
+            corner: splat_wide(s, raster.corner),
+            across: splat_wide(s, raster.across),
+            down: splat_wide(s, raster.down),
             within,
-            corner: raster.corner + raster.across * f64::from(tile.x) + raster.down * f64::from(tile.y),
-            across: raster.across * f64::from(BLOCK),
-            down: raster.down * f64::from(BLOCK),
-            blocks_across: tile.blocks_across(),
+            left: tile.x,
+            top: tile.y,
+            width: tile.width,
+            height: tile.height,
+            pixels: tile.depth.len(),
+            fresh: (column, row) == (0, 0),
             weight: F3::splat(F::splat(s, 1.0)),
             counted: U::load(s, &std::array::from_fn::<u32, BLOCK_PIXELS, _>(|lane| lane as u32)),
         }
     }
 
-    /// The packet at a place in the tile's columns, counted in packets.
+    /// The packet at a place in the tile's columns. Its rays are those of [`Raster::ray`](catoptra_core::Raster::ray),
+    /// bit for bit.
     #[inline(always)]
-    pub(super) fn packet(&self, s: S, tile: &Tile, at: u32) -> Packet<S> {
-        let parts = (BLOCK_PIXELS / F::<S>::LANES) as u32;
-        let (block, part) = (at / parts, at % parts);
-        let (bx, by) = (block % self.blocks_across, block / self.blocks_across);
-        let start = self.corner + self.across * f64::from(bx) + self.down * f64::from(by);
-        let direction = splat_wide(s, start) + self.within[part as usize];
+    pub(super) fn packet_at(&self, s: S, at: u32) -> Packet<S> {
+        let (block, part) = (at / BLOCK_PIXELS as u32, at % BLOCK_PIXELS as u32 / F::<S>::LANES as u32);
+        let blocks_across = self.width.div_ceil(BLOCK);
+        let (x, y) = (block % blocks_across * BLOCK, block / blocks_across * BLOCK);
+        let (columns, rows) = self.within[part as usize];
+        let columns = columns + D::splat(s, f64::from(self.left + x));
+        let rows = rows + D::splat(s, f64::from(self.top + y));
+        let direction = self.across.scale_add(columns, self.down.scale_add(rows, self.corner));
         let (rays, inverse_length) = kernel_rays(s, self.eye, direction);
         Packet {
             origin: self.eye,
@@ -125,26 +154,24 @@ impl<S: Simd> Primary<S> {
             rays,
             inverse_length,
             weight: self.weight,
-            pixel: self.counted.plus(at * F::<S>::LANES as u32),
-            left_prim: U::splat(s, NOTHING),
-            left_facet: U::splat(s, 0),
-            leaves: false,
-            live: inside(s, tile, bx, by, part),
+            pixel: self.counted.plus(at),
+            left: Left::nothing(s),
+            live: inside(s, self.width - x, self.height - y, part),
         }
     }
 }
 
-/// Which lanes lie within the picture.
+/// Which lanes of a part of a block lie within the columns and rows that the picture has left.
 #[inline(always)]
-fn inside<S: Simd>(s: S, tile: &Tile, bx: u32, by: u32, part: u32) -> M<S> {
-    let lanes = F::<S>::LANES;
-    let (columns, rows) = (tile.width - bx * BLOCK, tile.height - by * BLOCK);
+fn inside<S: Simd>(s: S, columns: u32, rows: u32, part: u32) -> M<S> {
     if columns >= BLOCK && rows >= BLOCK {
         return M::splat(s, true);
     }
-    let bits = (0..lanes)
-        .map(|lane| (lane, part * lanes as u32 + lane as u32))
-        .filter(|(_, pixel)| pixel % BLOCK < columns && pixel / BLOCK < rows)
-        .fold(0_u64, |bits, (lane, _)| bits | 1 << lane);
+    let lanes = F::<S>::LANES as u32;
+    let mut bits = 0;
+    for lane in 0..lanes {
+        let pixel = part * lanes + lane;
+        bits |= u64::from(pixel % BLOCK < columns && pixel / BLOCK < rows) << lane;
+    }
     M::from_bits(s, bits)
 }

@@ -4,7 +4,7 @@ use catoptra_core::Triple;
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::packet::{Packet, kernel_rays};
+use super::packet::{Left, Packet, kernel_rays};
 use crate::lanes::{D, D3, F, F3, M, U};
 
 /// Columns of rays; each has room for one more packet than there are rays.
@@ -19,11 +19,16 @@ pub(super) struct Queue {
     facet: Vec<u32>,
 }
 
-/// One vector of lanes from each of three columns.
+/// A packet's lanes from each of three columns.
 #[inline(always)]
-fn triple<C, L>(columns: &[C; 3], load: impl Fn(&C) -> L) -> Triple<L> {
-    let [x, y, z] = columns;
-    Triple::new(load(x), load(y), load(z))
+fn wide<S: Simd>(s: S, [x, y, z]: &[Vec<f64>; 3], at: usize) -> D3<S> {
+    Triple::new(D::load(s, &x[at..]), D::load(s, &y[at..]), D::load(s, &z[at..]))
+}
+
+/// A packet's lanes from each of three columns.
+#[inline(always)]
+fn narrow<S: Simd>(s: S, [x, y, z]: &[Vec<f32>; 3], at: usize) -> F3<S> {
+    Triple::new(F::load(s, &x[at..]), F::load(s, &y[at..]), F::load(s, &z[at..]))
 }
 
 /// Rays to be gathered.
@@ -73,9 +78,8 @@ impl Queue {
 
     /// The packet that starts with ray `at`.
     #[inline(always)]
-    pub(super) fn packet<S: Simd>(&self, s: S, at: usize) -> Packet<S> {
-        let wide = |columns: &[Vec<f64>; 3]| triple(columns, |c| D::load(s, &c[at..]));
-        let (origin, direction) = (wide(&self.origin), wide(&self.direction));
+    pub(super) fn packet_at<S: Simd>(&self, s: S, at: usize) -> Packet<S> {
+        let (origin, direction) = (wide(s, &self.origin, at), wide(s, &self.direction, at));
         let (rays, inverse_length) = kernel_rays(s, origin, direction);
         let lanes = F::<S>::LANES;
         let left = self.length - at;
@@ -85,11 +89,13 @@ impl Queue {
             direction,
             rays,
             inverse_length,
-            weight: triple(&self.weight, |c| F::load(s, &c[at..])),
+            weight: narrow(s, &self.weight, at),
             pixel: U::load(s, &self.pixel[at..]),
-            left_prim: U::load(s, &self.prim[at..]),
-            left_facet: U::load(s, &self.facet[at..]),
-            leaves: true,
+            left: Left {
+                prim: U::load(s, &self.prim[at..]),
+                facet: U::load(s, &self.facet[at..]),
+                any: true,
+            },
             live: M::from_bits(s, bits),
         }
     }

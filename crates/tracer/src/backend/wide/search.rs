@@ -1,17 +1,19 @@
-//! What the rays of a packet meet first, and which ways to a light are blocked.
+//! What the rays of a packet meet first.
 
 use catoptra_core::{Lane, LaneMask, Span};
 use fearless_simd::Simd;
 
 use super::Tracer;
+use super::batch::Found;
 use super::packet::Packet;
+use super::plan::Shapes;
 use crate::film::NOTHING;
-use crate::kernel::{Blocking, Proposal, Target};
-use crate::lanes::{F, M, U};
+use crate::kernel::Proposal;
+use crate::lanes::{Bits, F, M, U};
 use crate::snapshot::Row;
 
-/// Shapes are tried one by one up to this many; more go by the tree. Measured on the seed's scenes.
-const FEW: usize = 4;
+/// Shapes are tried one by one up to this many; more go by the tree.
+pub(super) const FEW: usize = 4;
 
 /// The nearest crossing of every lane so far.
 #[derive(Clone, Copy)]
@@ -37,38 +39,55 @@ impl<S: Simd> Best<S> {
         }
     }
 
+    /// What has been found before, without a bound on its error.
+    #[inline(always)]
+    pub(super) fn found(s: S, found: &Found, at: usize) -> Self {
+        Self {
+            t: F::load(s, &found.t[at..]),
+            error: F::splat(s, 0.0),
+            prim: U::load(s, &found.prim[at..]),
+            facet: U::load(s, &found.facet[at..]),
+        }
+    }
+
     /// Lanes that meet something.
     #[inline(always)]
     pub(super) fn hits(&self) -> M<S> {
         !self.prim.is(NOTHING)
     }
+}
 
-    /// Metres to what is met, infinite where nothing is.
-    #[inline(always)]
-    pub(super) fn distance(&self, s: S) -> F<S> {
-        F::pick(self.hits(), self.t, F::splat(s, f32::INFINITY))
-    }
+/// A shape that may be the nearest, as far as `f32` can tell.
+#[derive(Clone, Copy)]
+struct Doubtful<S: Simd> {
+    prim: u32,
+    /// The facet in question; with one, a mesh is crossed in that triangle only.
+    facet: Option<u32>,
+    t: F<S>,
+    error: F<S>,
+    /// Lanes where `t` is a crossing for certain, and only its place in the order is in doubt.
+    known: M<S>,
 }
 
 impl<S: Simd> Tracer<'_, S> {
-    /// What every ray meets first.
+    /// What every ray meets first of the given shapes.
     #[inline(always)]
-    pub(super) fn nearest(&mut self, packet: &Packet<S>) -> Best<S> {
+    pub(super) fn nearest(&mut self, packet: &Packet<S>, shapes: &Shapes) -> Best<S> {
         let columns = self.frame.snapshot.columns();
         let mut best = Best::nothing(self.s);
-        for plane in &columns.planes {
+        for &row in &shapes.planes {
+            let plane = &columns.planes[row as usize];
             let proposal = plane.propose(self.s, &packet.rays);
             self.consider(packet, &mut best, packet.live, (plane.prim, 0), proposal);
         }
         for &prim in &columns.general_unbounded {
-            self.settle_lanes(packet, &mut best, packet.live, (prim, None));
+            self.settle_all(packet, &mut best, packet.live, prim);
         }
-        if columns.bounded.len() <= FEW {
-            for &prim in &columns.bounded {
-                self.try_prim(packet, &mut best, prim);
-            }
-        } else {
-            self.walk_scene(packet, &mut best);
+        for &prim in &shapes.bounded {
+            self.try_prim(packet, &mut best, prim);
+        }
+        if shapes.tree {
+            best = self.walk_scene(packet, best);
         }
         best
     }
@@ -77,13 +96,32 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     pub(super) fn try_prim(&mut self, packet: &Packet<S>, best: &mut Best<S>, prim: u32) {
         let columns = self.frame.snapshot.columns();
+        if let Row::Sphere(row) = columns.rows[prim as usize] {
+            let leaving = packet.left.from(self.s, prim, 0);
+            let proposal = columns.spheres[row as usize].propose(self.s, &packet.rays, leaving);
+            // A sphere may be met again by a ray that leaves it, on its far side.
+            self.weigh(packet, best, packet.live, (prim, 0), proposal);
+        } else {
+            *best = self.try_facets(packet, *best, prim);
+        }
+    }
+
+    /// Tests every ray against one bounded shape that is no sphere. Compiled apart: copies of packet and best keep
+    /// those of the common case in registers.
+    #[inline(always)]
+    fn try_facets(&mut self, packet: &Packet<S>, best: Best<S>, prim: u32) -> Best<S> {
+        let (packet, mut best) = (*packet, best);
+        self.s.vectorize(
+            #[inline(always)]
+            || self.try_each_facet(&packet, &mut best, prim),
+        );
+        best
+    }
+
+    #[inline(always)]
+    fn try_each_facet(&mut self, packet: &Packet<S>, best: &mut Best<S>, prim: u32) {
+        let columns = self.frame.snapshot.columns();
         match columns.rows[prim as usize] {
-            Row::Sphere(row) => {
-                let leaving = packet.leaving_from(self.s, prim, 0);
-                let proposal = columns.spheres[row as usize].propose(self.s, &packet.rays, leaving);
-                // A sphere may be met again by a ray that leaves it, on its far side.
-                self.weigh(packet, best, packet.live, (prim, 0), proposal);
-            }
             Row::Rectangle(row) => {
                 let proposal = columns.rectangles[row as usize].propose(self.s, &packet.rays);
                 self.consider(packet, best, packet.live, (prim, 0), proposal);
@@ -95,7 +133,9 @@ impl<S: Simd> Tracer<'_, S> {
                 }
             }
             Row::Instance(row) => self.walk_mesh(packet, best, &columns.instances[row as usize]),
-            Row::General | Row::Plane(_) => self.settle_lanes(packet, best, packet.live, (prim, None)),
+            Row::General | Row::Plane(_) | Row::Sphere(_) => {
+                self.settle_all(packet, best, packet.live, prim);
+            }
         }
     }
 
@@ -109,8 +149,7 @@ impl<S: Simd> Tracer<'_, S> {
         place: (u32, u32),
         proposal: Proposal<S>,
     ) {
-        let allowed =
-            if packet.leaves { live & !packet.leaving_from(self.s, place.0, place.1) } else { live };
+        let allowed = if packet.left.any { live & !packet.left.from(self.s, place.0, place.1) } else { live };
         self.weigh(packet, best, allowed, place, proposal);
     }
 
@@ -136,23 +175,46 @@ impl<S: Simd> Tracer<'_, S> {
         best.prim = U::pick(take, U::splat(self.s, prim), best.prim);
         best.facet = U::pick(take, U::splat(self.s, facet), best.facet);
         if undecided.any() {
-            self.settle_lanes(packet, best, undecided, (prim, Some(facet)));
+            let doubtful = Doubtful {
+                prim,
+                facet: Some(facet),
+                t: proposal.t,
+                error: proposal.error,
+                known: maybe & !proposal.undecided,
+            };
+            self.settle_lanes(packet, best, undecided, &doubtful);
         }
     }
 
-    /// Decides in `f64`, lane by lane, whether a shape is nearer than what has been found.
-    ///
-    /// With a facet, a mesh is crossed in that triangle only.
+    /// Decides in `f64` about a shape without a kernel.
+    #[inline(always)]
+    fn settle_all(&mut self, packet: &Packet<S>, best: &mut Best<S>, lanes: M<S>, prim: u32) {
+        let none = F::splat(self.s, 0.0);
+        let doubtful = Doubtful { prim, facet: None, t: none, error: none, known: M::splat(self.s, false) };
+        self.settle_lanes(packet, best, lanes, &doubtful);
+    }
+
+    /// Decides in `f64`, lane by lane, whether a shape is nearer than what has been found. Works on copies, so that
+    /// packet and best may stay in registers.
+    #[inline(always)]
+    fn settle_lanes(&mut self, packet: &Packet<S>, best: &mut Best<S>, lanes: M<S>, doubtful: &Doubtful<S>) {
+        let (packet, mut copy, doubtful) = (*packet, *best, *doubtful);
+        self.settle_each_lane(&packet, &mut copy, lanes.bits(), &doubtful);
+        *best = copy;
+    }
+
+    #[cold]
     #[inline(never)]
-    fn settle_lanes(
+    fn settle_each_lane(
         &mut self,
         packet: &Packet<S>,
         best: &mut Best<S>,
-        lanes: M<S>,
-        (prim, facet): (u32, Option<u32>),
+        lanes: u64,
+        doubtful: &Doubtful<S>,
     ) {
+        let Doubtful { prim, facet, .. } = *doubtful;
         let snapshot = self.frame.snapshot;
-        for lane in lanes.lanes() {
+        for lane in Bits(lanes) {
             self.stats.settled += 1;
             let (ray, leaving) = (packet.ray(lane), packet.leaving(lane));
             let Some(hit) = snapshot.cross_part(prim, facet, &ray, Span::AHEAD, leaving) else { continue };
@@ -163,112 +225,14 @@ impl<S: Simd> Tracer<'_, S> {
             if held.is_some_and(|held| (held.crossing.t, other) <= (hit.crossing.t, prim)) {
                 continue;
             }
+            // What a kernel found where it was certain stays, whatever it had to compete with.
             let metres = (hit.crossing.t * ray.direction.length()) as f32;
-            best.t.set(lane, metres.min(f32::MAX.next_down()));
-            best.error.set(lane, metres * f32::EPSILON);
+            let known = doubtful.known.bits() >> lane & 1 == 1;
+            let t = if known { doubtful.t.lane(lane) } else { metres.min(f32::MAX.next_down()) };
+            best.t.set(lane, t);
+            best.error.set(lane, if known { doubtful.error.lane(lane) } else { metres * f32::EPSILON });
             best.prim.set(lane, prim);
             best.facet.set(lane, hit.place.facet);
         }
-    }
-
-    /// Which rays of a packet are blocked before they reach their light.
-    #[inline(always)]
-    pub(super) fn blocked(&mut self, packet: &Packet<S>, target: &Target<S>) -> M<S> {
-        let columns = self.frame.snapshot.columns();
-        let mut open = packet.live;
-        for plane in &columns.planes {
-            let blocking = plane.block(self.s, &packet.rays, target);
-            let allowed = open & !packet.leaving_from(self.s, plane.prim, 0);
-            self.block(packet, target, &mut open, allowed, (plane.prim, Some(0)), blocking);
-        }
-        for &prim in &columns.general_unbounded {
-            self.block_lanes(packet, target, &mut open, packet.live, (prim, None));
-        }
-        if !open.any() {
-            return packet.live;
-        }
-        if columns.bounded.len() <= FEW {
-            for &prim in &columns.bounded {
-                self.block_prim(packet, target, &mut open, prim);
-            }
-        } else {
-            self.walk_scene_to_light(packet, target, &mut open);
-        }
-        packet.live & !open
-    }
-
-    /// Closes the ways that one bounded shape blocks.
-    #[inline(always)]
-    pub(super) fn block_prim(&mut self, packet: &Packet<S>, target: &Target<S>, open: &mut M<S>, prim: u32) {
-        let columns = self.frame.snapshot.columns();
-        match columns.rows[prim as usize] {
-            Row::Sphere(row) => {
-                let leaving = packet.leaving_from(self.s, prim, 0);
-                let blocking =
-                    columns.spheres[row as usize].block(self.s, &packet.rays, target, leaving & *open);
-                let allowed = *open;
-                self.block(packet, target, open, allowed, (prim, Some(0)), blocking);
-            }
-            Row::Rectangle(row) => {
-                let blocking =
-                    columns.rectangles[row as usize].propose(self.s, &packet.rays).blocking(target);
-                let allowed = *open & !packet.leaving_from(self.s, prim, 0);
-                self.block(packet, target, open, allowed, (prim, Some(0)), blocking);
-            }
-            Row::Triangles(first, count) => {
-                for triangle in &columns.triangles[first as usize..(first + count) as usize] {
-                    let blocking = triangle.propose(self.s, &packet.rays).blocking(target);
-                    let allowed = *open & !packet.leaving_from(self.s, prim, triangle.facet);
-                    self.block(packet, target, open, allowed, (prim, Some(triangle.facet)), blocking);
-                }
-            }
-            Row::Instance(row) => {
-                self.walk_mesh_to_light(packet, target, open, &columns.instances[row as usize]);
-            }
-            Row::General | Row::Plane(_) => {
-                let all = *open;
-                self.block_lanes(packet, target, open, all, (prim, None));
-            }
-        }
-    }
-
-    /// Closes the ways a kernel found blocked; what cannot be decided is settled in `f64`.
-    #[inline(always)]
-    pub(super) fn block(
-        &mut self,
-        packet: &Packet<S>,
-        target: &Target<S>,
-        open: &mut M<S>,
-        allowed: M<S>,
-        place: (u32, Option<u32>),
-        blocking: Blocking<S>,
-    ) {
-        self.stats.tests.shapes += F::<S>::LANES as u64;
-        let undecided = allowed & blocking.undecided;
-        *open = *open & !(allowed & blocking.blocked & !undecided);
-        if undecided.any() {
-            self.block_lanes(packet, target, open, undecided, place);
-        }
-    }
-
-    /// Decides in `f64`, lane by lane, whether a shape blocks the way.
-    #[inline(never)]
-    fn block_lanes(
-        &mut self,
-        packet: &Packet<S>,
-        target: &Target<S>,
-        open: &mut M<S>,
-        lanes: M<S>,
-        (prim, facet): (u32, Option<u32>),
-    ) {
-        let mut closed = 0;
-        for lane in (lanes & *open).lanes() {
-            self.stats.settled += 1;
-            let (ray, span) = target.way_from(crate::lanes::lane3(packet.origin, lane));
-            if self.frame.snapshot.cross_part(prim, facet, &ray, span, packet.leaving(lane)).is_some() {
-                closed |= 1 << lane;
-            }
-        }
-        *open = *open & !M::from_bits(self.s, closed);
     }
 }

@@ -10,8 +10,8 @@ use fearless_simd::Simd;
 use super::Tracer;
 use super::packet::Packet;
 use super::search::Best;
-use crate::kernel::cross;
-use crate::lanes::{D, D3, F, F3, M, U, narrow3, pick3, splat_wide};
+use crate::kernel::{cross, rounded};
+use crate::lanes::{D, D3, F, F3, M, narrow3, pick3, splat_wide, splat3};
 use crate::snapshot::{Instance, Row};
 
 /// Points and normals of the lanes that meet something.
@@ -21,6 +21,8 @@ pub(super) struct Settled<S: Simd> {
     pub(super) point: D3<S>,
     /// Geometric, of unit length, on the shape's outer side.
     pub(super) normal: D3<S>,
+    /// The same, rounded.
+    pub(super) normal32: F3<S>,
     /// To shade with, of unit length; `None` where the geometric one does for all lanes.
     pub(super) shading: Option<D3<S>>,
 }
@@ -35,20 +37,46 @@ impl<S: Simd> Tracer<'_, S> {
                 let plane = &columns.planes[row as usize];
                 self.settle_flat(packet, best, plane.normal, plane.distance)
             }
-            Row::Rectangle(row) => {
-                let plane = &columns.rectangles[row as usize].plane;
-                self.settle_flat(packet, best, plane.normal, plane.distance)
-            }
             Row::Sphere(row) => {
                 let sphere = &columns.spheres[row as usize];
                 self.settle_sphere(packet, best, sphere.center, sphere.radius)
             }
+            row => {
+                // Compiled apart: copies keep the common case in registers.
+                let (packet, best) = (*packet, *best);
+                self.s.vectorize(
+                    #[inline(always)]
+                    || self.settle_facets(&packet, &best, mask, prim, row),
+                )
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn settle_facets(
+        &mut self,
+        packet: &Packet<S>,
+        best: &Best<S>,
+        mask: M<S>,
+        prim: u32,
+        row: Row,
+    ) -> Settled<S> {
+        let columns = self.frame.snapshot.columns();
+        match row {
+            Row::Rectangle(row) => {
+                let plane = &columns.rectangles[row as usize].plane;
+                self.settle_flat(packet, best, plane.normal, plane.distance)
+            }
             Row::Triangles(first, _) => {
-                let corners = |facet: u32| columns.triangles[(first + facet) as usize].corners;
-                self.settle_triangles(packet, best, mask, corners)
+                let mut corners = LaneTriples::default();
+                for lane in mask.lanes() {
+                    let facet = best.facet.lane(lane);
+                    corners.set(lane, columns.triangles[(first + facet) as usize].corners);
+                }
+                self.settle_triangles(packet, best, &corners)
             }
             Row::Instance(row) => self.settle_mesh(packet, best, mask, &columns.instances[row as usize]),
-            Row::General => self.settle_general(packet, mask, prim),
+            Row::General | Row::Plane(_) | Row::Sphere(_) => self.settle_general(packet, mask, prim),
         }
     }
 
@@ -60,12 +88,12 @@ impl<S: Simd> Tracer<'_, S> {
         normal: DVec3,
         distance: f64,
     ) -> Settled<S> {
+        let normal32 = splat3(self.s, rounded(normal));
         let normal = splat_wide(self.s, normal);
-        let point = self.step(packet, best, |p| {
-            let slope = narrow3(normal).dot(packet.rays.direction);
-            (normal.dot(p) - D::splat(self.s, distance), slope)
-        });
-        Settled { point, normal, shading: None }
+        let near = self.near(packet, best);
+        let off = normal.dot(near) - D::splat(self.s, distance);
+        let point = self.step(packet, near, off.narrow(), normal32.dot(packet.rays.direction));
+        Settled { point, normal, normal32, shading: None }
     }
 
     #[inline(always)]
@@ -77,53 +105,38 @@ impl<S: Simd> Tracer<'_, S> {
         radius: f64,
     ) -> Settled<S> {
         let center = splat_wide(self.s, center);
-        let point = self.step(packet, best, |p| {
-            let from = p - center;
-            let excess = from.dot(from) - D::splat(self.s, radius * radius);
-            let slope = narrow3(from).dot(packet.rays.direction);
-            (excess, slope + slope)
-        });
+        let near = self.near(packet, best);
+        let from = near - center;
+        let off = from.dot(from) - D::splat(self.s, radius * radius);
+        let slope = narrow3(from).dot(packet.rays.direction);
+        let point = self.step(packet, near, off.narrow(), slope + slope);
         let normal = (point - center).scale(D::splat(self.s, 1.0 / radius));
-        Settled { point, normal, shading: None }
+        Settled { point, normal, normal32: narrow3(normal), shading: None }
     }
 
-    /// The point where `residual`, which answers a signed distance-like value and its slope along the ray, vanishes.
+    /// The points at the distances that `f32` has found.
     #[inline(always)]
-    fn step(&self, packet: &Packet<S>, best: &Best<S>, residual: impl Fn(D3<S>) -> (D<S>, F<S>)) -> D3<S> {
-        let t = (best.t * packet.inverse_length).widen();
-        let near = packet.direction.scale_add(t, packet.origin);
-        let (value, slope) = residual(near);
-        let metres = -(value.narrow() / slope);
+    fn near(&self, packet: &Packet<S>, best: &Best<S>) -> D3<S> {
+        packet.direction.scale_add((best.t * packet.inverse_length).widen(), packet.origin)
+    }
+
+    /// One Newton step along the rays from where a value is `off` and changes by `slope` a metre to where it is 0.
+    #[inline(always)]
+    fn step(&self, packet: &Packet<S>, near: D3<S>, off: F<S>, slope: F<S>) -> D3<S> {
+        let metres = -(off / slope);
         packet.direction.scale_add((metres * packet.inverse_length).widen(), near)
     }
 
     /// Lanes on triangles, each on one of its own.
     #[inline(always)]
-    fn settle_triangles(
-        &mut self,
-        packet: &Packet<S>,
-        best: &Best<S>,
-        mask: M<S>,
-        corners: impl Fn(u32) -> [DVec3; 3],
-    ) -> Settled<S> {
-        let mut columns = [[0.0_f64; MOST_LANES]; 9];
-        for lane in mask.lanes() {
-            let corners = corners(best.facet.lane(lane));
-            for (k, corner) in corners.iter().enumerate() {
-                for axis in 0..3 {
-                    columns[3 * k + axis][lane] = corner[axis];
-                }
-            }
-        }
-        let corner = |k: usize| {
-            let axis = |axis: usize| D::load(self.s, &columns[3 * k + axis]);
-            D3::new(axis(0), axis(1), axis(2))
-        };
-        let (a, b, c) = (corner(0), corner(1), corner(2));
+    fn settle_triangles(&mut self, packet: &Packet<S>, best: &Best<S>, corners: &LaneTriples) -> Settled<S> {
+        let (a, b, c) = (corners.get(self.s, 0), corners.get(self.s, 1), corners.get(self.s, 2));
         let normal = unit(self.s, cross(b - a, c - a));
-        let point =
-            self.step(packet, best, |p| (normal.dot(p - a), narrow3(normal).dot(packet.rays.direction)));
-        Settled { point, normal, shading: None }
+        let normal32 = narrow3(normal);
+        let near = self.near(packet, best);
+        let off = normal.dot(near - a);
+        let point = self.step(packet, near, off.narrow(), normal32.dot(packet.rays.direction));
+        Settled { point, normal, normal32, shading: None }
     }
 
     #[inline(always)]
@@ -139,19 +152,18 @@ impl<S: Simd> Tracer<'_, S> {
             return self.settle_general(packet, mask, instance.prim);
         };
         if mesh.normals().is_none() {
-            let placed = shape.placement();
-            return self
-                .settle_triangles(packet, best, mask, |facet| mesh.corners(facet).map(|p| placed.point(p)));
+            let mut corners = LaneTriples::default();
+            for lane in mask.lanes() {
+                corners.set(lane, mesh.corners(best.facet.lane(lane)).map(|p| shape.placement().point(p)));
+            }
+            return self.settle_triangles(packet, best, &corners);
         }
         let mut lanes = LaneVectors::default();
+        let anywhere = Span { min: f64::NEG_INFINITY, max: f64::INFINITY };
         for lane in mask.lanes() {
-            let own = shape.own_ray(&packet.ray(lane));
-            if let Some(c) = shape.cross_one(
-                &own,
-                Span { min: f64::NEG_INFINITY, max: f64::INFINITY },
-                best.facet.lane(lane),
-            ) {
-                lanes.set(lane, packet.ray(lane).at(c.t), c.normal, c.shading_normal);
+            let ray = packet.ray(lane);
+            if let Some(c) = shape.cross_one(&shape.own_ray(&ray), anywhere, best.facet.lane(lane)) {
+                lanes.set(lane, ray.at(c.t), c.normal, c.shading_normal);
             }
         }
         lanes.settled(self.s)
@@ -172,29 +184,42 @@ impl<S: Simd> Tracer<'_, S> {
     }
 }
 
-/// Most lanes that any packet has.
-const MOST_LANES: usize = 16;
-
-/// Vectors filled lane by lane: points, normals, shading normals.
+/// Three vectors in every lane, such as the corners of a triangle, filled lane by lane.
 #[derive(Default)]
-struct LaneVectors([[[f64; MOST_LANES]; 3]; 3]);
+struct LaneTriples([[[f64; MOST_LANES]; 3]; 3]);
 
-impl LaneVectors {
-    fn set(&mut self, lane: usize, point: DVec3, normal: DVec3, shading: DVec3) {
-        for (columns, v) in self.0.iter_mut().zip([point, normal, shading]) {
-            for (column, c) in columns.iter_mut().zip(v.to_array()) {
+impl LaneTriples {
+    fn set(&mut self, lane: usize, vectors: [DVec3; 3]) {
+        for (columns, corner) in self.0.iter_mut().zip(vectors) {
+            for (column, c) in columns.iter_mut().zip(corner.to_array()) {
                 column[lane] = c;
             }
         }
     }
 
     #[inline(always)]
+    fn get<S: Simd>(&self, s: S, which: usize) -> D3<S> {
+        let [x, y, z] = &self.0[which];
+        D3::new(D::load(s, x), D::load(s, y), D::load(s, z))
+    }
+}
+
+/// Most lanes that any packet has.
+const MOST_LANES: usize = 16;
+
+/// Points, normals and shading normals, filled lane by lane.
+#[derive(Default)]
+struct LaneVectors(LaneTriples);
+
+impl LaneVectors {
+    fn set(&mut self, lane: usize, point: DVec3, normal: DVec3, shading: DVec3) {
+        self.0.set(lane, [point, normal, shading]);
+    }
+
+    #[inline(always)]
     fn settled<S: Simd>(&self, s: S) -> Settled<S> {
-        let vector = |k: usize| {
-            let axis = |axis: usize| D::load(s, &self.0[k][axis]);
-            D3::new(axis(0), axis(1), axis(2))
-        };
-        Settled { point: vector(0), normal: vector(1), shading: Some(vector(2)) }
+        let [point, normal, shading] = [self.0.get(s, 0), self.0.get(s, 1), self.0.get(s, 2)];
+        Settled { point, normal, normal32: narrow3(normal), shading: Some(shading) }
     }
 }
 
@@ -212,12 +237,6 @@ fn unit<S: Simd>(s: S, v: D3<S>) -> D3<S> {
 }
 
 impl<S: Simd> Settled<S> {
-    /// What stands for lanes that meet nothing.
-    #[inline(always)]
-    pub(super) fn nothing(packet: &Packet<S>) -> Self {
-        Self { point: packet.origin, normal: packet.direction, shading: None }
-    }
-
     /// This one where the mask holds, else the other.
     #[inline(always)]
     pub(super) fn over(self, mask: M<S>, other: Self) -> Self {
@@ -228,50 +247,47 @@ impl<S: Simd> Settled<S> {
         Self {
             point: pick3(mask, self.point, other.point),
             normal: pick3(mask, self.normal, other.normal),
+            normal32: F3::select(mask, self.normal32, other.normal32),
             shading,
         }
     }
 }
 
-/// A packet of which every lane knows the material it has met.
-pub(super) struct Groups<S: Simd> {
+/// The lanes of a packet by the material they have met.
+pub(super) struct Groups {
     count: usize,
-    lanes: [(M<S>, u32); MOST_LANES],
+    lanes: [u64; MOST_LANES],
+    materials: [u32; MOST_LANES],
 }
 
-impl<S: Simd> Groups<S> {
+impl Groups {
     #[inline(always)]
-    pub(super) fn new(s: S) -> Self {
-        Self { count: 0, lanes: [(M::splat(s, false), 0); MOST_LANES] }
+    pub(super) fn new() -> Self {
+        Self { count: 0, lanes: [0; MOST_LANES], materials: [0; MOST_LANES] }
     }
 
     /// Adds lanes that wear a material.
     #[inline(always)]
-    pub(super) fn add(&mut self, mask: M<S>, material: u32) {
-        match self.lanes[..self.count].iter_mut().find(|(_, m)| *m == material) {
-            Some(group) => group.0 = group.0 | mask,
-            None => {
-                self.lanes[self.count] = (mask, material);
-                self.count += 1;
+    pub(super) fn add(&mut self, lanes: u64, material: u32) {
+        for group in 0..self.count {
+            if self.materials[group] == material {
+                self.lanes[group] |= lanes;
+                return;
             }
         }
+        (self.lanes[self.count], self.materials[self.count]) = (lanes, material);
+        self.count += 1;
     }
 
-    /// Lanes by material.
+    /// How many materials there are.
     #[inline(always)]
-    pub(super) fn iter(&self) -> impl Iterator<Item = (M<S>, usize)> + '_ {
-        self.lanes[..self.count].iter().map(|&(mask, material)| (mask, material as usize))
+    pub(super) fn len(&self) -> usize {
+        self.count
     }
-}
 
-/// Unused lanes of a column keep what they hold.
-#[inline(always)]
-pub(super) fn shading_of<S: Simd>(settled: &Settled<S>) -> F3<S> {
-    narrow3(settled.shading.unwrap_or(settled.normal))
-}
-
-/// All lanes of one shape.
-#[inline(always)]
-pub(super) fn lanes_of<S: Simd>(prims: U<S>, hits: M<S>, prim: u32) -> M<S> {
-    prims.is(prim) & hits
+    /// Lanes and material of a group.
+    #[inline(always)]
+    pub(super) fn get<S: Simd>(&self, s: S, group: usize) -> (M<S>, usize) {
+        (M::from_bits(s, self.lanes[group]), self.materials[group] as usize)
+    }
 }

@@ -1,16 +1,19 @@
 //! How a packet walks the trees: one box at a time against all lanes.
 
+use std::ops::Range;
+
 use catoptra_core::{Arithmetic, Lane, LaneMask};
 use fearless_simd::Simd;
 
 use super::Tracer;
 use super::packet::Packet;
 use super::search::Best;
-use crate::accel::{Box32, MAX_DEPTH, Tree};
-use crate::kernel::{Edges, Rays, Target, magnitude};
-use crate::lanes::{F, F3, M, narrow3, splat_wide, splat3};
+use super::shadow::Ways;
+use crate::accel::{Box32, MAX_DEPTH, Node, Tree};
+use crate::kernel::{Edges, Rays, magnitude};
+use crate::lanes::{D3, F, F3, M, narrow3, splat_wide, splat3};
 use crate::numeric::{BOX_PAD, BOX_STRETCH};
-use crate::snapshot::Instance;
+use crate::snapshot::{Affine, Instance};
 
 /// Rays as boxes see them.
 struct Slabs<S: Simd> {
@@ -28,12 +31,15 @@ impl<S: Simd> Slabs<S> {
         let one = F::splat(s, 1.0);
         let d = rays.direction;
         let zero = F::splat(s, 0.0);
-        let mostly = |c: F<S>| 2 * (live & c.less(zero)).count() > live.count();
         Self {
             origin: rays.origin,
             inverse: F3::new(one / d.x, one / d.y, one / d.z),
             pad: rays.reach.mul_add(F::splat(s, BOX_PAD), F::splat(s, f32::MIN_POSITIVE)),
-            backwards: [mostly(d.x), mostly(d.y), mostly(d.z)],
+            backwards: [
+                mostly(live & d.x.less(zero), live),
+                mostly(live & d.y.less(zero), live),
+                mostly(live & d.z.less(zero), live),
+            ],
         }
     }
 
@@ -62,143 +68,174 @@ impl<S: Simd> Slabs<S> {
 }
 
 impl<S: Simd> Tracer<'_, S> {
-    /// Finds the nearest of the scene's bounded shapes.
+    /// Finds the nearest of the scene's bounded shapes. Compiled apart, on copies.
     #[inline(always)]
-    pub(super) fn walk_scene(&mut self, packet: &Packet<S>, best: &mut Best<S>) {
+    pub(super) fn walk_scene(&mut self, packet: &Packet<S>, best: Best<S>) -> Best<S> {
+        let (packet, mut best) = (*packet, best);
+        self.s.vectorize(
+            #[inline(always)]
+            || self.walk_shapes(&packet, &mut best),
+        );
+        best
+    }
+
+    #[inline(always)]
+    fn walk_shapes(&mut self, packet: &Packet<S>, best: &mut Best<S>) {
         let snapshot = self.frame.snapshot;
         let slabs = Slabs::new(self.s, &packet.rays, packet.live);
         let mut walk = Walk::default();
-        while let Some(items) = walk.next(snapshot.tree(), slabs.backwards, |bounds| {
+        while let Some(node) = walk.visit(snapshot.tree()) {
             self.stats.tests.boxes += F::<S>::LANES as u64;
-            (slabs.meet(self.s, bounds, best.t + best.error) & packet.live).any()
-        }) {
-            for &item in &snapshot.tree().order[items] {
-                self.try_prim(packet, best, snapshot.columns().bounded[item as usize]);
+            let far = best.t + best.error;
+            if (slabs.meet(self.s, &node.bounds, far) & packet.live).any() {
+                for &item in &snapshot.tree().order[walk.enter(node, slabs.backwards)] {
+                    self.try_prim(packet, best, snapshot.columns().bounded[item as usize]);
+                }
             }
         }
     }
 
-    /// Closes the ways that the scene's bounded shapes block.
+    /// The ways still open once the scene's bounded shapes stand there. Compiled apart, on copies.
     #[inline(always)]
-    pub(super) fn walk_scene_to_light(&mut self, packet: &Packet<S>, target: &Target<S>, open: &mut M<S>) {
+    pub(super) fn walk_scene_to_light(&mut self, ways: &Ways<S>, open: M<S>) -> M<S> {
+        let ways = *ways;
+        self.s.vectorize(
+            #[inline(always)]
+            || self.walk_shapes_to_light(&ways, open),
+        )
+    }
+
+    #[inline(always)]
+    fn walk_shapes_to_light(&mut self, ways: &Ways<S>, mut open: M<S>) -> M<S> {
         let snapshot = self.frame.snapshot;
-        let slabs = Slabs::new(self.s, &packet.rays, packet.live);
+        let slabs = Slabs::new(self.s, &ways.rays, ways.live);
         let mut walk = Walk::default();
-        while let Some(items) = walk.next(snapshot.tree(), slabs.backwards, |bounds| {
+        while let Some(node) = walk.visit(snapshot.tree()) {
             self.stats.tests.boxes += F::<S>::LANES as u64;
-            (slabs.meet(self.s, bounds, target.distance) & *open).any()
-        }) {
-            for &item in &snapshot.tree().order[items] {
-                self.block_prim(packet, target, open, snapshot.columns().bounded[item as usize]);
+            if (slabs.meet(self.s, &node.bounds, ways.target.distance) & open).any() {
+                for &item in &snapshot.tree().order[walk.enter(node, slabs.backwards)] {
+                    open = self.block_prim(ways, open, snapshot.columns().bounded[item as usize]);
+                }
             }
         }
+        open
     }
 
     /// Finds the nearest triangle of a mesh.
     #[inline(always)]
     pub(super) fn walk_mesh(&mut self, packet: &Packet<S>, best: &mut Best<S>, instance: &Instance) {
-        let rays = instance.own_rays(self.s, packet);
+        let rays =
+            instance.own_rays(self.s, &packet.rays, packet.origin, packet.direction, packet.inverse_length);
         let slabs = Slabs::new(self.s, &rays, packet.live);
         let mesh = &instance.tree;
         let mut walk = Walk::default();
-        while let Some(items) = walk.next(&mesh.tree, slabs.backwards, |bounds| {
+        while let Some(node) = walk.visit(&mesh.tree) {
             self.stats.tests.boxes += F::<S>::LANES as u64;
-            (slabs.meet(self.s, bounds, best.t + best.error) & packet.live).any()
-        }) {
-            for at in items {
-                let proposal = Edges::new(&mesh.corners[at], mesh.reach).propose(self.s, &rays);
-                let place = (instance.prim, mesh.tree.order[at]);
-                self.consider(packet, best, packet.live, place, proposal);
+            let far = best.t + best.error;
+            if (slabs.meet(self.s, &node.bounds, far) & packet.live).any() {
+                for at in walk.enter(node, slabs.backwards) {
+                    let proposal = Edges::new(&mesh.corners[at], mesh.reach).propose(self.s, &rays);
+                    let place = (instance.prim, mesh.tree.order[at]);
+                    self.consider(packet, best, packet.live, place, proposal);
+                }
             }
         }
     }
 
-    /// Closes the ways that a mesh blocks.
+    /// The ways still open once a mesh stands there.
     #[inline(always)]
-    pub(super) fn walk_mesh_to_light(
-        &mut self,
-        packet: &Packet<S>,
-        target: &Target<S>,
-        open: &mut M<S>,
-        instance: &Instance,
-    ) {
-        let rays = instance.own_rays(self.s, packet);
-        let slabs = Slabs::new(self.s, &rays, packet.live);
+    pub(super) fn walk_mesh_to_light(&mut self, ways: &Ways<S>, mut open: M<S>, instance: &Instance) -> M<S> {
+        let (direction, inverse_length) = ways.target.directions(self.s, ways.point);
+        let rays = instance.own_rays(self.s, &ways.rays, ways.point, direction, inverse_length);
+        let slabs = Slabs::new(self.s, &rays, ways.live);
         let mesh = &instance.tree;
         let mut walk = Walk::default();
-        while let Some(items) = walk.next(&mesh.tree, slabs.backwards, |bounds| {
+        while let Some(node) = walk.visit(&mesh.tree) {
             self.stats.tests.boxes += F::<S>::LANES as u64;
-            (slabs.meet(self.s, bounds, target.distance) & *open).any()
-        }) {
-            for at in items {
-                let facet = mesh.tree.order[at];
-                let blocking =
-                    Edges::new(&mesh.corners[at], mesh.reach).propose(self.s, &rays).blocking(target);
-                let allowed = *open & !packet.leaving_from(self.s, instance.prim, facet);
-                self.block(packet, target, open, allowed, (instance.prim, Some(facet)), blocking);
+            if (slabs.meet(self.s, &node.bounds, ways.target.distance) & open).any() {
+                for at in walk.enter(node, slabs.backwards) {
+                    let facet = mesh.tree.order[at];
+                    let proposal = Edges::new(&mesh.corners[at], mesh.reach).propose(self.s, &rays);
+                    let allowed = open & !ways.left.from(self.s, instance.prim, facet);
+                    let place = (instance.prim, Some(facet));
+                    open = self.block(ways, open, allowed, place, proposal.blocking(&ways.target));
+                }
             }
         }
+        open
     }
 }
 
 impl Instance {
-    /// A packet's rays in the mesh's own space. `t` stays metres of the world, so directions are as long as one metre
-    /// of the world is there.
+    /// Rays in the mesh's own space, from those of the world. `t` stays metres of the world, so directions are as long
+    /// as one metre of the world is there.
     #[inline(always)]
-    fn own_rays<S: Simd>(&self, s: S, packet: &Packet<S>) -> Rays<S> {
-        let Some(rows) = &self.to_object else { return packet.rays };
-        let turn = |v: crate::lanes::D3<S>, row: usize| splat_wide(s, rows.matrix[row]).dot(v);
-        let shift = splat_wide(s, rows.shift);
-        let o = packet.origin;
-        let origin = F3::new(
-            (turn(o, 0) + shift.x).narrow(),
-            (turn(o, 1) + shift.y).narrow(),
-            (turn(o, 2) + shift.z).narrow(),
-        );
-        let d = packet.direction;
-        let direction = narrow3(crate::lanes::D3::new(turn(d, 0), turn(d, 1), turn(d, 2)));
-        Rays { origin, direction: direction.scale(packet.inverse_length), reach: magnitude(origin) }
+    fn own_rays<S: Simd>(
+        &self,
+        s: S,
+        rays: &Rays<S>,
+        origin: D3<S>,
+        direction: D3<S>,
+        inverse_length: F<S>,
+    ) -> Rays<S> {
+        let Some(affine) = &self.to_object else { return *rays };
+        let origin = narrow3(affine.turn(s, origin) + splat_wide(s, affine.shift));
+        let direction = narrow3(affine.turn(s, direction)).scale(inverse_length);
+        Rays { origin, direction, reach: magnitude(origin) }
     }
+}
+
+impl Affine {
+    #[inline(always)]
+    fn turn<S: Simd>(&self, s: S, v: D3<S>) -> D3<S> {
+        let [x, y, z] = self.matrix;
+        D3::new(splat_wide(s, x).dot(v), splat_wide(s, y).dot(v), splat_wide(s, z).dot(v))
+    }
+}
+
+/// Whether a mask holds for more than half the lanes of another.
+#[inline(always)]
+fn mostly<S: Simd>(mask: M<S>, of: M<S>) -> bool {
+    2 * mask.count() > of.count()
 }
 
 /// A walk under way.
 struct Walk {
     stack: [u32; MAX_DEPTH],
     depth: usize,
+    at: u32,
 }
 
 impl Default for Walk {
     #[inline(always)]
     fn default() -> Self {
-        Self { stack: [0; MAX_DEPTH], depth: 1 }
+        Self { stack: [0; MAX_DEPTH], depth: 1, at: 0 }
     }
 }
 
 impl Walk {
-    /// The items of the next leaf whose box, and those round it, `meets`.
+    /// The next node to look at.
     #[inline(always)]
-    fn next(
-        &mut self,
-        tree: &Tree,
-        backwards: [bool; 3],
-        mut meets: impl FnMut(&Box32) -> bool,
-    ) -> Option<std::ops::Range<usize>> {
-        while self.depth > 0 {
-            self.depth -= 1;
-            let at = self.stack[self.depth];
-            let Some(node) = tree.nodes.get(at as usize) else { continue };
-            if !meets(&node.bounds) {
-                continue;
-            }
-            if node.count > 0 {
-                let first = node.link as usize;
-                return Some(first..first + node.count as usize);
-            }
-            let [near, away] = node.children(at, backwards);
+    fn visit<'a>(&mut self, tree: &'a Tree) -> Option<&'a Node> {
+        if self.depth == 0 {
+            return None;
+        }
+        self.depth -= 1;
+        self.at = self.stack[self.depth];
+        tree.nodes.get(self.at as usize)
+    }
+
+    /// Goes on with the children of the node just visited, or gives the places of a leaf's items.
+    #[inline(always)]
+    fn enter(&mut self, node: &Node, backwards: [bool; 3]) -> Range<usize> {
+        if node.count == 0 {
+            let [near, away] = node.children(self.at, backwards);
             self.stack[self.depth] = away;
             self.stack[self.depth + 1] = near;
             self.depth += 2;
+            return 0..0;
         }
-        None
+        let first = node.link as usize;
+        first..first + node.count as usize
     }
 }

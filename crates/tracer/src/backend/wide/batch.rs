@@ -1,0 +1,92 @@
+//! Where packets come from: the camera, pixel block by pixel block, or the stream of rays that surfaces sent on.
+
+use fearless_simd::Simd;
+
+use super::packet::{Packet, Primary};
+use super::queue::Queue;
+use crate::Tile;
+use crate::lanes::{F, F3};
+
+/// Packets that are traced together.
+pub(super) trait Batch<S: Simd> {
+    /// How many rays there are, in whole packets.
+    fn rays(&self) -> usize;
+
+    /// The packet that starts with ray `at`.
+    fn packet(&self, s: S, at: usize) -> Packet<S>;
+
+    /// Adds the light of the packet that starts with ray `at` to its pixels.
+    fn add(&self, s: S, at: usize, packet: &Packet<S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]);
+}
+
+impl<S: Simd> Batch<S> for Primary<S> {
+    #[inline(always)]
+    fn rays(&self) -> usize {
+        self.pixels
+    }
+
+    #[inline(always)]
+    fn packet(&self, s: S, at: usize) -> Packet<S> {
+        self.packet_at(s, at as u32)
+    }
+
+    #[inline(always)]
+    fn add(&self, s: S, at: usize, _: &Packet<S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]) {
+        for (pixels, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
+            let pixels = &mut pixels[at..];
+            let light = if self.fresh { light } else { F::load(s, pixels) + light };
+            light.store(pixels);
+        }
+    }
+}
+
+impl<S: Simd> Batch<S> for &Queue {
+    #[inline(always)]
+    fn rays(&self) -> usize {
+        self.len().next_multiple_of(F::<S>::LANES)
+    }
+
+    #[inline(always)]
+    fn packet(&self, s: S, at: usize) -> Packet<S> {
+        self.packet_at(s, at)
+    }
+
+    /// No pixel has two rays in a stream.
+    #[inline(always)]
+    fn add(&self, _: S, _: usize, packet: &Packet<S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]) {
+        for lane in packet.live.lanes() {
+            let pixel = packet.pixel.lane(lane) as usize;
+            for (pixels, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
+                pixels[pixel] += light.lane(lane);
+            }
+        }
+    }
+}
+
+/// What the rays of a batch have met, column by column.
+#[derive(Default)]
+pub(super) struct Found {
+    pub(super) t: Vec<f32>,
+    pub(super) prim: Vec<u32>,
+    pub(super) facet: Vec<u32>,
+}
+
+impl Found {
+    /// Room for so many rays.
+    pub(super) fn make_room(&mut self, rays: usize) {
+        if self.t.len() < rays {
+            self.t.resize(rays, 0.0);
+            self.prim.resize(rays, 0);
+            self.facet.resize(rays, 0);
+        }
+    }
+}
+
+/// Copies what the camera's rays have met into a tile.
+pub(super) fn keep(tile: &mut Tile, found: &Found) {
+    let pixels = tile.depth.len();
+    tile.surface.copy_from_slice(&found.prim[..pixels]);
+    for (depth, t) in tile.depth.iter_mut().zip(&found.t) {
+        *depth = if *t == f32::MAX { f32::INFINITY } else { *t };
+    }
+}

@@ -1,0 +1,68 @@
+//! Materials and lights as the SIMD backend reads them: what it asks of every packet, worked out once.
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Coefficient, Constant3, Light, Material, Rgb};
+
+use crate::kernel::{PlaneRow, magnitude_of};
+
+/// A material.
+#[derive(Debug, Clone)]
+pub(crate) struct MaterialRow {
+    pub(crate) material: Material,
+    /// Reflectiveness times colour of reflection.
+    pub(crate) tint: Constant3,
+    /// Share that is not reflected.
+    pub(crate) kept: Coefficient,
+    pub(crate) answers_light: bool,
+}
+
+impl MaterialRow {
+    pub(crate) fn new(material: &Material) -> Self {
+        let reflected = material.reflectiveness().wide;
+        Self {
+            material: material.clone(),
+            tint: (material.reflection_color().rgb() * reflected).into(),
+            kept: Coefficient::new(1.0 - reflected),
+            answers_light: material.answers_light() && reflected < 1.0,
+        }
+    }
+
+    /// Whether it reflects anything.
+    pub(crate) fn reflects(&self) -> bool {
+        self.tint.rgb() != Rgb::BLACK
+    }
+}
+
+/// A light.
+#[derive(Debug, Clone)]
+pub(crate) struct LightRow {
+    pub(crate) light: Light,
+    pub(crate) shadow: bool,
+    /// Its position, or the unit vector towards it when `at_infinity`.
+    pub(crate) place: DVec3,
+    pub(crate) at_infinity: bool,
+    /// What its coordinates add to what rounding errors grow with.
+    pub(crate) reach: f32,
+    /// For every plane, how far the light lies on the side that the plane's normal does not point to; only the sign
+    /// counts, and 0 is a light in the plane.
+    pub(crate) behind: Vec<f64>,
+}
+
+impl LightRow {
+    pub(crate) fn new(light: &Light, planes: &[PlaneRow]) -> Self {
+        let at_infinity = light.position().is_none();
+        let place = light.position().or_else(|| light.direction().map(|d| -d)).unwrap_or(DVec3::ZERO);
+        let behind = |plane: &PlaneRow| {
+            let along = plane.normal.dot(place);
+            if at_infinity { -along } else { plane.distance - along }
+        };
+        Self {
+            light: light.clone(),
+            shadow: light.shadow(),
+            place,
+            at_infinity,
+            reach: if at_infinity { 0.0 } else { magnitude_of(place) },
+            behind: planes.iter().map(behind).collect(),
+        }
+    }
+}
