@@ -142,6 +142,17 @@ fn the_picture_follows_the_size_of_the_window() {
 }
 
 #[test]
+fn a_window_that_was_away_is_shown_again() {
+    let Some(mut stage) = stage() else { return };
+    let before = stage.picture();
+    stage.hide();
+    assert!(stage.picture() != before && stage.runs());
+    stage.show();
+    let after = stage.picture();
+    assert!((0..UPPER.1).all(|y| (0..UPPER.0).all(|x| before.at(x, y) == after.at(x, y))));
+}
+
+#[test]
 fn it_fits_a_screen_with_two_pixels_to_a_point() {
     let Some(stage) = Stage::start_scaled(Some(SCENE), 2) else { return };
     let room = SIZE.0 - 2 * 272;

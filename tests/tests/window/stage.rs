@@ -135,6 +135,18 @@ impl Stage {
         self.rest();
     }
 
+    /// Takes the window off the screen, as minimising does.
+    pub(crate) fn hide(&self) {
+        self.xdotool(&["windowunmap", "--sync", &self.window]);
+        self.rest();
+    }
+
+    /// Puts the window back on the screen.
+    pub(crate) fn show(&self) {
+        self.xdotool(&["windowmap", "--sync", &self.window]);
+        self.rest();
+    }
+
     /// What the screen shows.
     pub(crate) fn picture(&self) -> Picture {
         Picture::read(&self.buffer.path().join("Xvfb_screen0")).expect("a screenshot")

@@ -37,6 +37,9 @@ fn heading(ui: &mut Ui, viewer: &mut Viewer, id: EntityId) {
             if text != name {
                 viewer.edit(Edit::Name(id, text.clone()));
             }
+        } else {
+            // Left over where something else was selected while typing.
+            ui.data_mut(|data| data.remove::<String>(draft));
         }
         ui.weak(tree::kind_name(viewer.document.scene(), id));
     });
