@@ -14,7 +14,7 @@ pub(crate) struct PlaneRow {
     pub(crate) normal: DVec3,
     pub(crate) distance: f64,
     pub(crate) prim: u32,
-    normal32: [f32; 3],
+    pub(crate) normal32: [f32; 3],
     distance32: f32,
     reach: f32,
 }

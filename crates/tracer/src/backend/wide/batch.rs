@@ -12,8 +12,8 @@ pub(super) trait Batch<S: Simd> {
     /// How many rays there are, in whole packets.
     fn rays(&self) -> usize;
 
-    /// The packet that starts with ray `at`.
-    fn packet(&self, s: S, at: usize) -> Packet<S>;
+    /// The packet that starts with ray `at`; its inverse lengths, if they are known from before.
+    fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<S>;
 
     /// Adds the light of the packet that starts with ray `at` to its pixels.
     fn add(&self, s: S, at: usize, packet: &Packet<S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]);
@@ -26,8 +26,8 @@ impl<S: Simd> Batch<S> for Primary<S> {
     }
 
     #[inline(always)]
-    fn packet(&self, s: S, at: usize) -> Packet<S> {
-        self.packet_at(s, at as u32)
+    fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<S> {
+        self.packet_at(s, at as u32, inverse_length)
     }
 
     #[inline(always)]
@@ -47,8 +47,8 @@ impl<S: Simd> Batch<S> for &Queue {
     }
 
     #[inline(always)]
-    fn packet(&self, s: S, at: usize) -> Packet<S> {
-        self.packet_at(s, at)
+    fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<S> {
+        self.packet_at(s, at, inverse_length)
     }
 
     /// No pixel has two rays in a stream.
@@ -67,6 +67,8 @@ impl<S: Simd> Batch<S> for &Queue {
 #[derive(Default)]
 pub(super) struct Found {
     pub(super) t: Vec<f32>,
+    /// 1 over the length of each ray's direction.
+    pub(super) inverse_length: Vec<f32>,
     pub(super) prim: Vec<u32>,
     pub(super) facet: Vec<u32>,
 }
@@ -76,6 +78,7 @@ impl Found {
     pub(super) fn make_room(&mut self, rays: usize) {
         if self.t.len() < rays {
             self.t.resize(rays, 0.0);
+            self.inverse_length.resize(rays, 0.0);
             self.prim.resize(rays, 0);
             self.facet.resize(rays, 0);
         }

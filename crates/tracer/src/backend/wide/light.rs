@@ -7,6 +7,7 @@ use super::Tracer;
 use super::meet::Meeting;
 use super::packet::Left;
 use super::search::Best;
+use super::settle::Groups;
 use super::shadow::Ways;
 use crate::kernel::{Rays, Target, magnitude};
 use crate::lanes::{F, F3, M};
@@ -14,13 +15,13 @@ use crate::lanes::{F, F3, M};
 impl<S: Simd> Tracer<'_, S> {
     /// The surfaces' own look, in the share that is not reflected.
     #[inline(always)]
-    pub(super) fn local(&mut self, best: &Best<S>, meeting: &Meeting<S>) -> F3<S> {
+    pub(super) fn local(&mut self, best: &Best<S>, meeting: &Meeting<S>, groups: &Groups) -> F3<S> {
         let snapshot = self.frame.snapshot;
         let mut shown = super::dark(self.s);
         let mut lit = M::splat(self.s, false);
         let ambient = Triple::of(shown.x, snapshot.ambient_light());
-        for group in 0..meeting.groups.len() {
-            let (mask, material) = meeting.groups.get(self.s, group);
+        for group in 0..groups.len() {
+            let (mask, material) = groups.get(self.s, group);
             let row = &snapshot.material_rows()[material];
             if row.kept.narrow > 0.0 {
                 let own = row.material.own(&meeting.shading);
@@ -35,18 +36,18 @@ impl<S: Simd> Tracer<'_, S> {
         self.stats.skipped.unlit_material += (meeting.hits & !lit).count() * lights.len() as u64;
         if lit.any() {
             for light in 0..lights.len() {
-                self.add_light(best, meeting, lit, light, &mut shown);
+                shown = self.add_light(best, meeting, groups, lit, light, shown);
             }
         }
-        self.keep_unreflected(meeting, shown)
+        self.keep_unreflected(groups, shown)
     }
 
     /// Multiplies by the share that is not reflected.
     #[inline(always)]
-    fn keep_unreflected(&self, meeting: &Meeting<S>, shown: F3<S>) -> F3<S> {
+    fn keep_unreflected(&self, groups: &Groups, shown: F3<S>) -> F3<S> {
         let mut kept = shown;
-        for group in 0..meeting.groups.len() {
-            let (mask, material) = meeting.groups.get(self.s, group);
+        for group in 0..groups.len() {
+            let (mask, material) = groups.get(self.s, group);
             let row = &self.frame.snapshot.material_rows()[material];
             if row.reflects() {
                 kept = F3::select(mask, shown.scale(shown.x.of(row.kept)), kept);
@@ -61,10 +62,11 @@ impl<S: Simd> Tracer<'_, S> {
         &mut self,
         best: &Best<S>,
         meeting: &Meeting<S>,
+        groups: &Groups,
         lit: M<S>,
         light: usize,
-        shown: &mut F3<S>,
-    ) {
+        shown: F3<S>,
+    ) -> F3<S> {
         let zero = F::splat(self.s, 0.0);
         let row = &self.frame.snapshot.light_rows()[light];
         let arrival = row.light.arriving(meeting.point);
@@ -72,12 +74,12 @@ impl<S: Simd> Tracer<'_, S> {
         self.stats.skipped.out_of_cone += (lit & !arrival.lit).count();
         let cosine = arrival.towards.dot(meeting.shading.normal);
         let mut facing = in_cone & zero.less(cosine);
-        if meeting.settled.shading.is_some() {
+        if meeting.settled.smooth {
             facing = facing & zero.less(arrival.towards.dot(meeting.normal));
         }
         self.stats.skipped.facing_away += (in_cone & !facing).count();
         if !facing.any() {
-            return;
+            return shown;
         }
         let reached = if !row.shadow {
             self.stats.skipped.shadow_off += facing.count();
@@ -91,17 +93,19 @@ impl<S: Simd> Tracer<'_, S> {
             facing & !self.shadowed(best, meeting, facing, light, &arrival)
         };
         if !reached.any() {
-            return;
+            return shown;
         }
-        for group in 0..meeting.groups.len() {
-            let (mask, material) = meeting.groups.get(self.s, group);
+        let mut sum = shown;
+        for group in 0..groups.len() {
+            let (mask, material) = groups.get(self.s, group);
             let lanes = mask & reached;
             if lanes.any() {
                 let material = &self.frame.snapshot.material_rows()[material].material;
                 let response = material.under_light(&meeting.shading, arrival.towards, cosine);
-                *shown = F3::select(lanes, response.times_add(arrival.irradiance, *shown), *shown);
+                sum = F3::select(lanes, response.times_add(arrival.irradiance, sum), sum);
             }
         }
+        sum
     }
 
     /// Lanes whose way to a light is blocked.

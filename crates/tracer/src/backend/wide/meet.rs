@@ -20,7 +20,6 @@ pub(super) struct Meeting<S: Simd> {
     /// Points relative to the snapshot's origin, rounded.
     pub(super) point: F3<S>,
     pub(super) shading: ShadingPoint<F<S>>,
-    pub(super) groups: Groups,
 }
 
 impl<S: Simd> Tracer<'_, S> {
@@ -32,18 +31,19 @@ impl<S: Simd> Tracer<'_, S> {
         if !hits.any() {
             return F3::select(packet.live, sky, dark(self.s));
         }
-        let meeting = self.meet(packet, best, hits);
-        let local = self.local(best, &meeting);
-        self.send_on(packet, best, &meeting, depth);
+        // Apart from the meeting, so that the compiler may keep that in registers.
+        let mut groups = Groups::new();
+        let meeting = self.meet(packet, best, hits, &mut groups);
+        let local = self.local(best, &meeting, &groups);
+        self.send_on(packet, best, &meeting, &groups, depth);
         let shown = local.times(packet.weight);
         F3::select(hits, shown, F3::select(packet.live, sky, dark(self.s)))
     }
 
     /// Settles all lanes, shape by shape.
     #[inline(always)]
-    fn meet(&mut self, packet: &Packet<S>, best: &Best<S>, hits: M<S>) -> Meeting<S> {
+    fn meet(&mut self, packet: &Packet<S>, best: &Best<S>, hits: M<S>, groups: &mut Groups) -> Meeting<S> {
         let snapshot = self.frame.snapshot;
-        let mut groups = Groups::new();
         let mut left = hits.bits();
         let prim = best.prim.lane(left.trailing_zeros() as usize);
         let mut mask = hits & best.prim.is(prim);
@@ -64,14 +64,11 @@ impl<S: Simd> Tracer<'_, S> {
         let d = rays.direction;
         let shading = ShadingPoint {
             position: point + F3::of(best.t, snapshot.origin_constant()),
-            normal: match settled.shading {
-                Some(shading) => turned(away, narrow3(shading)),
-                None => normal,
-            },
+            normal: if settled.smooth { turned(away, narrow3(settled.shading)) } else { normal },
             to_viewer: F3::new(-d.x, -d.y, -d.z),
             distance: best.t,
         };
-        Meeting { hits, settled, normal, point, shading, groups }
+        Meeting { hits, settled, normal, point, shading }
     }
 
     /// Settles the lanes on another shape. Compiled apart: most packets meet one shape.
@@ -93,11 +90,18 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// Queues the rays of lanes whose surfaces reflect.
     #[inline(always)]
-    fn send_on(&mut self, packet: &Packet<S>, best: &Best<S>, meeting: &Meeting<S>, depth: u32) {
+    fn send_on(
+        &mut self,
+        packet: &Packet<S>,
+        best: &Best<S>,
+        meeting: &Meeting<S>,
+        groups: &Groups,
+        depth: u32,
+    ) {
         let materials = self.frame.snapshot.material_rows();
         let view = self.frame.view;
-        for group in 0..meeting.groups.len() {
-            let (mask, material) = meeting.groups.get(self.s, group);
+        for group in 0..groups.len() {
+            let (mask, material) = groups.get(self.s, group);
             let row = &materials[material];
             if !row.reflects() {
                 self.stats.skipped.not_reflective += mask.count();
@@ -127,13 +131,12 @@ impl<S: Simd> Tracer<'_, S> {
     fn reflect(&mut self, packet: &Packet<S>, best: &Best<S>, meeting: &Meeting<S>, on: M<S>, weight: F3<S>) {
         let d = packet.direction;
         let geometric = mirrored(d, meeting.settled.normal);
-        let direction = match meeting.settled.shading {
-            None => geometric,
-            Some(shading) => {
-                let smooth = mirrored(d, shading);
-                let above = F::splat(self.s, 0.0).less(narrow3(smooth).dot(meeting.normal));
-                pick3(above, smooth, geometric)
-            }
+        let direction = if meeting.settled.smooth {
+            let smooth = mirrored(d, meeting.settled.shading);
+            let above = F::splat(self.s, 0.0).less(narrow3(smooth).dot(meeting.normal));
+            pick3(above, smooth, geometric)
+        } else {
+            geometric
         };
         let leaving = Leaving {
             origin: meeting.settled.point,

@@ -28,7 +28,7 @@ use crate::numeric::PLAN_MARGIN;
 use crate::{Stats, Tile};
 use batch::{Batch, Found};
 use packet::Primary;
-use plan::{Seen, Shapes};
+use plan::{Place, Seen, Shapes};
 use queue::Queue;
 use search::Best;
 
@@ -125,37 +125,54 @@ struct Tracer<'a, S: Simd> {
 }
 
 impl<S: Simd> Tracer<'_, S> {
-    /// Finds what the rays of a batch meet, then adds the light that arrives along them.
+    /// Finds what the rays of a batch meet, then adds the light that arrives along them. Where it is known beforehand
+    /// where the points lie, both at once.
     #[inline(always)]
     fn trace(&mut self, batch: &impl Batch<S>, shapes: &Shapes, radiance: &mut [Vec<f32>; 3], depth: u32) {
         self.found.make_room(batch.rays());
-        let mut seen = Seen::nothing(self.s);
+        match shapes.filled {
+            Some(place) => self.plan_shadows(&[place]),
+            None => self.find(batch, shapes),
+        }
         let mut rays = 0;
         for at in (0..batch.rays()).step_by(F::<S>::LANES) {
-            let packet = batch.packet(self.s, at);
+            let (packet, best) = if shapes.filled.is_some() {
+                let packet = batch.packet(self.s, at, None);
+                let best = self.nearest(&packet, shapes);
+                best.store(self.found, at);
+                (packet, best)
+            } else {
+                let known = F::load(self.s, &self.found.inverse_length[at..]);
+                (batch.packet(self.s, at, Some(known)), Best::found(self.s, self.found, at))
+            };
             rays += packet.live.count();
-            let best = self.nearest(&packet, shapes);
-            best.t.store(&mut self.found.t[at..]);
-            best.prim.store(&mut self.found.prim[at..]);
-            best.facet.store(&mut self.found.facet[at..]);
-            seen.add(&packet, &best);
-        }
-        *if depth == 0 { &mut self.stats.rays.primary } else { &mut self.stats.rays.reflection } += rays;
-        self.plan_shadows(&seen);
-        for at in (0..batch.rays()).step_by(F::<S>::LANES) {
-            let packet = batch.packet(self.s, at);
-            let best = Best::found(self.s, self.found, at);
             let light = self.gather(&packet, &best, depth);
             batch.add(self.s, at, &packet, light, radiance);
         }
+        *if depth == 0 { &mut self.stats.rays.primary } else { &mut self.stats.rays.reflection } += rays;
     }
 
-    /// Finds out for every light what may stand between it and what has been seen.
-    fn plan_shadows(&mut self, seen: &Seen<S>) {
+    /// Finds what the rays of a batch meet, and what may stand between that and the lights.
+    #[inline(always)]
+    fn find(&mut self, batch: &impl Batch<S>, shapes: &Shapes) {
+        let mut seen = Seen::nothing(self.s);
+        for at in (0..batch.rays()).step_by(F::<S>::LANES) {
+            let packet = batch.packet(self.s, at, None);
+            let best = self.nearest(&packet, shapes);
+            best.store(self.found, at);
+            packet.inverse_length.store(&mut self.found.inverse_length[at..]);
+            seen.add(&packet, &best);
+        }
+        let places: Vec<Place> = seen.places().collect();
+        self.plan_shadows(&places);
+    }
+
+    /// Finds out for every light what may stand between it and the places that a batch shows.
+    fn plan_shadows(&mut self, places: &[Place]) {
         let snapshot = self.frame.snapshot;
         for (shapes, light) in self.between.iter_mut().zip(snapshot.light_rows()) {
             if self.frame.view.skip.shafts {
-                shapes.between(snapshot.columns(), seen, light, self.outside);
+                shapes.between(snapshot.columns(), places, light, self.outside);
             } else {
                 shapes.all(snapshot.columns());
             }

@@ -73,11 +73,19 @@ impl<S: Simd> Left<S> {
     }
 }
 
-/// Rays as kernels see them, and 1 over the length of each direction.
+/// Rays as kernels see them, and 1 over the length of each direction, unless that is known.
 #[inline(always)]
-pub(super) fn kernel_rays<S: Simd>(s: S, origin: D3<S>, direction: D3<S>) -> (Rays<S>, F<S>) {
+pub(super) fn kernel_rays<S: Simd>(
+    s: S,
+    origin: D3<S>,
+    direction: D3<S>,
+    inverse_length: Option<F<S>>,
+) -> (Rays<S>, F<S>) {
     let (origin, direction) = (narrow3(origin), narrow3(direction));
-    let inverse_length = F::splat(s, 1.0) / direction.dot(direction).sqrt();
+    let inverse_length = match inverse_length {
+        Some(known) => known,
+        None => F::splat(s, 1.0) / direction.dot(direction).sqrt(),
+    };
     let rays = Rays { origin, direction: direction.scale(inverse_length), reach: magnitude(origin) };
     (rays, inverse_length)
 }
@@ -98,9 +106,10 @@ pub(super) struct Primary<S: Simd> {
     /// Whether pixels hold nothing yet.
     pub(super) fresh: bool,
     weight: F3<S>,
-    /// 0, 1, 2 …
-    counted: U<S>,
 }
+
+/// The lanes' numbers.
+static COUNTED: [u32; BLOCK_PIXELS] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 impl<S: Simd> Primary<S> {
     /// For the sample at a column and row of the grid within each pixel.
@@ -132,14 +141,13 @@ impl<S: Simd> Primary<S> {
             pixels: tile.depth.len(),
             fresh: (column, row) == (0, 0),
             weight: F3::splat(F::splat(s, 1.0)),
-            counted: U::load(s, &std::array::from_fn::<u32, BLOCK_PIXELS, _>(|lane| lane as u32)),
         }
     }
 
     /// The packet at a place in the tile's columns. Its rays are those of [`Raster::ray`](catoptra_core::Raster::ray),
     /// bit for bit.
     #[inline(always)]
-    pub(super) fn packet_at(&self, s: S, at: u32) -> Packet<S> {
+    pub(super) fn packet_at(&self, s: S, at: u32, inverse_length: Option<F<S>>) -> Packet<S> {
         let (block, part) = (at / BLOCK_PIXELS as u32, at % BLOCK_PIXELS as u32 / F::<S>::LANES as u32);
         let blocks_across = self.width.div_ceil(BLOCK);
         let (x, y) = (block % blocks_across * BLOCK, block / blocks_across * BLOCK);
@@ -147,14 +155,14 @@ impl<S: Simd> Primary<S> {
         let columns = columns + D::splat(s, f64::from(self.left + x));
         let rows = rows + D::splat(s, f64::from(self.top + y));
         let direction = self.across.scale_add(columns, self.down.scale_add(rows, self.corner));
-        let (rays, inverse_length) = kernel_rays(s, self.eye, direction);
+        let (rays, inverse_length) = kernel_rays(s, self.eye, direction, inverse_length);
         Packet {
             origin: self.eye,
             direction,
             rays,
             inverse_length,
             weight: self.weight,
-            pixel: self.counted.plus(at),
+            pixel: U::load(s, &COUNTED).plus(at),
             left: Left::nothing(s),
             live: inside(s, self.width - x, self.height - y, part),
         }

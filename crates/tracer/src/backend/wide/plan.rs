@@ -20,6 +20,8 @@ pub(super) struct Shapes {
     pub(super) planes: Vec<u32>,
     pub(super) bounded: Vec<u32>,
     pub(super) tree: bool,
+    /// Where all points lie, where that is known beforehand: one plane fills the tile.
+    pub(super) filled: Option<Place>,
 }
 
 impl Shapes {
@@ -32,6 +34,7 @@ impl Shapes {
     ) {
         self.planes.clear();
         self.bounded.clear();
+        self.filled = None;
         let planes = columns.planes.iter().enumerate();
         self.planes.extend(planes.filter(|(i, row)| plane(*i, row)).map(|(i, _)| i as u32));
         let balls = columns.bounded.iter().zip(&columns.balls);
@@ -70,17 +73,15 @@ impl Shapes {
             !(w.iter().all(|w| *w < 0.0) || nearness.iter().any(|other| hides(other, w)))
         };
         self.keep(columns, visible, |_, ball| window.may_show(ball));
+        if let ([plane], [], false, []) =
+            (&*self.planes, &*self.bounded, self.tree, &*columns.general_unbounded)
+        {
+            self.filled = window.filled_by(&columns.planes[*plane as usize]);
+        }
     }
 
     /// Shapes that may stand between what has been seen and a light.
-    pub(super) fn between<S: Simd>(
-        &mut self,
-        columns: &Columns,
-        seen: &Seen<S>,
-        light: &LightRow,
-        convex: bool,
-    ) {
-        let places: Vec<Place> = seen.places().collect();
+    pub(super) fn between(&mut self, columns: &Columns, places: &[Place], light: &LightRow, convex: bool) {
         let crosses = |i: usize, row: &PlaneRow| {
             light.behind[i] != 0.0 && places.iter().any(|place| place.may_lie_beyond(row, light.behind[i]))
         };
@@ -123,6 +124,17 @@ impl Window {
     fn nearness(&self, row: &PlaneRow) -> [f64; 4] {
         let behind = row.distance - row.normal.dot(self.eye);
         self.corners.map(|d| row.normal.dot(d) / behind)
+    }
+
+    /// Where the points of a plane lie that fills the whole window; `None` where it does not for certain.
+    fn filled_by(&self, row: &PlaneRow) -> Option<Place> {
+        let nearness = self.nearness(row);
+        let margin = PLAN_MARGIN * nearness.iter().fold(0.0, |m, w| w.abs().max(m));
+        if !nearness.iter().all(|w| *w > margin && w.is_finite()) {
+            return None;
+        }
+        let points = std::array::from_fn::<_, 4, _>(|i| self.eye + self.corners[i] / nearness[i]);
+        Some(Place::new(row.prim, Aabb::of(points)))
     }
 
     /// Whether a ball may be seen.
@@ -189,7 +201,8 @@ impl<S: Simd> Seen<S> {
         *high = F3::new(high.x.max(q.x), high.y.max(q.y), high.z.max(q.z));
     }
 
-    fn places(&self) -> impl Iterator<Item = Place> + '_ {
+    /// Where the points lie, shape by shape.
+    pub(super) fn places(&self) -> impl Iterator<Item = Place> + '_ {
         (0..self.count).map(|at| {
             let (low, high) = (&self.low[at], &self.high[at]);
             let min =
@@ -206,7 +219,8 @@ fn extreme<S: Simd>(lanes: F<S>, pick: impl Fn(f64, f64) -> f64) -> f64 {
 }
 
 /// Where the points lie that a tile shows of one shape.
-struct Place {
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
     prim: u32,
     center: DVec3,
     half: DVec3,

@@ -78,9 +78,9 @@ impl Queue {
 
     /// The packet that starts with ray `at`.
     #[inline(always)]
-    pub(super) fn packet_at<S: Simd>(&self, s: S, at: usize) -> Packet<S> {
+    pub(super) fn packet_at<S: Simd>(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<S> {
         let (origin, direction) = (wide(s, &self.origin, at), wide(s, &self.direction, at));
-        let (rays, inverse_length) = kernel_rays(s, origin, direction);
+        let (rays, inverse_length) = kernel_rays(s, origin, direction, inverse_length);
         let lanes = F::<S>::LANES;
         let left = self.length - at;
         let bits = if left >= lanes { u64::MAX >> (64 - lanes) } else { (1 << left) - 1 };

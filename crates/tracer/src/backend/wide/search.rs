@@ -50,6 +50,14 @@ impl<S: Simd> Best<S> {
         }
     }
 
+    /// Keeps it for later.
+    #[inline(always)]
+    pub(super) fn store(&self, found: &mut Found, at: usize) {
+        self.t.store(&mut found.t[at..]);
+        self.prim.store(&mut found.prim[at..]);
+        self.facet.store(&mut found.facet[at..]);
+    }
+
     /// Lanes that meet something.
     #[inline(always)]
     pub(super) fn hits(&self) -> M<S> {

@@ -10,7 +10,7 @@ use fearless_simd::Simd;
 use super::Tracer;
 use super::packet::Packet;
 use super::search::Best;
-use crate::kernel::{cross, rounded};
+use crate::kernel::{PlaneRow, cross};
 use crate::lanes::{D, D3, F, F3, M, narrow3, pick3, splat_wide, splat3};
 use crate::snapshot::{Instance, Row};
 
@@ -23,8 +23,10 @@ pub(super) struct Settled<S: Simd> {
     pub(super) normal: D3<S>,
     /// The same, rounded.
     pub(super) normal32: F3<S>,
-    /// To shade with, of unit length; `None` where the geometric one does for all lanes.
-    pub(super) shading: Option<D3<S>>,
+    /// To shade with, of unit length.
+    pub(super) shading: D3<S>,
+    /// Whether any lane shades with another normal than the geometric one.
+    pub(super) smooth: bool,
 }
 
 impl<S: Simd> Tracer<'_, S> {
@@ -35,7 +37,7 @@ impl<S: Simd> Tracer<'_, S> {
         match columns.rows[prim as usize] {
             Row::Plane(row) => {
                 let plane = &columns.planes[row as usize];
-                self.settle_flat(packet, best, plane.normal, plane.distance)
+                self.settle_flat(packet, best, plane)
             }
             Row::Sphere(row) => {
                 let sphere = &columns.spheres[row as usize];
@@ -65,7 +67,7 @@ impl<S: Simd> Tracer<'_, S> {
         match row {
             Row::Rectangle(row) => {
                 let plane = &columns.rectangles[row as usize].plane;
-                self.settle_flat(packet, best, plane.normal, plane.distance)
+                self.settle_flat(packet, best, plane)
             }
             Row::Triangles(first, _) => {
                 let mut corners = LaneTriples::default();
@@ -81,19 +83,13 @@ impl<S: Simd> Tracer<'_, S> {
     }
 
     #[inline(always)]
-    fn settle_flat(
-        &mut self,
-        packet: &Packet<S>,
-        best: &Best<S>,
-        normal: DVec3,
-        distance: f64,
-    ) -> Settled<S> {
-        let normal32 = splat3(self.s, rounded(normal));
-        let normal = splat_wide(self.s, normal);
+    fn settle_flat(&mut self, packet: &Packet<S>, best: &Best<S>, plane: &PlaneRow) -> Settled<S> {
+        let normal32 = splat3(self.s, plane.normal32);
+        let normal = splat_wide(self.s, plane.normal);
         let near = self.near(packet, best);
-        let off = normal.dot(near) - D::splat(self.s, distance);
+        let off = normal.dot(near) - D::splat(self.s, plane.distance);
         let point = self.step(packet, near, off.narrow(), normal32.dot(packet.rays.direction));
-        Settled { point, normal, normal32, shading: None }
+        Settled { point, normal, normal32, shading: normal, smooth: false }
     }
 
     #[inline(always)]
@@ -111,7 +107,7 @@ impl<S: Simd> Tracer<'_, S> {
         let slope = narrow3(from).dot(packet.rays.direction);
         let point = self.step(packet, near, off.narrow(), slope + slope);
         let normal = (point - center).scale(D::splat(self.s, 1.0 / radius));
-        Settled { point, normal, normal32: narrow3(normal), shading: None }
+        Settled { point, normal, normal32: narrow3(normal), shading: normal, smooth: false }
     }
 
     /// The points at the distances that `f32` has found.
@@ -136,7 +132,7 @@ impl<S: Simd> Tracer<'_, S> {
         let near = self.near(packet, best);
         let off = normal.dot(near - a);
         let point = self.step(packet, near, off.narrow(), normal32.dot(packet.rays.direction));
-        Settled { point, normal, normal32, shading: None }
+        Settled { point, normal, normal32, shading: normal, smooth: false }
     }
 
     #[inline(always)]
@@ -219,7 +215,7 @@ impl LaneVectors {
     #[inline(always)]
     fn settled<S: Simd>(&self, s: S) -> Settled<S> {
         let [point, normal, shading] = [self.0.get(s, 0), self.0.get(s, 1), self.0.get(s, 2)];
-        Settled { point, normal, normal32: narrow3(normal), shading: Some(shading) }
+        Settled { point, normal, normal32: narrow3(normal), shading, smooth: true }
     }
 }
 
@@ -240,15 +236,12 @@ impl<S: Simd> Settled<S> {
     /// This one where the mask holds, else the other.
     #[inline(always)]
     pub(super) fn over(self, mask: M<S>, other: Self) -> Self {
-        let shading = match (self.shading, other.shading) {
-            (None, None) => None,
-            (a, b) => Some(pick3(mask, a.unwrap_or(self.normal), b.unwrap_or(other.normal))),
-        };
         Self {
             point: pick3(mask, self.point, other.point),
             normal: pick3(mask, self.normal, other.normal),
             normal32: F3::select(mask, self.normal32, other.normal32),
-            shading,
+            shading: pick3(mask, self.shading, other.shading),
+            smooth: self.smooth || other.smooth,
         }
     }
 }
