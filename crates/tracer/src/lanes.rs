@@ -277,12 +277,6 @@ impl<S: Simd> D<S> {
     }
 
     #[inline(always)]
-    pub(crate) fn lane(self, lane: usize) -> f64 {
-        let half = S::f64s::LEN;
-        if lane < half { self.lower.as_slice()[lane] } else { self.upper.as_slice()[lane - half] }
-    }
-
-    #[inline(always)]
     pub(crate) fn abs(self) -> Self {
         Self { lower: self.lower.abs(), upper: self.upper.abs() }
     }
@@ -420,10 +414,10 @@ pub(crate) fn narrow3<S: Simd>(v: D3<S>) -> F3<S> {
     Triple::new(v.x.narrow(), v.y.narrow(), v.z.narrow())
 }
 
-/// The vector in one lane.
+/// In `f64`, exactly.
 #[inline(always)]
-pub(crate) fn lane3<S: Simd>(v: D3<S>, lane: usize) -> DVec3 {
-    DVec3::new(v.x.lane(lane), v.y.lane(lane), v.z.lane(lane))
+pub(crate) fn widen3<S: Simd>(v: F3<S>) -> D3<S> {
+    Triple::new(v.x.widen(), v.y.widen(), v.z.widen())
 }
 
 /// `if_true` where the mask holds, else `if_false`.

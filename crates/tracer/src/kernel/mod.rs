@@ -13,7 +13,7 @@ use catoptra_core::{Arithmetic, Lane, Ray, Span, Triple};
 use fearless_simd::Simd;
 
 use crate::integrator::LIGHT_ITSELF;
-use crate::lanes::{D3, F, F3, M, splat_wide};
+use crate::lanes::{F, F3, M};
 
 pub(crate) use plane::PlaneRow;
 pub(crate) use rectangle::RectangleRow;
@@ -72,13 +72,6 @@ impl<S: Simd> Target<S> {
         } else {
             (Ray::new(point, self.place - point), LIGHT_ITSELF)
         }
-    }
-
-    /// Directions from points to the light, and 1 over their lengths.
-    #[inline(always)]
-    pub(crate) fn directions(&self, s: S, from: D3<S>) -> (D3<S>, F<S>) {
-        let (place, one) = (splat_wide(s, self.place), F::splat(s, 1.0));
-        if self.at_infinity { (place, one) } else { (place - from, one / self.distance) }
     }
 }
 

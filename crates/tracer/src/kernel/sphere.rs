@@ -13,7 +13,8 @@ use crate::numeric::POINT_ERROR;
 pub(crate) struct SphereRow {
     pub(crate) center: DVec3,
     pub(crate) radius: f64,
-    center32: [f32; 3],
+    pub(crate) center32: [f32; 3],
+    pub(crate) inverse_radius: f32,
     radius32: f32,
     reach: f32,
 }
@@ -38,6 +39,7 @@ impl SphereRow {
             center,
             radius,
             center32: rounded(center),
+            inverse_radius: (1.0 / radius) as f32,
             radius32: radius as f32,
             reach: magnitude_of(center) + (radius as f32).next_up(),
         }

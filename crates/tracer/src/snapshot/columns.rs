@@ -82,6 +82,8 @@ pub(crate) struct Columns {
     pub(crate) bounded: Vec<u32>,
     /// A ball round each of them, in the same order.
     pub(crate) balls: Vec<Ball>,
+    /// Whether any shape shades with another normal than its geometric one.
+    pub(crate) smooth: bool,
     /// Shapes without an end that have no kernel.
     pub(crate) general_unbounded: Vec<u32>,
 }
@@ -93,6 +95,10 @@ impl Columns {
         for (prim, id) in prims.iter().zip(0..) {
             let row = columns.add(prim, id, meshes);
             columns.rows.push(row);
+            columns.smooth |= match row {
+                Row::Instance(_) => prim.mesh.is_some_and(|m| meshes[m as usize].mesh().normals().is_some()),
+                row => row == Row::General,
+            };
             if row == Row::General && prim.shape.bounds().is_none() {
                 columns.general_unbounded.push(id);
             }

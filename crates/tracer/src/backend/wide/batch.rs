@@ -13,10 +13,10 @@ pub(super) trait Batch<S: Simd> {
     fn rays(&self) -> usize;
 
     /// The packet that starts with ray `at`; its inverse lengths, if they are known from before.
-    fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<S>;
+    fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S>;
 
     /// Adds the light of the packet that starts with ray `at` to its pixels.
-    fn add(&self, s: S, at: usize, packet: &Packet<S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]);
+    fn add(&self, s: S, at: usize, packet: &Packet<'_, S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]);
 }
 
 impl<S: Simd> Batch<S> for Primary<S> {
@@ -26,12 +26,12 @@ impl<S: Simd> Batch<S> for Primary<S> {
     }
 
     #[inline(always)]
-    fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<S> {
-        self.packet_at(s, at as u32, inverse_length)
+    fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S> {
+        self.packet_at(s, at, inverse_length)
     }
 
     #[inline(always)]
-    fn add(&self, s: S, at: usize, _: &Packet<S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]) {
+    fn add(&self, s: S, at: usize, _: &Packet<'_, S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]) {
         for (pixels, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
             let pixels = &mut pixels[at..];
             let light = if self.fresh { light } else { F::load(s, pixels) + light };
@@ -40,20 +40,20 @@ impl<S: Simd> Batch<S> for Primary<S> {
     }
 }
 
-impl<S: Simd> Batch<S> for &Queue {
+impl<S: Simd> Batch<S> for Queue {
     #[inline(always)]
     fn rays(&self) -> usize {
         self.len().next_multiple_of(F::<S>::LANES)
     }
 
     #[inline(always)]
-    fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<S> {
+    fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S> {
         self.packet_at(s, at, inverse_length)
     }
 
     /// No pixel has two rays in a stream.
     #[inline(always)]
-    fn add(&self, _: S, _: usize, packet: &Packet<S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]) {
+    fn add(&self, _: S, _: usize, packet: &Packet<'_, S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]) {
         for lane in packet.live.lanes() {
             let pixel = packet.pixel.lane(lane) as usize;
             for (pixels, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
@@ -67,6 +67,8 @@ impl<S: Simd> Batch<S> for &Queue {
 #[derive(Default)]
 pub(super) struct Found {
     pub(super) t: Vec<f32>,
+    /// Bound on the error of `t`.
+    pub(super) error: Vec<f32>,
     /// 1 over the length of each ray's direction.
     pub(super) inverse_length: Vec<f32>,
     pub(super) prim: Vec<u32>,
@@ -78,6 +80,7 @@ impl Found {
     pub(super) fn make_room(&mut self, rays: usize) {
         if self.t.len() < rays {
             self.t.resize(rays, 0.0);
+            self.error.resize(rays, 0.0);
             self.inverse_length.resize(rays, 0.0);
             self.prim.resize(rays, 0);
             self.facet.resize(rays, 0);

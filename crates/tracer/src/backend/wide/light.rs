@@ -1,21 +1,28 @@
 //! What lights make the lanes of a packet show, and which ways to them are asked about.
 
-use catoptra_core::{Arrival, Lane, LaneMask, Triple};
+use catoptra_core::{Arithmetic, Arrival, Lane, LaneMask, Triple};
 use fearless_simd::Simd;
 
 use super::Tracer;
 use super::meet::Meeting;
-use super::packet::Left;
+use super::packet::{Left, Packet};
 use super::search::Best;
 use super::settle::Groups;
 use super::shadow::Ways;
 use crate::kernel::{Rays, Target, magnitude};
 use crate::lanes::{F, F3, M};
+use crate::numeric::POINT_ERROR;
 
 impl<S: Simd> Tracer<'_, S> {
     /// The surfaces' own look, in the share that is not reflected.
     #[inline(always)]
-    pub(super) fn local(&mut self, best: &Best<S>, meeting: &Meeting<S>, groups: &Groups) -> F3<S> {
+    pub(super) fn local(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        meeting: &Meeting<S>,
+        groups: &Groups,
+    ) -> F3<S> {
         let snapshot = self.frame.snapshot;
         let mut shown = super::dark(self.s);
         let mut lit = M::splat(self.s, false);
@@ -36,7 +43,7 @@ impl<S: Simd> Tracer<'_, S> {
         self.stats.skipped.unlit_material += (meeting.hits & !lit).count() * lights.len() as u64;
         if lit.any() {
             for light in 0..lights.len() {
-                shown = self.add_light(best, meeting, groups, lit, light, shown);
+                shown = self.add_light((packet, best), meeting, groups, lit, light, shown);
             }
         }
         self.keep_unreflected(groups, shown)
@@ -60,7 +67,7 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     fn add_light(
         &mut self,
-        best: &Best<S>,
+        (packet, best): (&Packet<'_, S>, &Best<S>),
         meeting: &Meeting<S>,
         groups: &Groups,
         lit: M<S>,
@@ -74,7 +81,7 @@ impl<S: Simd> Tracer<'_, S> {
         self.stats.skipped.out_of_cone += (lit & !arrival.lit).count();
         let cosine = arrival.towards.dot(meeting.shading.normal);
         let mut facing = in_cone & zero.less(cosine);
-        if meeting.settled.smooth {
+        if self.frame.snapshot.columns().smooth {
             facing = facing & zero.less(arrival.towards.dot(meeting.normal));
         }
         self.stats.skipped.facing_away += (in_cone & !facing).count();
@@ -90,7 +97,7 @@ impl<S: Simd> Tracer<'_, S> {
             facing
         } else {
             self.stats.rays.shadow += facing.count();
-            facing & !self.shadowed(best, meeting, facing, light, &arrival)
+            facing & !self.shadowed((packet, best), meeting, facing, light, &arrival)
         };
         if !reached.any() {
             return shown;
@@ -112,7 +119,7 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     fn shadowed(
         &mut self,
-        best: &Best<S>,
+        (packet, best): (&Packet<'_, S>, &Best<S>),
         meeting: &Meeting<S>,
         facing: M<S>,
         light: usize,
@@ -120,16 +127,18 @@ impl<S: Simd> Tracer<'_, S> {
     ) -> M<S> {
         let row = &self.frame.snapshot.light_rows()[light];
         let ways = Ways {
-            point: meeting.settled.point,
             rays: Rays {
                 origin: meeting.point,
                 direction: arrival.towards,
-                reach: magnitude(meeting.point) + F::splat(self.s, row.reach),
+                reach: best.error.mul_add(
+                    F::splat(self.s, 1.0 / POINT_ERROR),
+                    magnitude(meeting.point) + F::splat(self.s, row.reach),
+                ),
             },
             left: Left { prim: best.prim, facet: best.facet, any: true },
             live: facing,
             target: Target { distance: arrival.distance, place: row.place, at_infinity: row.at_infinity },
         };
-        self.blocked(&ways, light)
+        self.blocked(packet, &ways, light)
     }
 }

@@ -14,10 +14,9 @@ use crate::lanes::{D3, F, F3, M, narrow3, pick3};
 pub(super) struct Meeting<S: Simd> {
     /// Which lanes.
     pub(super) hits: M<S>,
-    pub(super) settled: Settled<S>,
     /// Geometric unit normal on the viewer's side.
     pub(super) normal: F3<S>,
-    /// Points relative to the snapshot's origin, rounded.
+    /// Points relative to the snapshot's origin.
     pub(super) point: F3<S>,
     pub(super) shading: ShadingPoint<F<S>>,
 }
@@ -25,7 +24,7 @@ pub(super) struct Meeting<S: Simd> {
 impl<S: Simd> Tracer<'_, S> {
     /// The weighted light of every lane; rays that go on are queued.
     #[inline(always)]
-    pub(super) fn gather(&mut self, packet: &Packet<S>, best: &Best<S>, depth: u32) -> F3<S> {
+    pub(super) fn gather(&mut self, packet: &Packet<'_, S>, best: &Best<S>, depth: u32) -> F3<S> {
         let hits = best.hits() & packet.live;
         let sky = F3::of(best.t, self.frame.snapshot.background_light()).times(packet.weight);
         if !hits.any() {
@@ -34,65 +33,52 @@ impl<S: Simd> Tracer<'_, S> {
         // Apart from the meeting, so that the compiler may keep that in registers.
         let mut groups = Groups::new();
         let meeting = self.meet(packet, best, hits, &mut groups);
-        let local = self.local(best, &meeting, &groups);
+        let local = self.local(packet, best, &meeting, &groups);
         self.send_on(packet, best, &meeting, &groups, depth);
         let shown = local.times(packet.weight);
         F3::select(hits, shown, F3::select(packet.live, sky, dark(self.s)))
     }
 
-    /// Settles all lanes, shape by shape.
+    /// The surfaces that the lanes have met, shape by shape.
     #[inline(always)]
-    fn meet(&mut self, packet: &Packet<S>, best: &Best<S>, hits: M<S>, groups: &mut Groups) -> Meeting<S> {
+    fn meet(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        hits: M<S>,
+        groups: &mut Groups,
+    ) -> Meeting<S> {
         let snapshot = self.frame.snapshot;
         let mut left = hits.bits();
         let prim = best.prim.lane(left.trailing_zeros() as usize);
         let mut mask = hits & best.prim.is(prim);
         groups.add(mask.bits(), snapshot.prims()[prim as usize].material);
-        let mut settled = self.settle(packet, best, mask, prim);
+        let mut surface = self.surface(packet, best, mask, prim);
         left &= !mask.bits();
         while left != 0 {
             let prim = best.prim.lane(left.trailing_zeros() as usize);
             mask = hits & best.prim.is(prim);
             groups.add(mask.bits(), snapshot.prims()[prim as usize].material);
-            settled = self.settle_more(packet, best, mask, prim, settled);
+            surface = self.surface_too(packet, best, mask, prim, surface);
             left &= !mask.bits();
         }
-        let rays = &packet.rays;
-        let away = F::splat(self.s, 0.0).less(settled.normal32.dot(rays.direction));
-        let normal = turned(away, settled.normal32);
-        let point = narrow3(settled.point);
-        let d = rays.direction;
+        let d = packet.rays.direction;
+        let away = F::splat(self.s, 0.0).less(surface.normal.dot(d));
+        let normal = turned(away, surface.normal);
         let shading = ShadingPoint {
-            position: point + F3::of(best.t, snapshot.origin_constant()),
-            normal: if settled.smooth { turned(away, narrow3(settled.shading)) } else { normal },
+            position: surface.point + F3::of(best.t, snapshot.origin_constant()),
+            normal: turned(away, surface.shading),
             to_viewer: F3::new(-d.x, -d.y, -d.z),
             distance: best.t,
         };
-        Meeting { hits, settled, normal, point, shading }
-    }
-
-    /// Settles the lanes on another shape. Compiled apart: most packets meet one shape.
-    #[inline(always)]
-    fn settle_more(
-        &mut self,
-        packet: &Packet<S>,
-        best: &Best<S>,
-        mask: M<S>,
-        prim: u32,
-        before: Settled<S>,
-    ) -> Settled<S> {
-        let (packet, best) = (*packet, *best);
-        self.s.vectorize(
-            #[inline(always)]
-            || self.settle(&packet, &best, mask, prim).over(mask, before),
-        )
+        Meeting { hits, normal, point: surface.point, shading }
     }
 
     /// Queues the rays of lanes whose surfaces reflect.
     #[inline(always)]
     fn send_on(
         &mut self,
-        packet: &Packet<S>,
+        packet: &Packet<'_, S>,
         best: &Best<S>,
         meeting: &Meeting<S>,
         groups: &Groups,
@@ -127,19 +113,28 @@ impl<S: Simd> Tracer<'_, S> {
         }
     }
 
+    /// Queues the mirrored rays of the lanes of `on`, from their points in `f64`.
     #[inline(always)]
-    fn reflect(&mut self, packet: &Packet<S>, best: &Best<S>, meeting: &Meeting<S>, on: M<S>, weight: F3<S>) {
-        let d = packet.direction;
-        let geometric = mirrored(d, meeting.settled.normal);
-        let direction = if meeting.settled.smooth {
-            let smooth = mirrored(d, meeting.settled.shading);
+    fn reflect(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        meeting: &Meeting<S>,
+        on: M<S>,
+        weight: F3<S>,
+    ) {
+        let settled = self.settle_every(packet, best, on);
+        let (_, d) = packet.precise(self.s);
+        let geometric = mirrored(d, settled.normal);
+        let direction = if self.frame.snapshot.columns().smooth {
+            let smooth = mirrored(d, settled.shading);
             let above = F::splat(self.s, 0.0).less(narrow3(smooth).dot(meeting.normal));
             pick3(above, smooth, geometric)
         } else {
             geometric
         };
         let leaving = Leaving {
-            origin: meeting.settled.point,
+            origin: settled.point,
             direction,
             weight,
             pixel: packet.pixel,
@@ -147,6 +142,40 @@ impl<S: Simd> Tracer<'_, S> {
             facet: best.facet,
         };
         self.next.push(on, &leaving);
+    }
+
+    /// Settles lanes, shape by shape.
+    #[inline(always)]
+    fn settle_every(&mut self, packet: &Packet<'_, S>, best: &Best<S>, lanes: M<S>) -> Settled<S> {
+        let mut left = lanes.bits();
+        let prim = best.prim.lane(left.trailing_zeros() as usize);
+        let mut mask = lanes & best.prim.is(prim);
+        let mut settled = self.settle(packet, best, mask, prim);
+        left &= !mask.bits();
+        while left != 0 {
+            let prim = best.prim.lane(left.trailing_zeros() as usize);
+            mask = lanes & best.prim.is(prim);
+            settled = self.settle_too(packet, best, mask, prim, settled);
+            left &= !mask.bits();
+        }
+        settled
+    }
+
+    /// Settles the lanes on another shape. Compiled apart: most packets meet one shape.
+    #[inline(always)]
+    fn settle_too(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        mask: M<S>,
+        prim: u32,
+        before: Settled<S>,
+    ) -> Settled<S> {
+        let (packet, best) = (*packet, *best);
+        self.s.vectorize(
+            #[inline(always)]
+            || self.settle(&packet, &best, mask, prim).over(mask, before),
+        )
     }
 }
 

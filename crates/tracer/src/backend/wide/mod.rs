@@ -15,6 +15,7 @@ mod queue;
 mod search;
 mod settle;
 mod shadow;
+mod surface;
 mod walk;
 
 use std::cell::RefCell;
@@ -96,7 +97,7 @@ fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
             if current.len() == 0 {
                 break;
             }
-            tracer.trace(&&*current, first, &mut tile.radiance, depth);
+            tracer.trace(&*current, first, &mut tile.radiance, depth);
         }
     }
     tracer.finish(tile, grid);

@@ -1,21 +1,20 @@
 //! A packet of rays, and how the camera's packets are made.
 
-use catoptra_core::{Lane, Ray};
+use catoptra_core::{Lane, Raster, Ray};
 use fearless_simd::Simd;
 
+use super::queue::Queue;
 use crate::backend::Frame;
 use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING};
 use crate::kernel::{Rays, magnitude};
-use crate::lanes::{D, D3, F, F3, M, U, lane3, narrow3, splat_wide};
+use crate::lanes::{D, D3, F, F3, M, U, narrow3, splat_wide};
 use crate::{Place, Tile};
 
 /// One ray in every lane.
 #[derive(Clone, Copy)]
-pub(super) struct Packet<S: Simd> {
-    /// Origins, relative to the snapshot's.
-    pub(super) origin: D3<S>,
-    /// Directions of any length.
-    pub(super) direction: D3<S>,
+pub(super) struct Packet<'a, S: Simd> {
+    /// The rays in `f64`.
+    pub(super) precise: Precise<'a, S>,
     /// The same rays as kernels see them.
     pub(super) rays: Rays<S>,
     /// 1 over the length of each direction.
@@ -30,16 +29,38 @@ pub(super) struct Packet<S: Simd> {
     pub(super) live: M<S>,
 }
 
-impl<S: Simd> Packet<S> {
+impl<S: Simd> Packet<'_, S> {
     /// The ray of a lane.
     pub(super) fn ray(&self, lane: usize) -> Ray {
-        Ray::new(lane3(self.origin, lane), lane3(self.direction, lane))
+        match self.precise {
+            Precise::Camera(primary, at) => primary.ray(at + lane),
+            Precise::Stream(queue, at) => queue.ray(at + lane),
+        }
     }
 
     /// The place that the ray of a lane leaves from.
     pub(super) fn leaving(&self, lane: usize) -> Option<Place> {
         self.left.lane(lane)
     }
+
+    /// Origins, relative to the snapshot's, and directions of any length.
+    #[inline(always)]
+    pub(super) fn precise(&self, s: S) -> (D3<S>, D3<S>) {
+        match self.precise {
+            Precise::Camera(primary, at) => (primary.eye, primary.directions(s, at)),
+            Precise::Stream(queue, at) => queue.precise(s, at),
+        }
+    }
+}
+
+/// Where the rays of a packet stand in `f64`. They are read anew where they are needed, so that they take no registers
+/// where they are not.
+#[derive(Clone, Copy)]
+pub(super) enum Precise<'a, S: Simd> {
+    /// Those of a tile's pixels from a place in its columns on.
+    Camera(&'a Primary<S>, usize),
+    /// Those of a stream from a place on.
+    Stream(&'a Queue, usize),
 }
 
 /// The places that the rays of a packet leave from.
@@ -98,6 +119,9 @@ pub(super) struct Primary<S: Simd> {
     down: D3<S>,
     /// Columns and rows of the lanes of each part of a block, in pixels from the block's corner.
     within: [(D<S>, D<S>); BLOCK_PIXELS / 4],
+    raster: Raster,
+    /// The sample's place within a pixel.
+    share: [f64; 2],
     left: u32,
     top: u32,
     width: u32,
@@ -134,6 +158,8 @@ impl<S: Simd> Primary<S> {
             across: splat_wide(s, raster.across),
             down: splat_wide(s, raster.down),
             within,
+            raster: *raster,
+            share: [share(column), share(row)],
             left: tile.x,
             top: tile.y,
             width: tile.width,
@@ -144,27 +170,48 @@ impl<S: Simd> Primary<S> {
         }
     }
 
-    /// The packet at a place in the tile's columns. Its rays are those of [`Raster::ray`](catoptra_core::Raster::ray),
-    /// bit for bit.
+    /// Where the block and the part of it stand that a place in the tile's columns lies in.
     #[inline(always)]
-    pub(super) fn packet_at(&self, s: S, at: u32, inverse_length: Option<F<S>>) -> Packet<S> {
-        let (block, part) = (at / BLOCK_PIXELS as u32, at % BLOCK_PIXELS as u32 / F::<S>::LANES as u32);
+    fn corner_of(&self, at: usize) -> (u32, u32, usize) {
+        let (block, part) = (at as u32 / BLOCK_PIXELS as u32, at % BLOCK_PIXELS / F::<S>::LANES);
         let blocks_across = self.width.div_ceil(BLOCK);
-        let (x, y) = (block % blocks_across * BLOCK, block / blocks_across * BLOCK);
-        let (columns, rows) = self.within[part as usize];
+        (block % blocks_across * BLOCK, block / blocks_across * BLOCK, part)
+    }
+
+    /// Directions of the packet at a place in the tile's columns: those of [`Raster::ray`], bit for bit.
+    #[inline(always)]
+    pub(super) fn directions(&self, s: S, at: usize) -> D3<S> {
+        let (x, y, part) = self.corner_of(at);
+        let (columns, rows) = self.within[part];
         let columns = columns + D::splat(s, f64::from(self.left + x));
         let rows = rows + D::splat(s, f64::from(self.top + y));
-        let direction = self.across.scale_add(columns, self.down.scale_add(rows, self.corner));
-        let (rays, inverse_length) = kernel_rays(s, self.eye, direction, inverse_length);
+        self.across.scale_add(columns, self.down.scale_add(rows, self.corner))
+    }
+
+    /// The ray of the pixel at a place in the tile's columns.
+    fn ray(&self, at: usize) -> Ray {
+        let (x, y, _) = self.corner_of(at);
+        let within = at as u32 % BLOCK_PIXELS as u32;
+        let along = |first: u32, pixel: u32, share: f64| f64::from(first) + (f64::from(pixel) + share);
+        self.raster.ray(
+            along(self.left + x, within % BLOCK, self.share[0]),
+            along(self.top + y, within / BLOCK, self.share[1]),
+        )
+    }
+
+    /// The packet at a place in the tile's columns.
+    #[inline(always)]
+    pub(super) fn packet_at(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S> {
+        let (x, y, part) = self.corner_of(at);
+        let (rays, inverse_length) = kernel_rays(s, self.eye, self.directions(s, at), inverse_length);
         Packet {
-            origin: self.eye,
-            direction,
+            precise: Precise::Camera(self, at),
             rays,
             inverse_length,
             weight: self.weight,
-            pixel: U::load(s, &COUNTED).plus(at),
+            pixel: U::load(s, &COUNTED).plus(at as u32),
             left: Left::nothing(s),
-            live: inside(s, self.width - x, self.height - y, part),
+            live: inside(s, self.width - x, self.height - y, part as u32),
         }
     }
 }

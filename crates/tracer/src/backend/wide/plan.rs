@@ -166,7 +166,7 @@ impl<S: Simd> Seen<S> {
 
     /// Adds the points that a packet has met.
     #[inline(always)]
-    pub(super) fn add(&mut self, packet: &Packet<S>, best: &Best<S>) {
+    pub(super) fn add(&mut self, packet: &Packet<'_, S>, best: &Best<S>) {
         let hits = best.hits() & packet.live;
         let point = packet.rays.direction.scale_add(best.t, packet.rays.origin);
         let mut left = hits.bits();

@@ -1,10 +1,11 @@
 //! The rays of a stream, gathered lane by lane and handed out in full packets.
 
-use catoptra_core::Triple;
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Ray, Triple};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::packet::{Left, Packet, kernel_rays};
+use super::packet::{Left, Packet, Precise, kernel_rays};
 use crate::lanes::{D, D3, F, F3, M, U};
 
 /// Columns of rays; each has room for one more packet than there are rays.
@@ -76,17 +77,28 @@ impl Queue {
         self.length += mask.count() as usize;
     }
 
+    /// Origins and directions from ray `at` on.
+    #[inline(always)]
+    pub(super) fn precise<S: Simd>(&self, s: S, at: usize) -> (D3<S>, D3<S>) {
+        (wide(s, &self.origin, at), wide(s, &self.direction, at))
+    }
+
+    /// A ray.
+    pub(super) fn ray(&self, at: usize) -> Ray {
+        let vector = |[x, y, z]: &[Vec<f64>; 3]| DVec3::new(x[at], y[at], z[at]);
+        Ray::new(vector(&self.origin), vector(&self.direction))
+    }
+
     /// The packet that starts with ray `at`.
     #[inline(always)]
-    pub(super) fn packet_at<S: Simd>(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<S> {
-        let (origin, direction) = (wide(s, &self.origin, at), wide(s, &self.direction, at));
+    pub(super) fn packet_at<S: Simd>(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S> {
+        let (origin, direction) = self.precise(s, at);
         let (rays, inverse_length) = kernel_rays(s, origin, direction, inverse_length);
         let lanes = F::<S>::LANES;
         let left = self.length - at;
         let bits = if left >= lanes { u64::MAX >> (64 - lanes) } else { (1 << left) - 1 };
         Packet {
-            origin,
-            direction,
+            precise: Precise::Stream(self, at),
             rays,
             inverse_length,
             weight: narrow(s, &self.weight, at),

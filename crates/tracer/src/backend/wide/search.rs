@@ -39,12 +39,12 @@ impl<S: Simd> Best<S> {
         }
     }
 
-    /// What has been found before, without a bound on its error.
+    /// What has been found before.
     #[inline(always)]
     pub(super) fn found(s: S, found: &Found, at: usize) -> Self {
         Self {
             t: F::load(s, &found.t[at..]),
-            error: F::splat(s, 0.0),
+            error: F::load(s, &found.error[at..]),
             prim: U::load(s, &found.prim[at..]),
             facet: U::load(s, &found.facet[at..]),
         }
@@ -54,6 +54,7 @@ impl<S: Simd> Best<S> {
     #[inline(always)]
     pub(super) fn store(&self, found: &mut Found, at: usize) {
         self.t.store(&mut found.t[at..]);
+        self.error.store(&mut found.error[at..]);
         self.prim.store(&mut found.prim[at..]);
         self.facet.store(&mut found.facet[at..]);
     }
@@ -80,7 +81,7 @@ struct Doubtful<S: Simd> {
 impl<S: Simd> Tracer<'_, S> {
     /// What every ray meets first of the given shapes.
     #[inline(always)]
-    pub(super) fn nearest(&mut self, packet: &Packet<S>, shapes: &Shapes) -> Best<S> {
+    pub(super) fn nearest(&mut self, packet: &Packet<'_, S>, shapes: &Shapes) -> Best<S> {
         let columns = self.frame.snapshot.columns();
         let mut best = Best::nothing(self.s);
         for &row in &shapes.planes {
@@ -102,7 +103,7 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// Tests every ray against one bounded shape.
     #[inline(always)]
-    pub(super) fn try_prim(&mut self, packet: &Packet<S>, best: &mut Best<S>, prim: u32) {
+    pub(super) fn try_prim(&mut self, packet: &Packet<'_, S>, best: &mut Best<S>, prim: u32) {
         let columns = self.frame.snapshot.columns();
         if let Row::Sphere(row) = columns.rows[prim as usize] {
             let leaving = packet.left.from(self.s, prim, 0);
@@ -117,7 +118,7 @@ impl<S: Simd> Tracer<'_, S> {
     /// Tests every ray against one bounded shape that is no sphere. Compiled apart: copies of packet and best keep
     /// those of the common case in registers.
     #[inline(always)]
-    fn try_facets(&mut self, packet: &Packet<S>, best: Best<S>, prim: u32) -> Best<S> {
+    fn try_facets(&mut self, packet: &Packet<'_, S>, best: Best<S>, prim: u32) -> Best<S> {
         let (packet, mut best) = (*packet, best);
         self.s.vectorize(
             #[inline(always)]
@@ -127,7 +128,7 @@ impl<S: Simd> Tracer<'_, S> {
     }
 
     #[inline(always)]
-    fn try_each_facet(&mut self, packet: &Packet<S>, best: &mut Best<S>, prim: u32) {
+    fn try_each_facet(&mut self, packet: &Packet<'_, S>, best: &mut Best<S>, prim: u32) {
         let columns = self.frame.snapshot.columns();
         match columns.rows[prim as usize] {
             Row::Rectangle(row) => {
@@ -151,7 +152,7 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     pub(super) fn consider(
         &mut self,
-        packet: &Packet<S>,
+        packet: &Packet<'_, S>,
         best: &mut Best<S>,
         live: M<S>,
         place: (u32, u32),
@@ -165,7 +166,7 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     fn weigh(
         &mut self,
-        packet: &Packet<S>,
+        packet: &Packet<'_, S>,
         best: &mut Best<S>,
         allowed: M<S>,
         (prim, facet): (u32, u32),
@@ -196,7 +197,7 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// Decides in `f64` about a shape without a kernel.
     #[inline(always)]
-    fn settle_all(&mut self, packet: &Packet<S>, best: &mut Best<S>, lanes: M<S>, prim: u32) {
+    fn settle_all(&mut self, packet: &Packet<'_, S>, best: &mut Best<S>, lanes: M<S>, prim: u32) {
         let none = F::splat(self.s, 0.0);
         let doubtful = Doubtful { prim, facet: None, t: none, error: none, known: M::splat(self.s, false) };
         self.settle_lanes(packet, best, lanes, &doubtful);
@@ -205,7 +206,13 @@ impl<S: Simd> Tracer<'_, S> {
     /// Decides in `f64`, lane by lane, whether a shape is nearer than what has been found. Works on copies, so that
     /// packet and best may stay in registers.
     #[inline(always)]
-    fn settle_lanes(&mut self, packet: &Packet<S>, best: &mut Best<S>, lanes: M<S>, doubtful: &Doubtful<S>) {
+    fn settle_lanes(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &mut Best<S>,
+        lanes: M<S>,
+        doubtful: &Doubtful<S>,
+    ) {
         let (packet, mut copy, doubtful) = (*packet, *best, *doubtful);
         self.settle_each_lane(&packet, &mut copy, lanes.bits(), &doubtful);
         *best = copy;
@@ -215,7 +222,7 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(never)]
     fn settle_each_lane(
         &mut self,
-        packet: &Packet<S>,
+        packet: &Packet<'_, S>,
         best: &mut Best<S>,
         lanes: u64,
         doubtful: &Doubtful<S>,

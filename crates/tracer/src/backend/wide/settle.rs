@@ -11,28 +11,30 @@ use super::Tracer;
 use super::packet::Packet;
 use super::search::Best;
 use crate::kernel::{PlaneRow, cross};
-use crate::lanes::{D, D3, F, F3, M, narrow3, pick3, splat_wide, splat3};
+use crate::lanes::{D, D3, F, M, narrow3, pick3, splat_wide, splat3};
 use crate::snapshot::{Instance, Row};
 
-/// Points and normals of the lanes that meet something.
+/// Points and normals of the lanes that meet something, in `f64`.
 #[derive(Clone, Copy)]
 pub(super) struct Settled<S: Simd> {
     /// Relative to the snapshot's origin.
     pub(super) point: D3<S>,
     /// Geometric, of unit length, on the shape's outer side.
     pub(super) normal: D3<S>,
-    /// The same, rounded.
-    pub(super) normal32: F3<S>,
     /// To shade with, of unit length.
     pub(super) shading: D3<S>,
-    /// Whether any lane shades with another normal than the geometric one.
-    pub(super) smooth: bool,
 }
 
 impl<S: Simd> Tracer<'_, S> {
     /// Settles the lanes of `mask`, which all meet the shape `prim`.
     #[inline(always)]
-    pub(super) fn settle(&mut self, packet: &Packet<S>, best: &Best<S>, mask: M<S>, prim: u32) -> Settled<S> {
+    pub(super) fn settle(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        mask: M<S>,
+        prim: u32,
+    ) -> Settled<S> {
         let columns = self.frame.snapshot.columns();
         match columns.rows[prim as usize] {
             Row::Plane(row) => {
@@ -43,28 +45,6 @@ impl<S: Simd> Tracer<'_, S> {
                 let sphere = &columns.spheres[row as usize];
                 self.settle_sphere(packet, best, sphere.center, sphere.radius)
             }
-            row => {
-                // Compiled apart: copies keep the common case in registers.
-                let (packet, best) = (*packet, *best);
-                self.s.vectorize(
-                    #[inline(always)]
-                    || self.settle_facets(&packet, &best, mask, prim, row),
-                )
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn settle_facets(
-        &mut self,
-        packet: &Packet<S>,
-        best: &Best<S>,
-        mask: M<S>,
-        prim: u32,
-        row: Row,
-    ) -> Settled<S> {
-        let columns = self.frame.snapshot.columns();
-        match row {
             Row::Rectangle(row) => {
                 let plane = &columns.rectangles[row as usize].plane;
                 self.settle_flat(packet, best, plane)
@@ -78,24 +58,24 @@ impl<S: Simd> Tracer<'_, S> {
                 self.settle_triangles(packet, best, &corners)
             }
             Row::Instance(row) => self.settle_mesh(packet, best, mask, &columns.instances[row as usize]),
-            Row::General | Row::Plane(_) | Row::Sphere(_) => self.settle_general(packet, mask, prim),
+            Row::General => self.settle_general(packet, mask, prim),
         }
     }
 
     #[inline(always)]
-    fn settle_flat(&mut self, packet: &Packet<S>, best: &Best<S>, plane: &PlaneRow) -> Settled<S> {
-        let normal32 = splat3(self.s, plane.normal32);
+    fn settle_flat(&mut self, packet: &Packet<'_, S>, best: &Best<S>, plane: &PlaneRow) -> Settled<S> {
         let normal = splat_wide(self.s, plane.normal);
         let near = self.near(packet, best);
         let off = normal.dot(near) - D::splat(self.s, plane.distance);
-        let point = self.step(packet, near, off.narrow(), normal32.dot(packet.rays.direction));
-        Settled { point, normal, normal32, shading: normal, smooth: false }
+        let slope = splat3(self.s, plane.normal32).dot(packet.rays.direction);
+        let point = self.step(packet, near, off.narrow(), slope);
+        Settled { point, normal, shading: normal }
     }
 
     #[inline(always)]
     fn settle_sphere(
         &mut self,
-        packet: &Packet<S>,
+        packet: &Packet<'_, S>,
         best: &Best<S>,
         center: DVec3,
         radius: f64,
@@ -107,38 +87,44 @@ impl<S: Simd> Tracer<'_, S> {
         let slope = narrow3(from).dot(packet.rays.direction);
         let point = self.step(packet, near, off.narrow(), slope + slope);
         let normal = (point - center).scale(D::splat(self.s, 1.0 / radius));
-        Settled { point, normal, normal32: narrow3(normal), shading: normal, smooth: false }
+        Settled { point, normal, shading: normal }
     }
 
     /// The points at the distances that `f32` has found.
     #[inline(always)]
-    fn near(&self, packet: &Packet<S>, best: &Best<S>) -> D3<S> {
-        packet.direction.scale_add((best.t * packet.inverse_length).widen(), packet.origin)
+    fn near(&self, packet: &Packet<'_, S>, best: &Best<S>) -> D3<S> {
+        let (origin, direction) = packet.precise(self.s);
+        direction.scale_add((best.t * packet.inverse_length).widen(), origin)
     }
 
     /// One Newton step along the rays from where a value is `off` and changes by `slope` a metre to where it is 0.
     #[inline(always)]
-    fn step(&self, packet: &Packet<S>, near: D3<S>, off: F<S>, slope: F<S>) -> D3<S> {
+    fn step(&self, packet: &Packet<'_, S>, near: D3<S>, off: F<S>, slope: F<S>) -> D3<S> {
         let metres = -(off / slope);
-        packet.direction.scale_add((metres * packet.inverse_length).widen(), near)
+        let (_, direction) = packet.precise(self.s);
+        direction.scale_add((metres * packet.inverse_length).widen(), near)
     }
 
     /// Lanes on triangles, each on one of its own.
     #[inline(always)]
-    fn settle_triangles(&mut self, packet: &Packet<S>, best: &Best<S>, corners: &LaneTriples) -> Settled<S> {
+    fn settle_triangles(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        corners: &LaneTriples,
+    ) -> Settled<S> {
         let (a, b, c) = (corners.get(self.s, 0), corners.get(self.s, 1), corners.get(self.s, 2));
         let normal = unit(self.s, cross(b - a, c - a));
-        let normal32 = narrow3(normal);
         let near = self.near(packet, best);
         let off = normal.dot(near - a);
-        let point = self.step(packet, near, off.narrow(), normal32.dot(packet.rays.direction));
-        Settled { point, normal, normal32, shading: normal, smooth: false }
+        let point = self.step(packet, near, off.narrow(), narrow3(normal).dot(packet.rays.direction));
+        Settled { point, normal, shading: normal }
     }
 
     #[inline(always)]
     fn settle_mesh(
         &mut self,
-        packet: &Packet<S>,
+        packet: &Packet<'_, S>,
         best: &Best<S>,
         mask: M<S>,
         instance: &Instance,
@@ -167,7 +153,7 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// Lanes on a shape without a kernel.
     #[inline(always)]
-    fn settle_general(&mut self, packet: &Packet<S>, mask: M<S>, prim: u32) -> Settled<S> {
+    fn settle_general(&mut self, packet: &Packet<'_, S>, mask: M<S>, prim: u32) -> Settled<S> {
         let mut lanes = LaneVectors::default();
         for lane in mask.lanes() {
             let (ray, leaving) = (packet.ray(lane), packet.leaving(lane));
@@ -215,7 +201,7 @@ impl LaneVectors {
     #[inline(always)]
     fn settled<S: Simd>(&self, s: S) -> Settled<S> {
         let [point, normal, shading] = [self.0.get(s, 0), self.0.get(s, 1), self.0.get(s, 2)];
-        Settled { point, normal, normal32: narrow3(normal), shading, smooth: true }
+        Settled { point, normal, shading }
     }
 }
 
@@ -239,9 +225,7 @@ impl<S: Simd> Settled<S> {
         Self {
             point: pick3(mask, self.point, other.point),
             normal: pick3(mask, self.normal, other.normal),
-            normal32: F3::select(mask, self.normal32, other.normal32),
             shading: pick3(mask, self.shading, other.shading),
-            smooth: self.smooth || other.smooth,
         }
     }
 }

@@ -1,20 +1,18 @@
 //! Which ways from points to a light are blocked.
 
-use catoptra_core::LaneMask;
+use catoptra_core::{LaneMask, Span};
 use fearless_simd::Simd;
 
 use super::Tracer;
-use super::packet::Left;
+use super::packet::{Left, Packet};
 use crate::kernel::{Blocking, Rays, Target};
-use crate::lanes::{Bits, D3, F, M, lane3};
+use crate::lanes::{Bits, F, M};
 use crate::snapshot::Row;
 
 /// Ways from points to a light.
 #[derive(Clone, Copy)]
 pub(super) struct Ways<S: Simd> {
-    /// Where they start, relative to the snapshot's origin.
-    pub(super) point: D3<S>,
-    /// The same ways as kernels see them.
+    /// Ways as kernels see them; how far their starts may be off is part of their reach.
     pub(super) rays: Rays<S>,
     /// Surfaces that they leave from.
     pub(super) left: Left<S>,
@@ -27,7 +25,7 @@ pub(super) struct Ways<S: Simd> {
 impl<S: Simd> Tracer<'_, S> {
     /// Which ways to a light are blocked.
     #[inline(always)]
-    pub(super) fn blocked(&mut self, ways: &Ways<S>, light: usize) -> M<S> {
+    pub(super) fn blocked(&mut self, packet: &Packet<'_, S>, ways: &Ways<S>, light: usize) -> M<S> {
         let columns = self.frame.snapshot.columns();
         let behind = &self.frame.snapshot.light_rows()[light].behind;
         let mut open = ways.live;
@@ -36,62 +34,72 @@ impl<S: Simd> Tracer<'_, S> {
             let plane = &columns.planes[row];
             let blocking = plane.block(self.s, &ways.rays, behind[row]);
             let allowed = open & !ways.left.from(self.s, plane.prim, 0);
-            open = self.block(ways, open, allowed, (plane.prim, Some(0)), blocking);
+            open = self.block((packet, ways), open, allowed, (plane.prim, Some(0)), blocking);
         }
         for &prim in &columns.general_unbounded {
-            open = self.block_lanes(ways, open, open, (prim, None));
+            open = self.block_lanes((packet, ways), open, open, (prim, None));
         }
         if !open.any() {
             return ways.live;
         }
         for at in 0..self.between[light].bounded.len() {
-            open = self.block_prim(ways, open, self.between[light].bounded[at]);
+            open = self.block_prim(packet, ways, open, self.between[light].bounded[at]);
         }
         if self.between[light].tree {
-            open = self.walk_scene_to_light(ways, open);
+            open = self.walk_scene_to_light(packet, ways, open);
         }
         ways.live & !open
     }
 
     /// The ways still open once one bounded shape stands there.
     #[inline(always)]
-    pub(super) fn block_prim(&mut self, ways: &Ways<S>, open: M<S>, prim: u32) -> M<S> {
+    pub(super) fn block_prim(
+        &mut self,
+        packet: &Packet<'_, S>,
+        ways: &Ways<S>,
+        open: M<S>,
+        prim: u32,
+    ) -> M<S> {
         let columns = self.frame.snapshot.columns();
         if let Row::Sphere(row) = columns.rows[prim as usize] {
             let leaving = ways.left.from(self.s, prim, 0) & open;
             let blocking = columns.spheres[row as usize].block(self.s, &ways.rays, &ways.target, leaving);
-            self.block(ways, open, open, (prim, Some(0)), blocking)
+            self.block((packet, ways), open, open, (prim, Some(0)), blocking)
         } else {
-            let ways = *ways;
+            let (packet, ways) = (*packet, *ways);
             self.s.vectorize(
                 #[inline(always)]
-                || self.block_facets(&ways, open, prim),
+                || self.block_facets(&packet, &ways, open, prim),
             )
         }
     }
 
     /// As [`block_prim`](Self::block_prim) for a shape that is no sphere.
     #[inline(always)]
-    fn block_facets(&mut self, ways: &Ways<S>, open: M<S>, prim: u32) -> M<S> {
+    fn block_facets(&mut self, packet: &Packet<'_, S>, ways: &Ways<S>, open: M<S>, prim: u32) -> M<S> {
         let columns = self.frame.snapshot.columns();
         match columns.rows[prim as usize] {
             Row::Rectangle(row) => {
                 let blocking =
                     columns.rectangles[row as usize].propose(self.s, &ways.rays).blocking(&ways.target);
                 let allowed = open & !ways.left.from(self.s, prim, 0);
-                self.block(ways, open, allowed, (prim, Some(0)), blocking)
+                self.block((packet, ways), open, allowed, (prim, Some(0)), blocking)
             }
             Row::Triangles(first, count) => {
                 let mut open = open;
                 for triangle in &columns.triangles[first as usize..(first + count) as usize] {
                     let blocking = triangle.propose(self.s, &ways.rays).blocking(&ways.target);
                     let allowed = open & !ways.left.from(self.s, prim, triangle.facet);
-                    open = self.block(ways, open, allowed, (prim, Some(triangle.facet)), blocking);
+                    open = self.block((packet, ways), open, allowed, (prim, Some(triangle.facet)), blocking);
                 }
                 open
             }
-            Row::Instance(row) => self.walk_mesh_to_light(ways, open, &columns.instances[row as usize]),
-            Row::General | Row::Plane(_) | Row::Sphere(_) => self.block_lanes(ways, open, open, (prim, None)),
+            Row::Instance(row) => {
+                self.walk_mesh_to_light(packet, ways, open, &columns.instances[row as usize])
+            }
+            Row::General | Row::Plane(_) | Row::Sphere(_) => {
+                self.block_lanes((packet, ways), open, open, (prim, None))
+            }
         }
     }
 
@@ -99,7 +107,7 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     pub(super) fn block(
         &mut self,
-        ways: &Ways<S>,
+        (packet, ways): (&Packet<'_, S>, &Ways<S>),
         open: M<S>,
         allowed: M<S>,
         place: (u32, Option<u32>),
@@ -108,25 +116,43 @@ impl<S: Simd> Tracer<'_, S> {
         self.stats.tests.shapes += F::<S>::LANES as u64;
         let undecided = allowed & blocking.undecided;
         let left = open & !(allowed & blocking.blocked & !undecided);
-        if undecided.any() { self.block_lanes(ways, left, undecided, place) } else { left }
+        if undecided.any() { self.block_lanes((packet, ways), left, undecided, place) } else { left }
     }
 
     /// Decides in `f64`, lane by lane, whether a shape blocks the way.
     #[inline(always)]
-    fn block_lanes(&mut self, ways: &Ways<S>, open: M<S>, lanes: M<S>, place: (u32, Option<u32>)) -> M<S> {
-        let ways = *ways;
-        let closed = self.block_each_lane(&ways, (lanes & open).bits(), place);
+    fn block_lanes(
+        &mut self,
+        (packet, ways): (&Packet<'_, S>, &Ways<S>),
+        open: M<S>,
+        lanes: M<S>,
+        place: (u32, Option<u32>),
+    ) -> M<S> {
+        let (packet, ways) = (*packet, *ways);
+        let closed = self.block_each_lane(&packet, &ways, (lanes & open).bits(), place);
         open & !M::from_bits(self.s, closed)
     }
 
+    /// The way starts where the ray meets its surface in `f64`, whatever `f32` made of that point.
     #[cold]
     #[inline(never)]
-    fn block_each_lane(&mut self, ways: &Ways<S>, lanes: u64, (prim, facet): (u32, Option<u32>)) -> u64 {
+    fn block_each_lane(
+        &mut self,
+        packet: &Packet<'_, S>,
+        ways: &Ways<S>,
+        lanes: u64,
+        (prim, facet): (u32, Option<u32>),
+    ) -> u64 {
+        let snapshot = self.frame.snapshot;
         let mut closed = 0;
         for lane in Bits(lanes) {
             self.stats.settled += 1;
-            let (ray, span) = ways.target.way_from(lane3(ways.point, lane));
-            if self.frame.snapshot.cross_part(prim, facet, &ray, span, ways.left.lane(lane)).is_some() {
+            let (ray, Some(from)) = (packet.ray(lane), ways.left.lane(lane)) else { continue };
+            let met =
+                snapshot.cross_part(from.prim, Some(from.facet), &ray, Span::AHEAD, packet.leaving(lane));
+            let Some(met) = met else { continue };
+            let (way, span) = ways.target.way_from(ray.at(met.crossing.t));
+            if snapshot.cross_part(prim, facet, &way, span, Some(from)).is_some() {
                 closed |= 1 << lane;
             }
         }

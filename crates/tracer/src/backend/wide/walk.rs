@@ -11,7 +11,7 @@ use super::search::Best;
 use super::shadow::Ways;
 use crate::accel::{Box32, MAX_DEPTH, Node, Tree};
 use crate::kernel::{Edges, Rays, magnitude};
-use crate::lanes::{D3, F, F3, M, narrow3, splat_wide, splat3};
+use crate::lanes::{D3, F, F3, M, narrow3, splat_wide, splat3, widen3};
 use crate::numeric::{BOX_PAD, BOX_STRETCH};
 use crate::snapshot::{Affine, Instance};
 
@@ -70,7 +70,7 @@ impl<S: Simd> Slabs<S> {
 impl<S: Simd> Tracer<'_, S> {
     /// Finds the nearest of the scene's bounded shapes. Compiled apart, on copies.
     #[inline(always)]
-    pub(super) fn walk_scene(&mut self, packet: &Packet<S>, best: Best<S>) -> Best<S> {
+    pub(super) fn walk_scene(&mut self, packet: &Packet<'_, S>, best: Best<S>) -> Best<S> {
         let (packet, mut best) = (*packet, best);
         self.s.vectorize(
             #[inline(always)]
@@ -80,7 +80,7 @@ impl<S: Simd> Tracer<'_, S> {
     }
 
     #[inline(always)]
-    fn walk_shapes(&mut self, packet: &Packet<S>, best: &mut Best<S>) {
+    fn walk_shapes(&mut self, packet: &Packet<'_, S>, best: &mut Best<S>) {
         let snapshot = self.frame.snapshot;
         let slabs = Slabs::new(self.s, &packet.rays, packet.live);
         let mut walk = Walk::default();
@@ -97,16 +97,16 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// The ways still open once the scene's bounded shapes stand there. Compiled apart, on copies.
     #[inline(always)]
-    pub(super) fn walk_scene_to_light(&mut self, ways: &Ways<S>, open: M<S>) -> M<S> {
-        let ways = *ways;
+    pub(super) fn walk_scene_to_light(&mut self, packet: &Packet<'_, S>, ways: &Ways<S>, open: M<S>) -> M<S> {
+        let (packet, ways) = (*packet, *ways);
         self.s.vectorize(
             #[inline(always)]
-            || self.walk_shapes_to_light(&ways, open),
+            || self.walk_shapes_to_light(&packet, &ways, open),
         )
     }
 
     #[inline(always)]
-    fn walk_shapes_to_light(&mut self, ways: &Ways<S>, mut open: M<S>) -> M<S> {
+    fn walk_shapes_to_light(&mut self, packet: &Packet<'_, S>, ways: &Ways<S>, mut open: M<S>) -> M<S> {
         let snapshot = self.frame.snapshot;
         let slabs = Slabs::new(self.s, &ways.rays, ways.live);
         let mut walk = Walk::default();
@@ -114,7 +114,7 @@ impl<S: Simd> Tracer<'_, S> {
             self.stats.tests.boxes += F::<S>::LANES as u64;
             if (slabs.meet(self.s, &node.bounds, ways.target.distance) & open).any() {
                 for &item in &snapshot.tree().order[walk.enter(node, slabs.backwards)] {
-                    open = self.block_prim(ways, open, snapshot.columns().bounded[item as usize]);
+                    open = self.block_prim(packet, ways, open, snapshot.columns().bounded[item as usize]);
                 }
             }
         }
@@ -123,9 +123,8 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// Finds the nearest triangle of a mesh.
     #[inline(always)]
-    pub(super) fn walk_mesh(&mut self, packet: &Packet<S>, best: &mut Best<S>, instance: &Instance) {
-        let rays =
-            instance.own_rays(self.s, &packet.rays, packet.origin, packet.direction, packet.inverse_length);
+    pub(super) fn walk_mesh(&mut self, packet: &Packet<'_, S>, best: &mut Best<S>, instance: &Instance) {
+        let rays = instance.own_rays(self.s, &packet.rays);
         let slabs = Slabs::new(self.s, &rays, packet.live);
         let mesh = &instance.tree;
         let mut walk = Walk::default();
@@ -144,9 +143,14 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// The ways still open once a mesh stands there.
     #[inline(always)]
-    pub(super) fn walk_mesh_to_light(&mut self, ways: &Ways<S>, mut open: M<S>, instance: &Instance) -> M<S> {
-        let (direction, inverse_length) = ways.target.directions(self.s, ways.point);
-        let rays = instance.own_rays(self.s, &ways.rays, ways.point, direction, inverse_length);
+    pub(super) fn walk_mesh_to_light(
+        &mut self,
+        packet: &Packet<'_, S>,
+        ways: &Ways<S>,
+        mut open: M<S>,
+        instance: &Instance,
+    ) -> M<S> {
+        let rays = instance.own_rays(self.s, &ways.rays);
         let slabs = Slabs::new(self.s, &rays, ways.live);
         let mesh = &instance.tree;
         let mut walk = Walk::default();
@@ -158,7 +162,7 @@ impl<S: Simd> Tracer<'_, S> {
                     let proposal = Edges::new(&mesh.corners[at], mesh.reach).propose(self.s, &rays);
                     let allowed = open & !ways.left.from(self.s, instance.prim, facet);
                     let place = (instance.prim, Some(facet));
-                    open = self.block(ways, open, allowed, place, proposal.blocking(&ways.target));
+                    open = self.block((packet, ways), open, allowed, place, proposal.blocking(&ways.target));
                 }
             }
         }
@@ -168,20 +172,14 @@ impl<S: Simd> Tracer<'_, S> {
 
 impl Instance {
     /// Rays in the mesh's own space, from those of the world. `t` stays metres of the world, so directions are as long
-    /// as one metre of the world is there.
+    /// as one metre of the world is there; so are the errors that the rays bring along.
     #[inline(always)]
-    fn own_rays<S: Simd>(
-        &self,
-        s: S,
-        rays: &Rays<S>,
-        origin: D3<S>,
-        direction: D3<S>,
-        inverse_length: F<S>,
-    ) -> Rays<S> {
+    fn own_rays<S: Simd>(&self, s: S, rays: &Rays<S>) -> Rays<S> {
         let Some(affine) = &self.to_object else { return *rays };
-        let origin = narrow3(affine.turn(s, origin) + splat_wide(s, affine.shift));
-        let direction = narrow3(affine.turn(s, direction)).scale(inverse_length);
-        Rays { origin, direction, reach: magnitude(origin) }
+        let origin = narrow3(affine.turn(s, widen3(rays.origin)) + splat_wide(s, affine.shift));
+        let direction = narrow3(affine.turn(s, widen3(rays.direction)));
+        let scale = affine.matrix[0].length() as f32;
+        Rays { origin, direction, reach: rays.reach.mul_add(F::splat(s, scale), magnitude(origin)) }
     }
 }
 

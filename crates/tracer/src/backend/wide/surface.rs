@@ -1,0 +1,109 @@
+//! Points and normals of what the rays of a packet meet, in `f32`: enough to shade with.
+//!
+//! Whether something stands in the way of a light, and where a reflected ray starts, is decided from the `f64` point.
+
+use fearless_simd::Simd;
+
+use super::Tracer;
+use super::packet::Packet;
+use super::search::Best;
+use crate::lanes::{F, F3, M, narrow3, splat3};
+use crate::snapshot::Row;
+
+/// Points and normals of the lanes that meet something.
+#[derive(Clone, Copy)]
+pub(super) struct Surface<S: Simd> {
+    /// Relative to the snapshot's origin.
+    pub(super) point: F3<S>,
+    /// Geometric, of unit length, on the shape's outer side.
+    pub(super) normal: F3<S>,
+    /// To shade with, of unit length.
+    pub(super) shading: F3<S>,
+}
+
+impl<S: Simd> Surface<S> {
+    #[inline(always)]
+    fn flat(point: F3<S>, normal: F3<S>) -> Self {
+        Self { point, normal, shading: normal }
+    }
+
+    /// This one where the mask holds, else the other.
+    #[inline(always)]
+    fn over(self, mask: M<S>, other: Self) -> Self {
+        Self {
+            point: F3::select(mask, self.point, other.point),
+            normal: F3::select(mask, self.normal, other.normal),
+            shading: F3::select(mask, self.shading, other.shading),
+        }
+    }
+}
+
+impl<S: Simd> Tracer<'_, S> {
+    /// The surface of the lanes of `mask`, which all meet the shape `prim`.
+    #[inline(always)]
+    pub(super) fn surface(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        mask: M<S>,
+        prim: u32,
+    ) -> Surface<S> {
+        let columns = self.frame.snapshot.columns();
+        let point = packet.rays.direction.scale_add(best.t, packet.rays.origin);
+        match columns.rows[prim as usize] {
+            Row::Plane(row) => Surface::flat(point, splat3(self.s, columns.planes[row as usize].normal32)),
+            Row::Rectangle(row) => {
+                Surface::flat(point, splat3(self.s, columns.rectangles[row as usize].plane.normal32))
+            }
+            Row::Sphere(row) => {
+                let sphere = &columns.spheres[row as usize];
+                let from_center = point - splat3(self.s, sphere.center32);
+                Surface::flat(point, from_center.scale(F::splat(self.s, sphere.inverse_radius)))
+            }
+            Row::Triangles(..) | Row::Instance(_) | Row::General => {
+                self.surface_settled(packet, best, mask, prim)
+            }
+        }
+    }
+
+    /// As [`surface`](Self::surface), of shapes whose normals are worked out in `f64`. Compiled apart, on copies, which
+    /// keep the common case in registers.
+    #[inline(always)]
+    fn surface_settled(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        mask: M<S>,
+        prim: u32,
+    ) -> Surface<S> {
+        let (packet, best) = (*packet, *best);
+        self.s.vectorize(
+            #[inline(always)]
+            || {
+                let settled = self.settle(&packet, &best, mask, prim);
+                Surface {
+                    point: narrow3(settled.point),
+                    normal: narrow3(settled.normal),
+                    shading: narrow3(settled.shading),
+                }
+            },
+        )
+    }
+
+    /// Adds the lanes of another shape. Compiled apart: most packets meet one shape.
+    #[inline(always)]
+    pub(super) fn surface_too(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        mask: M<S>,
+        prim: u32,
+        before: Surface<S>,
+    ) -> Surface<S> {
+        let (packet, best) = (*packet, *best);
+        self.s.vectorize(
+            #[inline(always)]
+            || self.surface(&packet, &best, mask, prim).over(mask, before),
+        )
+    }
+}
