@@ -3,6 +3,7 @@
 //! A new shape is one file here, its `mod` line and its name in the list below.
 
 mod cuboid;
+mod disk;
 mod mesh;
 mod plane;
 mod rectangle;
@@ -12,6 +13,7 @@ mod triangle;
 mod triangle_mesh;
 
 pub use cuboid::Cuboid;
+pub use disk::Disk;
 pub use mesh::Mesh;
 pub use plane::Plane;
 pub use rectangle::Rectangle;
@@ -31,7 +33,8 @@ pub trait Geometry {
     /// (t ≈ 0) is not found again, while the far side of a curved shape is.
     fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing>;
 
-    /// The smallest axis-aligned box round it, to rounding; `None` where it has no end.
+    /// An axis-aligned box round it, `None` where it has no end: the smallest to rounding, except round a turned
+    /// [`Mesh`], where it is the box of its turned box, so that no triangle need be looked at.
     fn bounds(&self) -> Option<Aabb>;
 
     /// The same shape standing elsewhere.
@@ -58,6 +61,8 @@ crate::part::parts! {
         Tetrahedron,
         /// Flat rectangle.
         Rectangle,
+        /// Flat disk.
+        Disk,
         /// Box with six faces.
         Cuboid,
         /// Triangle mesh from a file.

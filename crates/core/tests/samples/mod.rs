@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use catoptra_core::geometry::{
-    Cuboid, Mesh, Plane, Rectangle, Shape, Sphere, Tetrahedron, Triangle, TriangleMesh,
+    Cuboid, Disk, Mesh, Plane, Rectangle, Shape, Sphere, Tetrahedron, Triangle, TriangleMesh,
 };
 use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::{MeshSource, Placement, Ray};
@@ -24,6 +24,11 @@ pub(crate) enum Form {
     },
     Sphere {
         center: DVec3,
+        radius: f64,
+    },
+    Disk {
+        center: DVec3,
+        normal: DVec3,
         radius: f64,
     },
     /// Flat pieces: the facet each belongs to, and corners anticlockwise as seen from outside.
@@ -56,6 +61,11 @@ pub(crate) fn samples_of(kind: &str) -> Vec<Sample> {
         "rectangle" => vec![
             rectangle(DVec3::ZERO, DVec3::X, DVec3::Y),
             rectangle(v(-4.0, 2.0, 9.0), v(6.0, 8.0, 0.0), v(-0.4, 0.3, 1.2)),
+        ],
+        "disk" => vec![
+            disk(DVec3::ZERO, DVec3::Y, 1.0),
+            disk(v(-4.0, 2.0, 9.0), v(2.0, 3.0, -6.0), 3.5),
+            disk(v(1e3, 2e3, -1e3), v(1e-9, 0.0, -1.0), 0.1),
         ],
         "box" => vec![cuboid(DVec3::NEG_ONE, DVec3::ONE), cuboid(v(100.0, -0.5, 20.0), v(110.0, 0.0, 25.0))],
         "mesh" => vec![octahedron(), kite()],
@@ -95,6 +105,11 @@ fn rectangle(corner: DVec3, u: DVec3, v: DVec3) -> Sample {
     let far = corner + u + v;
     let faces = vec![(0, [corner, corner + u, far]), (0, [corner, far, corner + v])];
     Sample { shape: Rectangle::new(corner, u, v).unwrap().into(), form: Form::Faces(faces) }
+}
+
+fn disk(center: DVec3, normal: DVec3, radius: f64) -> Sample {
+    let shape = Disk::new(center, normal, radius).unwrap().into();
+    Sample { shape, form: Form::Disk { center, normal: normal.normalize(), radius } }
 }
 
 fn cuboid(min: DVec3, max: DVec3) -> Sample {
@@ -157,6 +172,11 @@ impl Sample {
             Form::Sphere { center, radius } => {
                 Form::Sphere { center: at.point(*center), radius: radius * at.scale() }
             }
+            Form::Disk { center, normal, radius } => Form::Disk {
+                center: at.point(*center),
+                normal: at.direction(*normal),
+                radius: radius * at.scale(),
+            },
             Form::Faces(faces) => {
                 Form::Faces(faces.iter().map(|(facet, face)| (*facet, face.map(|p| at.point(p)))).collect())
             }
@@ -205,6 +225,11 @@ impl Form {
                 let out = (1.0 - height * height).sqrt();
                 *center + DVec3::new(out * turn.cos(), height, out * turn.sin()) * *radius
             }
+            Self::Disk { center, normal, radius } => {
+                let across = normal.any_orthonormal_vector();
+                let (turn, out) = (std::f64::consts::TAU * draw.at.y, 0.98 * radius * draw.at.x.sqrt());
+                *center + (across * turn.cos() + normal.cross(across) * turn.sin()) * out
+            }
             Self::Faces(faces) => {
                 let (_, [a, b, c]) = faces[draw.pick % faces.len()];
                 // Folded into the triangle, then drawn towards its middle.
@@ -220,7 +245,7 @@ impl Form {
     pub(crate) fn middle(&self) -> DVec3 {
         match self {
             Self::Plane { point, .. } => *point,
-            Self::Sphere { center, .. } => *center,
+            Self::Sphere { center, .. } | Self::Disk { center, .. } => *center,
             Self::Faces(faces) => {
                 let corners: Vec<DVec3> = faces.iter().flat_map(|(_, face)| *face).collect();
                 corners.iter().sum::<DVec3>() / corners.len() as f64
@@ -232,7 +257,7 @@ impl Form {
     pub(crate) fn reach(&self) -> f64 {
         match self {
             Self::Plane { .. } => 10.0,
-            Self::Sphere { radius, .. } => *radius,
+            Self::Sphere { radius, .. } | Self::Disk { radius, .. } => *radius,
             Self::Faces(faces) => {
                 let middle = self.middle();
                 faces.iter().flat_map(|(_, face)| *face).map(|p| p.distance(middle)).fold(0.0, f64::max)
@@ -240,14 +265,34 @@ impl Form {
         }
     }
 
+    /// Corners of the smallest box round it, to rounding; `None` for what has no end.
+    pub(crate) fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        match self {
+            Self::Plane { .. } => None,
+            Self::Sphere { center, radius } => Some((*center - *radius, *center + *radius)),
+            Self::Disk { center, normal, radius } => {
+                // The rim is highest where the axis, laid down into the disk, points.
+                let highest = |axis: DVec3| normal.cross(axis).cross(*normal).normalize_or_zero() * *radius;
+                let half = DVec3::from(DVec3::AXES.map(|axis| highest(axis).dot(axis)));
+                Some((*center - half, *center + half))
+            }
+            Self::Faces(faces) => {
+                let corners = || faces.iter().flat_map(|(_, face)| *face);
+                Some((corners().reduce(DVec3::min)?, corners().reduce(DVec3::max)?))
+            }
+        }
+    }
+
     /// The largest coordinate that takes part in describing it.
     pub(crate) fn largest_coordinate(&self) -> f64 {
-        let radius = if let Self::Sphere { radius, .. } = self { *radius } else { 0.0 };
-        let corners = match self {
-            Self::Faces(faces) => faces.iter().flat_map(|(_, face)| *face).collect(),
-            Self::Plane { .. } | Self::Sphere { .. } => vec![self.middle()],
-        };
-        corners.into_iter().map(|p| p.abs().max_element()).fold(radius, f64::max)
+        let largest = |p: DVec3| p.abs().max_element();
+        match self {
+            Self::Plane { point, .. } => largest(*point),
+            Self::Sphere { center, radius } | Self::Disk { center, radius, .. } => {
+                radius.max(largest(*center))
+            }
+            Self::Faces(faces) => faces.iter().flat_map(|(_, face)| *face).map(largest).fold(0.0, f64::max),
+        }
     }
 
     /// How far a point is from the surface's facet.
@@ -255,6 +300,11 @@ impl Form {
         match self {
             Self::Plane { point, normal } => normal.dot(p - *point).abs(),
             Self::Sphere { center, radius } => (p.distance(*center) - radius).abs(),
+            Self::Disk { center, normal, radius } => {
+                let above = normal.dot(p - *center);
+                let beside = (p - *center - *normal * above).length() - radius;
+                above.hypot(beside.max(0.0))
+            }
             Self::Faces(faces) => {
                 let of_facet = faces.iter().filter(|(of, _)| *of == facet);
                 of_facet.map(|(_, face)| distance_to(face, p)).fold(f64::INFINITY, f64::min)
@@ -265,7 +315,7 @@ impl Form {
     /// The unit normal at a point of a facet, as the shape's documentation turns it.
     pub(crate) fn normal(&self, p: DVec3, facet: u32) -> DVec3 {
         match self {
-            Self::Plane { normal, .. } => *normal,
+            Self::Plane { normal, .. } | Self::Disk { normal, .. } => *normal,
             Self::Sphere { center, .. } => (p - *center).normalize(),
             Self::Faces(faces) => {
                 let (_, [a, b, c]) = faces.iter().find(|(of, _)| *of == facet).expect("a facet of the shape");
