@@ -10,7 +10,7 @@ use crate::{InvalidPart, Rgb, TriangleMesh};
 /// What sort of value a field takes, and the range it lies in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FieldKind {
-    /// Any finite number.
+    /// Any finite number, in magnitude at most [`LARGEST`]; the same goes for every number of a part.
     Number,
     /// A number of metres greater than 0.
     Length,
@@ -35,6 +35,12 @@ pub enum FieldKind {
     /// A triangle mesh read from a file.
     Mesh,
 }
+
+/// The largest magnitude of a number in a part, about 3.4e38: SIMD code keeps numbers in `f32` too, where a larger
+/// one would be infinite.
+pub const LARGEST: f64 = f32::MAX as f64;
+
+const WITHIN_LARGEST: &str = "must be at most 3.4e38 in magnitude";
 
 /// One named parameter of a part.
 #[derive(Debug, Clone, Copy)]
@@ -220,10 +226,11 @@ impl Given<'_> {
     /// A number of any kind.
     ///
     /// # Errors
-    /// Missing, not a number, or not finite.
+    /// Missing, not a number, not finite, or beyond [`LARGEST`].
     pub fn number(&self, name: &'static str) -> Result<f64, InvalidPart> {
         match self.value(name)? {
-            Value::Number(v) if v.is_finite() => Ok(v),
+            Value::Number(v) if v.abs() <= LARGEST => Ok(v),
+            Value::Number(v) if v.is_finite() => Err(InvalidPart::new(name, WITHIN_LARGEST, v)),
             other => Err(wrong(name, "must be a finite number", &other)),
         }
     }
@@ -258,10 +265,11 @@ impl Given<'_> {
     /// A point.
     ///
     /// # Errors
-    /// Missing, not three numbers, or not finite.
+    /// Missing, not three numbers, not finite, or beyond [`LARGEST`].
     pub fn point(&self, name: &'static str) -> Result<DVec3, InvalidPart> {
         match self.value(name)? {
-            Value::Vector(v) if v.is_finite() => Ok(v),
+            Value::Vector(v) if v.abs().max_element() <= LARGEST && v.is_finite() => Ok(v),
+            other @ Value::Vector(v) if v.is_finite() => Err(wrong(name, WITHIN_LARGEST, &other)),
             other => Err(wrong(name, "must be three finite numbers", &other)),
         }
     }
@@ -269,7 +277,7 @@ impl Given<'_> {
     /// A direction; its length is kept.
     ///
     /// # Errors
-    /// Missing, not three numbers, not finite, or too short to have a direction.
+    /// Missing, not three numbers, not finite, beyond [`LARGEST`], or too short to have a direction.
     pub fn direction(&self, name: &'static str) -> Result<DVec3, InvalidPart> {
         let v = self.point(name)?;
         if v.try_normalize().is_some() { Ok(v) } else { Err(InvalidPart::new(name, "must not be zero", v)) }
@@ -289,10 +297,13 @@ impl Given<'_> {
     /// An amount of light.
     ///
     /// # Errors
-    /// Missing, not a colour, or a channel negative or not finite.
+    /// Missing, not a colour, or a channel negative, not finite, or beyond [`LARGEST`].
     pub fn quantity(&self, name: &'static str) -> Result<Rgb, InvalidPart> {
         match self.value(name)? {
-            Value::Color(c) if c.all(|v| v >= 0.0 && v.is_finite()) => Ok(c),
+            Value::Color(c) if c.all(|v| (0.0..=LARGEST).contains(&v)) => Ok(c),
+            other @ Value::Color(c) if c.all(|v| v >= 0.0 && v.is_finite()) => {
+                Err(wrong(name, WITHIN_LARGEST, &other))
+            }
             other => Err(wrong(name, "must be light with finite channels of at least 0", &other)),
         }
     }

@@ -197,6 +197,31 @@ fn cameras_and_settings_describe_themselves() {
 }
 
 #[test]
+fn numbers_beyond_single_precision_are_refused() {
+    let shape = |kind: &str, field, value| {
+        let kind = Shape::kind_named(kind).unwrap();
+        (kind.make)(&good(kind).with(field, value)).map_err(|error| error.to_string())
+    };
+    let light = |value| {
+        let kind = Light::kind_named("point-light").unwrap();
+        (kind.make)(&good(kind).with("intensity", value)).map_err(|error| error.to_string())
+    };
+    let (largest, beyond) = (f64::from(f32::MAX), f64::from(f32::MAX).next_up());
+    assert!(shape("sphere", "radius", Value::Number(largest)).is_ok());
+    assert!(shape("sphere", "center", Value::Vector(DVec3::Z * -largest)).is_ok());
+    assert!(light(Value::Color(Rgb::new(0.0, largest, 1.0))).is_ok());
+    let refused = [
+        shape("sphere", "radius", Value::Number(beyond)).unwrap_err(),
+        shape("sphere", "center", Value::Vector(DVec3::Z * -beyond)).unwrap_err(),
+        shape("plane", "normal", Value::Vector(DVec3::X * 1e300)).unwrap_err(),
+        light(Value::Color(Rgb::new(0.0, beyond, 1.0))).unwrap_err(),
+    ];
+    for message in refused {
+        assert!(message.contains("must be at most 3.4e38 in magnitude, not "), "{message}");
+    }
+}
+
+#[test]
 fn values_of_a_plane_are_those_it_was_given() {
     let values = Values::new()
         .with("point", Value::Vector(DVec3::ONE))
