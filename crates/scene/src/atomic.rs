@@ -7,14 +7,12 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Writes a file beside `path` under a passing name, then puts it in its place. If anything fails, what stood at
-/// `path` stands there still, and the passing file is gone.
+/// `path` stands there still, and the passing file is gone. A link stays a link, and a file that is replaced leaves
+/// its permissions to the new one. The bytes are on the disk when it returns.
 ///
 /// # Errors
 /// Whatever the file system or `write` refuses.
-pub(crate) fn write(
-    path: &Path,
-    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> io::Result<()> {
+pub fn write(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
     // A link is followed, so that it stays one.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let (passing, file) = create_beside(&target)?;
@@ -79,6 +77,16 @@ mod tests {
         assert!(failed.is_err());
         assert_eq!(fs::read_to_string(&path).unwrap(), "old");
         assert_eq!(names(folder.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn a_place_that_cannot_be_written_is_an_error_and_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("taken");
+        fs::create_dir(&path).unwrap();
+        fs::write(path.join("inside"), "").unwrap();
+        assert!(write(&path, |out| out.write_all(b"new")).is_err());
+        assert_eq!(names(folder.path()), ["taken"]);
     }
 
     #[test]

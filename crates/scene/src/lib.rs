@@ -5,12 +5,13 @@
 //!   only what has changed. The grammar follows the lists of kinds in the core: a new shape, light or material is
 //!   read and written without a change here.
 //! * [`mesh`] reads triangle meshes, [`image`] reads and writes PNG pictures.
+//! * [`atomic`] writes any file whole or not at all, and [`words`] finds the word that a misspelt one was meant to be.
 //!
 //! Whatever a file holds, reading it ends in a value or in an error that says what, where and what to do: never in a
 //! panic. Files are written whole or not at all.
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test may stop at the first surprise"))]
 
-mod atomic;
+pub mod atomic;
 mod build;
 mod file;
 pub mod image;
@@ -20,7 +21,7 @@ mod read;
 mod report;
 mod scan;
 mod state;
-mod words;
+pub mod words;
 mod write;
 
 pub use file::{SaveError, SceneFile, load, parse};

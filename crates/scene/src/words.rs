@@ -1,8 +1,9 @@
 //! Which known word did somebody mean who wrote an unknown one?
 
 /// The known word nearest to `written`, if one is near enough to be meant: at most a third of its letters differ
-/// (a swapped pair counts as one), or it is the same but for case, or a part of it.
-pub(crate) fn nearest<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+/// (a swapped pair counts as one), or it is the same but for case, or a part of it. The first of equally near ones;
+/// `None` for nothing written and for more than 64 bytes, which no slip of the finger makes.
+pub fn nearest<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = written.to_lowercase();
     let distance = |word: &str| {
         let word = word.to_lowercase();
