@@ -3,6 +3,7 @@
 use std::io::{Cursor, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use catoptra_scene::atomic;
 use catoptra_scene::image::write_png;
 use catoptra_tracer::{Display, Film};
 use exr::prelude::WritableImage;
@@ -96,22 +97,9 @@ pub(crate) fn print(text: &str) -> Result<()> {
     }
 }
 
-/// Writes a whole file: beside its place first, moved there when complete, removed where that fails.
+/// Writes a whole file, or leaves what stood there; the error names it.
 pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let beside = folder_of(path).join(format!(".{name}.{}.part", std::process::id()));
-    let complete = || -> std::io::Result<()> {
-        let mut file = std::fs::File::create_new(&beside)?;
-        file.write_all(bytes)?;
-        file.sync_all()?;
-        std::fs::rename(&beside, path)
-    };
-    let written = complete();
-    if written.is_err() {
-        // The error that matters is the one reported; a part that was never made cannot be removed.
-        let _ = std::fs::remove_file(&beside);
-    }
-    written.into_diagnostic().wrap_err_with(|| format!("{} cannot be written", path.display()))
+    atomic::write(path, |out| out.write_all(bytes)).map_err(|error| unwritable(path, &error))
 }
 
 fn unwritable(path: &Path, reason: &dyn std::fmt::Display) -> Report {
@@ -128,25 +116,5 @@ mod tests {
         assert_eq!(Format::of(Path::new("b/c.exr")).unwrap(), Format::Exr);
         assert!(Format::of(Path::new("a.jpg")).is_err());
         assert!(Format::of(Path::new("png")).is_err());
-    }
-
-    #[test]
-    fn a_file_is_replaced_as_a_whole_and_leaves_nothing_beside() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("x.json");
-        std::fs::write(&path, "old").unwrap();
-        write_file(&path, b"new").unwrap();
-        assert_eq!(std::fs::read(&path).unwrap(), b"new");
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-    }
-
-    #[test]
-    fn a_place_that_cannot_be_written_is_an_error_and_leaves_nothing() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("taken");
-        std::fs::create_dir(&path).unwrap();
-        std::fs::write(path.join("inside"), "").unwrap();
-        assert!(write_file(&path, b"new").is_err());
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 }
