@@ -42,6 +42,9 @@ mod tests {
         assert_eq!(nearest("Plane", KNOWN), Some("plane"));
         assert_eq!(nearest("spotlight", KNOWN), Some("spot-light"));
         assert_eq!(nearest("point", KNOWN), Some("point-light"));
+        assert_eq!(nearest("orcale", ["wide", "scalar", "oracle"]), Some("oracle"));
+        assert_eq!(nearest("frnt", ["front"]), Some("front"));
+        assert_eq!(nearest("sgrb", ["linear", "srgb", "filmic"]), Some("srgb"));
     }
 
     #[test]
