@@ -2,7 +2,7 @@
 
 use catoptra_core::EntityId;
 use catoptra_tests::{camera_of, film, shipped_scenes, traced, triangles};
-use catoptra_tracer::{Film, Size, View, backends};
+use catoptra_tracer::{Film, Size, Skip, View, backends};
 
 /// Everything that a film knows of each pixel, colours and depths by their bits.
 fn bits(film: &Film) -> Vec<([u32; 3], u32, Option<EntityId>)> {
@@ -66,5 +66,19 @@ fn a_second_render_gives_the_same_bits() {
     for (name, scene) in shipped_scenes() {
         let (first, second) = (film(&scene, "wide", ODD, 2), film(&scene, "wide", ODD, 2));
         assert_same_bits(&first, &second, &name);
+    }
+}
+
+#[test]
+fn work_left_out_changes_no_bit() {
+    let skips = [Skip::NOTHING, Skip { hidden: true, ..Skip::NOTHING }, Skip { shafts: true, ..Skip::NOTHING }];
+    for (name, scene) in shipped_scenes() {
+        let view = View::of(&scene, camera_of(&scene), ODD);
+        let usual = traced(&scene, "wide", &view, Film::new(ODD), 2);
+        for skip in skips {
+            let view = View { skip, ..view.clone() };
+            let long = traced(&scene, "wide", &view, Film::new(ODD), 2);
+            assert_same_bits(&usual, &long, &format!("{name} with {skip:?}"));
+        }
     }
 }

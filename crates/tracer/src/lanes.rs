@@ -86,7 +86,7 @@ impl<S: Simd> F<S> {
             1.333_355_8e-3,
             9.618_129e-3,
             5.550_411e-2,
-            2.402_265_1e-1,
+            2.402_265e-1,
             6.931_472e-1,
             1.0,
         ];
@@ -109,7 +109,7 @@ impl<S: Simd> F<S> {
         // log2 m = 2 / ln 2 (z + z³/3 + z⁵/5 + …), z = (m − 1) / (m + 1), |z| < 0.172.
         let z = (mantissa - one) / (mantissa + one);
         let z2 = z * z;
-        let terms: [f32; 5] = [0.320_598_9, 0.412_198_6, 0.577_078, 0.961_796_7, 2.885_390_1];
+        let terms: [f32; 5] = [0.320_598_9, 0.412_198_6, 0.577_078, 0.961_796_7, 2.885_39];
         let series = polynomial(z2, terms);
         series.mul_add(z, Self(exponent))
     }
@@ -354,6 +354,9 @@ impl<S: Simd> Arithmetic for D<S> {
     }
 }
 
+/// The numbers of lanes.
+static COUNTED: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
 impl<S: Simd> U<S> {
     #[inline(always)]
     pub(crate) fn splat(s: S, v: u32) -> Self {
@@ -380,9 +383,16 @@ impl<S: Simd> U<S> {
         self.0.as_mut_slice()[lane] = v;
     }
 
+    /// `first`, `first + 1`, …
     #[inline(always)]
-    pub(crate) fn plus(self, v: u32) -> Self {
-        Self(self.0 + v)
+    pub(crate) fn counted(s: S, first: u32) -> Self {
+        Self(S::u32s::from_slice(s, &COUNTED[..F::<S>::LANES]) + first)
+    }
+
+    /// Lanes that hold what [`counted`](Self::counted) gives.
+    #[inline(always)]
+    pub(crate) fn counts_from(self, s: S, first: u32) -> M<S> {
+        M(self.0.simd_eq(Self::counted(s, first).0))
     }
 
     #[inline(always)]

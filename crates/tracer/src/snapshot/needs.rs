@@ -1,5 +1,6 @@
 //! What a scene asks of the tracer, in counts.
 
+use catoptra_core::{Light, Material};
 use serde::Serialize;
 
 use super::Snapshot;
@@ -37,8 +38,8 @@ impl Snapshot {
     pub fn needs(&self) -> Needs {
         Needs {
             shapes: count(self.prims.iter().map(|p| p.shape.kind_name())),
-            lights: count(self.lights.iter().map(|l| l.kind_name())),
-            materials: count(self.materials.iter().map(|m| m.kind_name())),
+            lights: count(self.lights.iter().map(Light::kind_name)),
+            materials: count(self.materials.iter().map(Material::kind_name)),
             unbounded: self.unbounded.len(),
             meshes: self.meshes.len(),
             triangles: self.meshes.iter().map(|m| m.mesh().triangles().len()).sum(),

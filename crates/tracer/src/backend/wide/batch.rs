@@ -12,6 +12,9 @@ pub(super) trait Batch<S: Simd> {
     /// How many rays there are, in whole packets.
     fn rays(&self) -> usize;
 
+    /// How many of them are rays at all.
+    fn live(&self) -> u64;
+
     /// The packet that starts with ray `at`; its inverse lengths, if they are known from before.
     fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S>;
 
@@ -23,6 +26,11 @@ impl<S: Simd> Batch<S> for Primary<S> {
     #[inline(always)]
     fn rays(&self) -> usize {
         self.pixels
+    }
+
+    #[inline(always)]
+    fn live(&self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
     }
 
     #[inline(always)]
@@ -47,13 +55,26 @@ impl<S: Simd> Batch<S> for Queue {
     }
 
     #[inline(always)]
+    fn live(&self) -> u64 {
+        self.len() as u64
+    }
+
+    #[inline(always)]
     fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S> {
         self.packet_at(s, at, inverse_length)
     }
 
     /// No pixel has two rays in a stream.
     #[inline(always)]
-    fn add(&self, _: S, _: usize, packet: &Packet<'_, S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]) {
+    fn add(&self, s: S, _: usize, packet: &Packet<'_, S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]) {
+        let first = packet.pixel.lane(0);
+        if (packet.pixel.counts_from(s, first) & packet.live).count() as usize == F::<S>::LANES {
+            for (pixels, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
+                let pixels = &mut pixels[first as usize..];
+                (F::load(s, pixels) + light).store(pixels);
+            }
+            return;
+        }
         for lane in packet.live.lanes() {
             let pixel = packet.pixel.lane(lane) as usize;
             for (pixels, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {

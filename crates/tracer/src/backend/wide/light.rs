@@ -4,9 +4,8 @@ use catoptra_core::{Arithmetic, Arrival, Lane, LaneMask, Triple};
 use fearless_simd::Simd;
 
 use super::Tracer;
-use super::meet::Meeting;
-use super::packet::{Left, Packet};
-use super::search::Best;
+use super::meet::Here;
+use super::packet::Left;
 use super::settle::Groups;
 use super::shadow::Ways;
 use crate::kernel::{Rays, Target, magnitude};
@@ -16,13 +15,8 @@ use crate::numeric::POINT_ERROR;
 impl<S: Simd> Tracer<'_, S> {
     /// The surfaces' own look, in the share that is not reflected.
     #[inline(always)]
-    pub(super) fn local(
-        &mut self,
-        packet: &Packet<'_, S>,
-        best: &Best<S>,
-        meeting: &Meeting<S>,
-        groups: &Groups,
-    ) -> F3<S> {
+    pub(super) fn local(&mut self, here: &Here<'_, S>) -> F3<S> {
+        let Here { meeting, groups, .. } = here;
         let snapshot = self.frame.snapshot;
         let mut shown = super::dark(self.s);
         let mut lit = M::splat(self.s, false);
@@ -43,7 +37,7 @@ impl<S: Simd> Tracer<'_, S> {
         self.stats.skipped.unlit_material += (meeting.hits & !lit).count() * lights.len() as u64;
         if lit.any() {
             for light in 0..lights.len() {
-                shown = self.add_light((packet, best), meeting, groups, lit, light, shown);
+                shown = self.add_light(here, lit, light, shown);
             }
         }
         self.keep_unreflected(groups, shown)
@@ -65,15 +59,8 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// Adds what one light makes the lanes of `lit` show.
     #[inline(always)]
-    fn add_light(
-        &mut self,
-        (packet, best): (&Packet<'_, S>, &Best<S>),
-        meeting: &Meeting<S>,
-        groups: &Groups,
-        lit: M<S>,
-        light: usize,
-        shown: F3<S>,
-    ) -> F3<S> {
+    fn add_light(&mut self, here: &Here<'_, S>, lit: M<S>, light: usize, shown: F3<S>) -> F3<S> {
+        let Here { meeting, groups, .. } = here;
         let zero = F::splat(self.s, 0.0);
         let row = &self.frame.snapshot.light_rows()[light];
         let arrival = row.light.arriving(meeting.point);
@@ -97,7 +84,7 @@ impl<S: Simd> Tracer<'_, S> {
             facing
         } else {
             self.stats.rays.shadow += facing.count();
-            facing & !self.shadowed((packet, best), meeting, facing, light, &arrival)
+            facing & !self.shadowed(here, facing, light, &arrival)
         };
         if !reached.any() {
             return shown;
@@ -117,14 +104,8 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// Lanes whose way to a light is blocked.
     #[inline(always)]
-    fn shadowed(
-        &mut self,
-        (packet, best): (&Packet<'_, S>, &Best<S>),
-        meeting: &Meeting<S>,
-        facing: M<S>,
-        light: usize,
-        arrival: &Arrival<F<S>>,
-    ) -> M<S> {
+    fn shadowed(&mut self, here: &Here<'_, S>, facing: M<S>, light: usize, arrival: &Arrival<F<S>>) -> M<S> {
+        let Here { packet, best, meeting, .. } = here;
         let row = &self.frame.snapshot.light_rows()[light];
         let ways = Ways {
             rays: Rays {

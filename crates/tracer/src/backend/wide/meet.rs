@@ -21,6 +21,14 @@ pub(super) struct Meeting<S: Simd> {
     pub(super) shading: ShadingPoint<F<S>>,
 }
 
+/// What is known of a packet once it has met something.
+pub(super) struct Here<'a, S: Simd> {
+    pub(super) packet: &'a Packet<'a, S>,
+    pub(super) best: &'a Best<S>,
+    pub(super) meeting: &'a Meeting<S>,
+    pub(super) groups: &'a Groups,
+}
+
 impl<S: Simd> Tracer<'_, S> {
     /// The weighted light of every lane; rays that go on are queued.
     #[inline(always)]
@@ -33,8 +41,9 @@ impl<S: Simd> Tracer<'_, S> {
         // Apart from the meeting, so that the compiler may keep that in registers.
         let mut groups = Groups::new();
         let meeting = self.meet(packet, best, hits, &mut groups);
-        let local = self.local(packet, best, &meeting, &groups);
-        self.send_on(packet, best, &meeting, &groups, depth);
+        let here = Here { packet, best, meeting: &meeting, groups: &groups };
+        let local = self.local(&here);
+        self.send_on(&here, depth);
         let shown = local.times(packet.weight);
         F3::select(hits, shown, F3::select(packet.live, sky, dark(self.s)))
     }
@@ -76,14 +85,8 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// Queues the rays of lanes whose surfaces reflect.
     #[inline(always)]
-    fn send_on(
-        &mut self,
-        packet: &Packet<'_, S>,
-        best: &Best<S>,
-        meeting: &Meeting<S>,
-        groups: &Groups,
-        depth: u32,
-    ) {
+    fn send_on(&mut self, here: &Here<'_, S>, depth: u32) {
+        let Here { packet, best, groups, .. } = here;
         let materials = self.frame.snapshot.material_rows();
         let view = self.frame.view;
         for group in 0..groups.len() {
@@ -108,21 +111,15 @@ impl<S: Simd> Tracer<'_, S> {
             self.stats.skipped.weight_cutoff += faint.count();
             let on = positive & !faint;
             if on.any() {
-                self.reflect(packet, best, meeting, on, weight);
+                self.reflect(here, on, weight);
             }
         }
     }
 
     /// Queues the mirrored rays of the lanes of `on`, from their points in `f64`.
     #[inline(always)]
-    fn reflect(
-        &mut self,
-        packet: &Packet<'_, S>,
-        best: &Best<S>,
-        meeting: &Meeting<S>,
-        on: M<S>,
-        weight: F3<S>,
-    ) {
+    fn reflect(&mut self, here: &Here<'_, S>, on: M<S>, weight: F3<S>) {
+        let Here { packet, best, meeting, .. } = here;
         let settled = self.settle_every(packet, best, on);
         let (_, d) = packet.precise(self.s);
         let geometric = mirrored(d, settled.normal);

@@ -20,11 +20,12 @@ mod walk;
 
 use std::cell::RefCell;
 
-use catoptra_core::Lane;
-use fearless_simd::{Level, Simd, dispatch};
+use catoptra_core::{Lane, LaneMask, Rgb};
+use fearless_simd::{Level, Simd};
 
 use super::{Backend, Frame};
-use crate::lanes::{F, F3, splat3};
+use crate::film::NOTHING;
+use crate::lanes::{F, F3, U, splat3};
 use crate::numeric::PLAN_MARGIN;
 use crate::{Stats, Tile};
 use batch::{Batch, Found};
@@ -53,7 +54,7 @@ impl Backend for Wide {
     }
 
     fn trace(&self, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
-        ROOM.with_borrow_mut(|room| dispatch!(Level::new(), s => trace_tile(s, frame, tile, room)))
+        ROOM.with_borrow_mut(|room| trace_natively(frame, tile, room))
     }
 }
 
@@ -71,6 +72,38 @@ struct Room {
     between: Vec<Shapes>,
 }
 
+/// Traces one tile with the best of the instructions there are. Of the x86 family three kinds are told apart; each
+/// costs its time to compile.
+fn trace_natively(frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
+    let level = Level::new();
+    #[cfg(target_arch = "x86_64")]
+    match (level.as_avx512(), level.as_avx2(), level.as_sse2()) {
+        (Some(s), ..) => {
+            return s.vectorize(
+                #[inline(always)]
+                || trace_tile(s, frame, tile, room),
+            );
+        }
+        (_, Some(s), _) => {
+            return s.vectorize(
+                #[inline(always)]
+                || trace_tile(s, frame, tile, room),
+            );
+        }
+        (.., Some(s)) => {
+            return s.vectorize(
+                #[inline(always)]
+                || trace_tile(s, frame, tile, room),
+            );
+        }
+        _ => {}
+    }
+    #[cfg(target_arch = "x86_64")]
+    unreachable!("every x86-64 has SSE2");
+    #[cfg(not(target_arch = "x86_64"))]
+    fearless_simd::dispatch!(level, s => trace_tile(s, frame, tile, room))
+}
+
 /// Traces one tile with the instructions that `s` stands for.
 #[inline(always)]
 fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
@@ -86,7 +119,7 @@ fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
         } else {
             first.all(frame.snapshot.columns());
         }
-        tracer.trace(&Primary::new(s, frame, tile, column, row), first, &mut tile.radiance, 0);
+        tracer.trace_camera(&Primary::new(s, frame, tile, column, row), first, &mut tile.radiance);
         if (column, row) == (grid / 2, grid / 2) {
             batch::keep(tile, tracer.found);
         }
@@ -126,31 +159,72 @@ struct Tracer<'a, S: Simd> {
 }
 
 impl<S: Simd> Tracer<'_, S> {
-    /// Finds what the rays of a batch meet, then adds the light that arrives along them. Where it is known beforehand
-    /// where the points lie, both at once.
+    /// Adds the light that arrives along the camera rays of a tile.
+    #[inline(always)]
+    fn trace_camera(&mut self, camera: &Primary<S>, shapes: &Shapes, radiance: &mut [Vec<f32>; 3]) {
+        match shapes.filled {
+            None => self.trace(camera, shapes, radiance, 0),
+            Some(place) => {
+                self.stats.rays.primary += camera.live();
+                self.found.make_room(camera.rays());
+                self.plan_shadows(&[place]);
+                // Compiled apart, as are the other loops: what is one function takes long to compile.
+                self.s.vectorize(
+                    #[inline(always)]
+                    || self.find_and_shade(camera, shapes, radiance),
+                );
+            }
+        }
+    }
+
+    /// Finds what the rays of a batch meet, then adds the light that arrives along them.
     #[inline(always)]
     fn trace(&mut self, batch: &impl Batch<S>, shapes: &Shapes, radiance: &mut [Vec<f32>; 3], depth: u32) {
+        let rays = if depth == 0 { &mut self.stats.rays.primary } else { &mut self.stats.rays.reflection };
+        *rays += batch.live();
         self.found.make_room(batch.rays());
-        match shapes.filled {
-            Some(place) => self.plan_shadows(&[place]),
-            None => self.find(batch, shapes),
+        self.s.vectorize(
+            #[inline(always)]
+            || self.find(batch, shapes),
+        );
+        self.s.vectorize(
+            #[inline(always)]
+            || self.shade(batch, radiance, depth),
+        );
+    }
+
+    /// Finds and shades at once: where the points lie is known beforehand.
+    #[inline(always)]
+    fn find_and_shade(&mut self, camera: &Primary<S>, shapes: &Shapes, radiance: &mut [Vec<f32>; 3]) {
+        for at in (0..camera.rays()).step_by(F::<S>::LANES) {
+            let packet = camera.packet(self.s, at, None);
+            let best = self.nearest(&packet, shapes);
+            best.store(self.found, at);
+            let light = self.gather(&packet, &best, 0);
+            camera.add(self.s, at, &packet, light, radiance);
         }
-        let mut rays = 0;
+    }
+
+    /// Adds the light that arrives along the rays of a batch from what they have met.
+    #[inline(always)]
+    fn shade(&mut self, batch: &impl Batch<S>, radiance: &mut [Vec<f32>; 3], depth: u32) {
         for at in (0..batch.rays()).step_by(F::<S>::LANES) {
-            let (packet, best) = if shapes.filled.is_some() {
-                let packet = batch.packet(self.s, at, None);
-                let best = self.nearest(&packet, shapes);
-                best.store(self.found, at);
-                (packet, best)
-            } else {
-                let known = F::load(self.s, &self.found.inverse_length[at..]);
-                (batch.packet(self.s, at, Some(known)), Best::found(self.s, self.found, at))
-            };
-            rays += packet.live.count();
+            if depth > 0 && self.is_dark(at) {
+                continue;
+            }
+            let known = F::load(self.s, &self.found.inverse_length[at..]);
+            let packet = batch.packet(self.s, at, Some(known));
+            let best = Best::found(self.s, self.found, at);
             let light = self.gather(&packet, &best, depth);
             batch.add(self.s, at, &packet, light, radiance);
         }
-        *if depth == 0 { &mut self.stats.rays.primary } else { &mut self.stats.rays.reflection } += rays;
+    }
+
+    /// Whether the rays from `at` on meet nothing but darkness.
+    #[inline(always)]
+    fn is_dark(&self, at: usize) -> bool {
+        let hits = !U::load(self.s, &self.found.prim[at..]).is(NOTHING);
+        !hits.any() && self.frame.snapshot.background() == Rgb::BLACK
     }
 
     /// Finds what the rays of a batch meet, and what may stand between that and the lights.

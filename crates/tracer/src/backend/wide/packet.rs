@@ -124,16 +124,13 @@ pub(super) struct Primary<S: Simd> {
     share: [f64; 2],
     left: u32,
     top: u32,
-    width: u32,
-    height: u32,
+    pub(super) width: u32,
+    pub(super) height: u32,
     pub(super) pixels: usize,
     /// Whether pixels hold nothing yet.
     pub(super) fresh: bool,
     weight: F3<S>,
 }
-
-/// The lanes' numbers.
-static COUNTED: [u32; BLOCK_PIXELS] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 impl<S: Simd> Primary<S> {
     /// For the sample at a column and row of the grid within each pixel.
@@ -209,7 +206,7 @@ impl<S: Simd> Primary<S> {
             rays,
             inverse_length,
             weight: self.weight,
-            pixel: U::load(s, &COUNTED).plus(at as u32),
+            pixel: U::counted(s, at as u32),
             left: Left::nothing(s),
             live: inside(s, self.width - x, self.height - y, part as u32),
         }

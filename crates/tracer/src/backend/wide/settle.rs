@@ -45,6 +45,36 @@ impl<S: Simd> Tracer<'_, S> {
                 let sphere = &columns.spheres[row as usize];
                 self.settle_sphere(packet, best, sphere.center, sphere.radius)
             }
+            _ => self.settle_facets(packet, best, mask, prim),
+        }
+    }
+
+    /// As [`settle`](Self::settle), of shapes that are less common. Compiled apart, on copies.
+    #[inline(always)]
+    pub(super) fn settle_facets(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        mask: M<S>,
+        prim: u32,
+    ) -> Settled<S> {
+        let (packet, best) = (*packet, *best);
+        self.s.vectorize(
+            #[inline(always)]
+            || self.settle_each_facet(&packet, &best, mask, prim),
+        )
+    }
+
+    #[inline(always)]
+    fn settle_each_facet(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        mask: M<S>,
+        prim: u32,
+    ) -> Settled<S> {
+        let columns = self.frame.snapshot.columns();
+        match columns.rows[prim as usize] {
             Row::Rectangle(row) => {
                 let plane = &columns.rectangles[row as usize].plane;
                 self.settle_flat(packet, best, plane)
@@ -58,7 +88,7 @@ impl<S: Simd> Tracer<'_, S> {
                 self.settle_triangles(packet, best, &corners)
             }
             Row::Instance(row) => self.settle_mesh(packet, best, mask, &columns.instances[row as usize]),
-            Row::General => self.settle_general(packet, mask, prim),
+            Row::General | Row::Plane(_) | Row::Sphere(_) => self.settle_general(packet, mask, prim),
         }
     }
 

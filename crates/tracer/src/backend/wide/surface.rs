@@ -61,33 +61,14 @@ impl<S: Simd> Tracer<'_, S> {
                 Surface::flat(point, from_center.scale(F::splat(self.s, sphere.inverse_radius)))
             }
             Row::Triangles(..) | Row::Instance(_) | Row::General => {
-                self.surface_settled(packet, best, mask, prim)
-            }
-        }
-    }
-
-    /// As [`surface`](Self::surface), of shapes whose normals are worked out in `f64`. Compiled apart, on copies, which
-    /// keep the common case in registers.
-    #[inline(always)]
-    fn surface_settled(
-        &mut self,
-        packet: &Packet<'_, S>,
-        best: &Best<S>,
-        mask: M<S>,
-        prim: u32,
-    ) -> Surface<S> {
-        let (packet, best) = (*packet, *best);
-        self.s.vectorize(
-            #[inline(always)]
-            || {
-                let settled = self.settle(&packet, &best, mask, prim);
+                let settled = self.settle_facets(packet, best, mask, prim);
                 Surface {
                     point: narrow3(settled.point),
                     normal: narrow3(settled.normal),
                     shading: narrow3(settled.shading),
                 }
-            },
-        )
+            }
+        }
     }
 
     /// Adds the lanes of another shape. Compiled apart: most packets meet one shape.
