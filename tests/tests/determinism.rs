@@ -71,7 +71,8 @@ fn a_second_render_gives_the_same_bits() {
 
 #[test]
 fn work_left_out_changes_no_bit() {
-    let skips = [Skip::NOTHING, Skip { hidden: true, ..Skip::NOTHING }, Skip { shafts: true, ..Skip::NOTHING }];
+    let skips =
+        [Skip::NOTHING, Skip { hidden: true, ..Skip::NOTHING }, Skip { shafts: true, ..Skip::NOTHING }];
     for (name, scene) in shipped_scenes() {
         let view = View::of(&scene, camera_of(&scene), ODD);
         let usual = traced(&scene, "wide", &view, Film::new(ODD), 2);

@@ -20,7 +20,8 @@ pub struct SpotLight {
     inner: f64,
     outer: f64,
     falloff: Coefficient,
-    cos_outer: Coefficient,
+    /// 1 − cos(outer/2).
+    outer_depth: Coefficient,
     /// 1 / (cos(inner/2) − cos(outer/2)); the largest `f32` where the cones coincide, so that the edge is hard.
     slope: Coefficient,
     shadow: bool,
@@ -100,7 +101,8 @@ impl Part for SpotLight {
                 format!("{}°", round(outer.to_degrees())),
             ));
         }
-        let (cos_inner, cos_outer) = ((inner / 2.0).cos(), (outer / 2.0).cos());
+        // 1 − cos(angle / 2) without cancellation.
+        let depth = |angle: f64| 2.0 * (angle / 4.0).sin().powi(2);
         let direction = given.direction("direction")?;
         Ok(Self {
             position: given.point("position")?.into(),
@@ -110,8 +112,8 @@ impl Part for SpotLight {
             inner,
             outer,
             falloff: Coefficient::new(given.not_negative("falloff")?),
-            cos_outer: Coefficient::new(cos_outer),
-            slope: Coefficient::new((1.0 / (cos_inner - cos_outer)).min(f64::from(f32::MAX))),
+            outer_depth: Coefficient::new(depth(outer)),
+            slope: Coefficient::new((1.0 / (depth(outer) - depth(inner))).min(f64::from(f32::MAX))),
             shadow: given.flag("shadow")?,
         })
     }
@@ -133,8 +135,9 @@ impl Emitter for SpotLight {
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
         let like = point.x;
         let arrival = from_point(Triple::of(like, &self.position), Triple::of(like, &self.intensity), point);
-        let cosine = -arrival.towards.dot(Triple::of(like, &self.axis));
-        let above_outer = cosine - like.of(self.cos_outer);
+        // 1 − cos α is half the square of the difference of the two unit vectors, which keeps its digits near the axis.
+        let aside = arrival.towards + Triple::of(like, &self.axis);
+        let above_outer = like.of(self.outer_depth) - aside.dot(aside) * like.number(0.5);
         let (zero, one) = (like.number(0.0), like.number(1.0));
         let share = (above_outer * like.of(self.slope)).max(zero).min(one).power(self.falloff);
         Arrival {

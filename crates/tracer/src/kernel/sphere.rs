@@ -13,7 +13,7 @@ use crate::numeric::POINT_ERROR;
 pub(crate) struct SphereRow {
     pub(crate) center: DVec3,
     pub(crate) radius: f64,
-    pub(crate) center32: [f32; 3],
+    center32: [f32; 3],
     pub(crate) inverse_radius: f32,
     radius32: f32,
     reach: f32,

@@ -122,7 +122,7 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// The points at the distances that `f32` has found.
     #[inline(always)]
-    fn near(&self, packet: &Packet<'_, S>, best: &Best<S>) -> D3<S> {
+    pub(super) fn near(&self, packet: &Packet<'_, S>, best: &Best<S>) -> D3<S> {
         let (origin, direction) = packet.precise(self.s);
         direction.scale_add((best.t * packet.inverse_length).widen(), origin)
     }

@@ -62,9 +62,12 @@ impl<S: Simd> Tracer<'_, S> {
     ) -> M<S> {
         let columns = self.frame.snapshot.columns();
         if let Row::Sphere(row) = columns.rows[prim as usize] {
-            let leaving = ways.left.from(self.s, prim, 0) & open;
+            let own = ways.left.from(self.s, prim, 0) & open;
+            // Seen from outside, what faces the light is not shadowed by its own sphere.
+            let (asked, leaving) =
+                if self.outside { (open & !own, M::splat(self.s, false)) } else { (open, own) };
             let blocking = columns.spheres[row as usize].block(self.s, &ways.rays, &ways.target, leaving);
-            self.block((packet, ways), open, open, (prim, Some(0)), blocking)
+            self.block((packet, ways), open, asked, (prim, Some(0)), blocking)
         } else {
             let (packet, ways) = (*packet, *ways);
             self.s.vectorize(

@@ -7,7 +7,8 @@ use fearless_simd::Simd;
 use super::Tracer;
 use super::packet::Packet;
 use super::search::Best;
-use crate::lanes::{F, F3, M, narrow3, splat3};
+use crate::kernel::SphereRow;
+use crate::lanes::{F, F3, M, narrow3, splat_wide, splat3};
 use crate::snapshot::Row;
 
 /// Points and normals of the lanes that meet something.
@@ -55,11 +56,7 @@ impl<S: Simd> Tracer<'_, S> {
             Row::Rectangle(row) => {
                 Surface::flat(point, splat3(self.s, columns.rectangles[row as usize].plane.normal32))
             }
-            Row::Sphere(row) => {
-                let sphere = &columns.spheres[row as usize];
-                let from_center = point - splat3(self.s, sphere.center32);
-                Surface::flat(point, from_center.scale(F::splat(self.s, sphere.inverse_radius)))
-            }
+            Row::Sphere(row) => self.surface_of_sphere(packet, best, &columns.spheres[row as usize]),
             Row::Triangles(..) | Row::Instance(_) | Row::General => {
                 let settled = self.settle_facets(packet, best, mask, prim);
                 Surface {
@@ -69,6 +66,19 @@ impl<S: Simd> Tracer<'_, S> {
                 }
             }
         }
+    }
+
+    /// Relative to the centre, where `f32` is fine enough for sharp highlights; one Newton step brings it there.
+    #[inline(always)]
+    fn surface_of_sphere(&self, packet: &Packet<'_, S>, best: &Best<S>, sphere: &SphereRow) -> Surface<S> {
+        let direction = packet.rays.direction;
+        let near = self.near(packet, best);
+        let from_center = narrow3(near - splat_wide(self.s, sphere.center));
+        let radius2 = F::splat(self.s, (sphere.radius * sphere.radius) as f32);
+        let slope = from_center.dot(direction);
+        let metres = (radius2 - from_center.dot(from_center)) / (slope + slope);
+        let normal = direction.scale_add(metres, from_center).scale(F::splat(self.s, sphere.inverse_radius));
+        Surface::flat(direction.scale_add(metres, narrow3(near)), normal)
     }
 
     /// Adds the lanes of another shape. Compiled apart: most packets meet one shape.
