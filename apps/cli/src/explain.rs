@@ -38,6 +38,7 @@ const NO_SHADOW_RAY: &[Reason] = &[
     ("the point lies outside the light's cone", |skipped| skipped.out_of_cone),
     ("the light throws no shadows", |skipped| skipped.shadow_off),
     ("the material shows no light of its own", |skipped| skipped.unlit_material),
+    ("nothing stands between the tile's surfaces and the light", |skipped| skipped.nothing_between),
 ];
 
 /// Reasons against reflection rays.

@@ -1,10 +1,15 @@
 //! Lanes of the CPU's SIMD registers as the formulas' numbers: `f32` at native width and the same lanes in `f64`.
 
+mod double;
+mod vectors;
+
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
-use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, Coefficient, Lane, LaneMask, Triple};
+use catoptra_core::{Arithmetic, Coefficient, Lane, LaneMask};
 use fearless_simd::prelude::*;
+
+pub(crate) use double::D;
+pub(crate) use vectors::{D3, F3, narrow3, pick3, splat_wide, splat3, widen3};
 
 /// `f32` in every lane.
 #[derive(Clone, Copy)]
@@ -14,22 +19,9 @@ pub(crate) struct F<S: Simd>(pub(crate) S::f32s);
 #[derive(Clone, Copy)]
 pub(crate) struct M<S: Simd>(pub(crate) S::mask32s);
 
-/// `f64` in every lane: the lower half of the lanes and the upper half.
-#[derive(Clone, Copy)]
-pub(crate) struct D<S: Simd> {
-    lower: S::f64s,
-    upper: S::f64s,
-}
-
 /// Whole numbers in every lane.
 #[derive(Clone, Copy)]
 pub(crate) struct U<S: Simd>(pub(crate) S::u32s);
-
-/// Points, directions or colours in every lane.
-pub(crate) type F3<S> = Triple<F<S>>;
-
-/// Points or directions in every lane, in `f64`.
-pub(crate) type D3<S> = Triple<D<S>>;
 
 impl<S: Simd> F<S> {
     /// How many lanes there are.
@@ -261,99 +253,6 @@ impl<S: Simd> Lane for F<S> {
     }
 }
 
-impl<S: Simd> D<S> {
-    #[inline(always)]
-    pub(crate) fn splat(s: S, v: f64) -> Self {
-        Self { lower: S::f64s::splat(s, v), upper: S::f64s::splat(s, v) }
-    }
-
-    #[inline(always)]
-    pub(crate) fn load(s: S, from: &[f64]) -> Self {
-        let half = S::f64s::LEN;
-        Self {
-            lower: S::f64s::from_slice(s, &from[..half]),
-            upper: S::f64s::from_slice(s, &from[half..2 * half]),
-        }
-    }
-
-    #[inline(always)]
-    pub(crate) fn abs(self) -> Self {
-        Self { lower: self.lower.abs(), upper: self.upper.abs() }
-    }
-
-    #[inline(always)]
-    pub(crate) fn max(self, o: Self) -> Self {
-        Self { lower: self.lower.max(o.lower), upper: self.upper.max(o.upper) }
-    }
-
-    /// Writes the lanes where the mask holds one after another, and anything after them, up to all lanes.
-    #[inline(always)]
-    pub(crate) fn compress(self, mask: M<S>, to: &mut [f64]) {
-        let [lower, upper] = Self::halves(mask);
-        let half = S::f64s::LEN;
-        let first = (mask.bits() & ((1 << half) - 1)).count_ones() as usize;
-        self.lower.compress(lower).store_slice(&mut to[..half]);
-        self.upper.compress(upper).store_slice(&mut to[first..first + half]);
-    }
-
-    #[inline(always)]
-    fn halves(mask: M<S>) -> [S::mask64s; 2] {
-        let (s, bits, half) = (mask.0.token(), mask.bits(), S::f64s::LEN);
-        let low = (1_u64 << half) - 1;
-        [S::mask64s::from_bitmask(s, bits & low), S::mask64s::from_bitmask(s, bits >> half & low)]
-    }
-
-    /// Rounded to `f32`.
-    #[inline(always)]
-    pub(crate) fn narrow(self) -> F<S> {
-        F(self.lower.narrow(self.upper))
-    }
-
-    #[inline(always)]
-    pub(crate) fn pick(mask: M<S>, if_true: Self, if_false: Self) -> Self {
-        let [lower, upper] = Self::halves(mask);
-        Self {
-            lower: lower.select(if_true.lower, if_false.lower),
-            upper: upper.select(if_true.upper, if_false.upper),
-        }
-    }
-}
-
-macro_rules! binary_double {
-    ($trait:ident, $name:ident) => {
-        impl<S: Simd> $trait for D<S> {
-            type Output = Self;
-            #[inline(always)]
-            fn $name(self, o: Self) -> Self {
-                Self { lower: self.lower.$name(o.lower), upper: self.upper.$name(o.upper) }
-            }
-        }
-    };
-}
-
-binary_double!(Add, add);
-binary_double!(Sub, sub);
-binary_double!(Mul, mul);
-binary_double!(Div, div);
-
-impl<S: Simd> Neg for D<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self { lower: -self.lower, upper: -self.upper }
-    }
-}
-
-impl<S: Simd> Arithmetic for D<S> {
-    #[inline(always)]
-    fn mul_add(self, factor: Self, summand: Self) -> Self {
-        Self {
-            lower: self.lower.mul_add_precise(factor.lower, summand.lower),
-            upper: self.upper.mul_add_precise(factor.upper, summand.upper),
-        }
-    }
-}
-
 /// The numbers of lanes.
 static COUNTED: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
@@ -404,38 +303,4 @@ impl<S: Simd> U<S> {
     pub(crate) fn pick(mask: M<S>, if_true: Self, if_false: Self) -> Self {
         Self(mask.0.select(if_true.0, if_false.0))
     }
-}
-
-/// The same vector in every lane.
-#[inline(always)]
-pub(crate) fn splat3<S: Simd>(s: S, v: [f32; 3]) -> F3<S> {
-    Triple::new(F::splat(s, v[0]), F::splat(s, v[1]), F::splat(s, v[2]))
-}
-
-/// The same vector in every lane, in `f64`.
-#[inline(always)]
-pub(crate) fn splat_wide<S: Simd>(s: S, v: DVec3) -> D3<S> {
-    Triple::new(D::splat(s, v.x), D::splat(s, v.y), D::splat(s, v.z))
-}
-
-/// Rounded to `f32`.
-#[inline(always)]
-pub(crate) fn narrow3<S: Simd>(v: D3<S>) -> F3<S> {
-    Triple::new(v.x.narrow(), v.y.narrow(), v.z.narrow())
-}
-
-/// In `f64`, exactly.
-#[inline(always)]
-pub(crate) fn widen3<S: Simd>(v: F3<S>) -> D3<S> {
-    Triple::new(v.x.widen(), v.y.widen(), v.z.widen())
-}
-
-/// `if_true` where the mask holds, else `if_false`.
-#[inline(always)]
-pub(crate) fn pick3<S: Simd>(mask: M<S>, if_true: D3<S>, if_false: D3<S>) -> D3<S> {
-    Triple::new(
-        D::pick(mask, if_true.x, if_false.x),
-        D::pick(mask, if_true.y, if_false.y),
-        D::pick(mask, if_true.z, if_false.z),
-    )
 }

@@ -1,0 +1,174 @@
+//! How a part's constructor asks for its values, each of the kind and range that its field states.
+
+use glam::DVec3;
+
+use super::{Field, FieldKind, MeshSource, Value, Values};
+use crate::{InvalidPart, Rgb};
+
+/// The largest magnitude of a number in a part, about 3.4e38: SIMD code keeps numbers in `f32` too, where a larger
+/// one would be infinite.
+pub const LARGEST: f64 = f32::MAX as f64;
+
+const WITHIN_LARGEST: &str = "must be at most 3.4e38 in magnitude";
+
+/// Values as a part's constructor asks for them: by name, of the kind its field states, with defaults filled in.
+#[derive(Debug, Clone, Copy)]
+pub struct Given<'a> {
+    pub(super) fields: &'static [Field],
+    pub(super) values: &'a Values,
+}
+
+impl Given<'_> {
+    fn value(&self, name: &'static str) -> Result<Value, InvalidPart> {
+        let default =
+            || self.fields.iter().find(|f| f.name == name).and_then(|f| f.default).map(|make| make());
+        let value = self.values.get(name).cloned().or_else(default);
+        value.ok_or_else(|| InvalidPart::new(name, "must be given", "missing"))
+    }
+
+    /// Whether a value was given.
+    #[must_use]
+    pub fn has(&self, name: &str) -> bool {
+        self.values.get(name).is_some()
+    }
+
+    /// A number of any kind.
+    ///
+    /// # Errors
+    /// Missing, not a number, not finite, or beyond [`LARGEST`].
+    pub fn number(&self, name: &'static str) -> Result<f64, InvalidPart> {
+        match self.value(name)? {
+            Value::Number(v) if v.abs() <= LARGEST => Ok(v),
+            Value::Number(v) if v.is_finite() => Err(InvalidPart::new(name, WITHIN_LARGEST, v)),
+            other => Err(wrong(name, "must be a finite number", &other)),
+        }
+    }
+
+    /// A number greater than 0.
+    ///
+    /// # Errors
+    /// Missing, not a number, not finite, or not greater than 0.
+    pub fn positive(&self, name: &'static str) -> Result<f64, InvalidPart> {
+        let v = self.number(name)?;
+        if v > 0.0 { Ok(v) } else { Err(InvalidPart::new(name, "must be greater than 0", v)) }
+    }
+
+    /// A number of at least 0.
+    ///
+    /// # Errors
+    /// Missing, not a number, not finite, or negative.
+    pub fn not_negative(&self, name: &'static str) -> Result<f64, InvalidPart> {
+        let v = self.number(name)?;
+        if v >= 0.0 { Ok(v) } else { Err(InvalidPart::new(name, "must be at least 0", v)) }
+    }
+
+    /// A number in 0..=1.
+    ///
+    /// # Errors
+    /// Missing, not a number, or outside.
+    pub fn fraction(&self, name: &'static str) -> Result<f64, InvalidPart> {
+        let v = self.number(name)?;
+        if (0.0..=1.0).contains(&v) { Ok(v) } else { Err(InvalidPart::new(name, "must lie in 0..1", v)) }
+    }
+
+    /// A point.
+    ///
+    /// # Errors
+    /// Missing, not three numbers, not finite, or beyond [`LARGEST`].
+    pub fn point(&self, name: &'static str) -> Result<DVec3, InvalidPart> {
+        match self.value(name)? {
+            Value::Vector(v) if v.abs().max_element() <= LARGEST && v.is_finite() => Ok(v),
+            other @ Value::Vector(v) if v.is_finite() => Err(wrong(name, WITHIN_LARGEST, &other)),
+            other => Err(wrong(name, "must be three finite numbers", &other)),
+        }
+    }
+
+    /// A direction; its length is kept.
+    ///
+    /// # Errors
+    /// Missing, not three numbers, not finite, beyond [`LARGEST`], or too short to have a direction.
+    pub fn direction(&self, name: &'static str) -> Result<DVec3, InvalidPart> {
+        let v = self.point(name)?;
+        if v.try_normalize().is_some() { Ok(v) } else { Err(InvalidPart::new(name, "must not be zero", v)) }
+    }
+
+    /// A reflectance.
+    ///
+    /// # Errors
+    /// Missing, not a colour, or a channel outside 0..=1.
+    pub fn color(&self, name: &'static str) -> Result<Rgb, InvalidPart> {
+        match self.value(name)? {
+            Value::Color(c) if c.all(|v| (0.0..=1.0).contains(&v)) => Ok(c),
+            other => Err(wrong(name, "must be a colour with channels in 0..1", &other)),
+        }
+    }
+
+    /// An amount of light.
+    ///
+    /// # Errors
+    /// Missing, not a colour, or a channel negative, not finite, or beyond [`LARGEST`].
+    pub fn quantity(&self, name: &'static str) -> Result<Rgb, InvalidPart> {
+        match self.value(name)? {
+            Value::Color(c) if c.all(|v| (0.0..=LARGEST).contains(&v)) => Ok(c),
+            other @ Value::Color(c) if c.all(|v| v >= 0.0 && v.is_finite()) => {
+                Err(wrong(name, WITHIN_LARGEST, &other))
+            }
+            other => Err(wrong(name, "must be light with finite channels of at least 0", &other)),
+        }
+    }
+
+    /// Yes or no.
+    ///
+    /// # Errors
+    /// Missing or not a flag.
+    pub fn flag(&self, name: &'static str) -> Result<bool, InvalidPart> {
+        match self.value(name)? {
+            Value::Flag(v) => Ok(v),
+            other => Err(wrong(name, "must be #true or #false", &other)),
+        }
+    }
+
+    /// The place of a word in the field's list of choices.
+    ///
+    /// # Errors
+    /// Missing or none of the words.
+    pub fn choice(&self, name: &'static str) -> Result<usize, InvalidPart> {
+        let words: &[&str] = self
+            .fields
+            .iter()
+            .find_map(|f| match f.kind {
+                FieldKind::Choice(words) if f.name == name => Some(words),
+                _ => None,
+            })
+            .unwrap_or(&[]);
+        let value = self.value(name)?;
+        let found = match &value {
+            Value::Word(word) => words.iter().position(|w| w == word),
+            _ => None,
+        };
+        found.ok_or_else(|| wrong(name, &format!("must be one of {}", words.join(", ")), &value))
+    }
+
+    /// A mesh.
+    ///
+    /// # Errors
+    /// Missing or not a mesh.
+    pub fn mesh(&self, name: &'static str) -> Result<MeshSource, InvalidPart> {
+        match self.value(name)? {
+            Value::Mesh(mesh) => Ok(mesh),
+            other => Err(wrong(name, "must be a mesh file", &other)),
+        }
+    }
+}
+
+fn wrong(name: &'static str, requirement: &str, found: &Value) -> InvalidPart {
+    let found = match found {
+        Value::Number(v) => v.to_string(),
+        Value::Vector(v) => format!("{} {} {}", v.x, v.y, v.z),
+        Value::Color(c) => format!("{} {} {}", c.r, c.g, c.b),
+        Value::Flag(v) => format!("#{v}"),
+        Value::Word(w) => format!("\"{w}\""),
+        Value::Mesh(m) => format!("the mesh {}", m.path),
+    };
+    InvalidPart::new(name, requirement, found)
+}

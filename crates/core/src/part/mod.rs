@@ -1,0 +1,201 @@
+//! How a part describes itself: its kind, its fields, and its values by name, so that scene text, panels, docs
+//! and tests follow from the part's own file.
+
+mod given;
+mod value;
+
+pub use given::{Given, LARGEST};
+pub use value::{MeshSource, Value, Values};
+
+use crate::InvalidPart;
+
+/// What sort of value a field takes, and the range it lies in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FieldKind {
+    /// Any finite number, in magnitude at most [`LARGEST`]; the same goes for every number of a part.
+    Number,
+    /// A number of metres greater than 0.
+    Length,
+    /// A whole number of at least 0.
+    Count,
+    /// A number in 0..=1.
+    Fraction,
+    /// An angle: radians in the API, degrees in text.
+    Angle,
+    /// A point, metres.
+    Point,
+    /// A direction of any length but zero.
+    Direction,
+    /// A reflectance: each channel in 0..=1.
+    Color,
+    /// An amount of light: each channel at least 0.
+    Quantity,
+    /// Yes or no.
+    Flag,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// A triangle mesh read from a file.
+    Mesh,
+}
+
+/// One named parameter of a part.
+#[derive(Debug, Clone, Copy)]
+pub struct Field {
+    /// Its name in scene text.
+    pub name: &'static str,
+    /// What it takes.
+    pub kind: FieldKind,
+    /// What it is when left out; `None` where nothing stands for it.
+    pub default: Option<fn() -> Value>,
+    /// Whether it may be left out.
+    pub may_be_missing: bool,
+    /// Its unit, empty for pure numbers.
+    pub unit: &'static str,
+    /// One sentence for docs and panels.
+    pub doc: &'static str,
+}
+
+impl Field {
+    /// A field that must be given.
+    #[must_use]
+    pub const fn required(
+        name: &'static str,
+        kind: FieldKind,
+        unit: &'static str,
+        doc: &'static str,
+    ) -> Self {
+        Self { name, kind, default: None, may_be_missing: false, unit, doc }
+    }
+
+    /// The same field, left out without anything standing for it.
+    #[must_use]
+    pub const fn optional(self) -> Self {
+        Self { may_be_missing: true, ..self }
+    }
+
+    /// The same field, with a value that stands when it is left out.
+    #[must_use]
+    pub const fn or(self, default: fn() -> Value) -> Self {
+        Self { default: Some(default), may_be_missing: true, ..self }
+    }
+}
+
+/// One kind of part: its name, what it is, its fields, and how to make one.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind<T: 'static> {
+    /// Its word in scene text.
+    pub name: &'static str,
+    /// One sentence.
+    pub doc: &'static str,
+    /// Its fields, in the order they are written.
+    pub fields: &'static [Field],
+    /// Makes one; optional fields that are left out take their default.
+    pub make: fn(&Values) -> Result<T, InvalidPart>,
+}
+
+impl<T> Kind<T> {
+    /// The field of that name.
+    #[must_use]
+    pub fn field(&self, name: &str) -> Option<&'static Field> {
+        self.fields.iter().find(|f| f.name == name)
+    }
+}
+
+/// A part of a scene that describes itself.
+pub trait Part: Sized {
+    /// Its word in scene text.
+    const NAME: &'static str;
+    /// One sentence.
+    const DOC: &'static str;
+    /// Its fields, in the order they are written.
+    const FIELDS: &'static [Field];
+
+    /// Makes one from checked-for-kind, named values.
+    ///
+    /// # Errors
+    /// A value that is missing or refused.
+    fn make(given: &Given<'_>) -> Result<Self, InvalidPart>;
+
+    /// Its values by name: what [`make`](Self::make) makes an equal part from.
+    fn values(&self) -> Values;
+}
+
+/// Makes a part from values: what stands behind [`Kind::make`].
+///
+/// # Errors
+/// A value that is missing, of the wrong sort, or refused.
+pub fn make<P: Part>(values: &Values) -> Result<P, InvalidPart> {
+    P::make(&Given { fields: P::FIELDS, values })
+}
+
+/// Declares an enum with one variant per kind of part, and what follows from the list: the table of kinds,
+/// making, naming and changing parts, and a macro `$each!(value, part => expression)` that evaluates the
+/// expression with `part` bound to whatever the value holds. (`$d` stands for a dollar sign.)
+macro_rules! parts {
+    ($d:tt $each:ident $(#[$meta:meta])* $vis:vis enum $name:ident { $($(#[$doc:meta])* $variant:ident),+ $(,)? }) => {
+        $(#[$meta])*
+        #[derive(Debug, Clone, PartialEq)]
+        #[non_exhaustive]
+        $vis enum $name { $($(#[$doc])* $variant($variant)),+ }
+
+        $(impl From<$variant> for $name {
+            fn from(part: $variant) -> Self {
+                Self::$variant(part)
+            }
+        })+
+
+        impl $name {
+            /// Every kind there is, in the order of the list.
+            pub const KINDS: &'static [$crate::Kind<Self>] = &[$($crate::Kind {
+                name: <$variant as $crate::Part>::NAME,
+                doc: <$variant as $crate::Part>::DOC,
+                fields: <$variant as $crate::Part>::FIELDS,
+                make: |values| $crate::part::make::<$variant>(values).map(Self::$variant),
+            }),+];
+
+            /// The kind of that name.
+            #[must_use]
+            pub fn kind_named(name: &str) -> Option<&'static $crate::Kind<Self>> {
+                Self::KINDS.iter().find(|k| k.name == name)
+            }
+
+            /// The word for its kind.
+            #[must_use]
+            pub fn kind_name(&self) -> &'static str {
+                match self { $(Self::$variant(_) => <$variant as $crate::Part>::NAME),+ }
+            }
+
+            /// Its kind.
+            #[must_use]
+            pub fn kind(&self) -> &'static $crate::Kind<Self> {
+                let name = self.kind_name();
+                Self::KINDS.iter().find(|k| k.name == name).unwrap_or(&Self::KINDS[0])
+            }
+
+            /// Its values by field name.
+            #[must_use]
+            pub fn values(&self) -> $crate::Values {
+                match self { $(Self::$variant(part) => $crate::Part::values(part)),+ }
+            }
+
+            /// The same part with one value changed.
+            ///
+            /// # Errors
+            /// A field that the kind has not, or a value that it refuses.
+            pub fn with(&self, field: &'static str, value: $crate::Value) -> Result<Self, $crate::InvalidPart> {
+                let kind = self.kind();
+                if kind.field(field).is_none() {
+                    return Err($crate::InvalidPart::new(field, format!("must be a field of {}", kind.name), "unknown"));
+                }
+                (kind.make)(&self.values().with(field, value))
+            }
+        }
+
+        macro_rules! $each {
+            ($d value:expr, $d part:ident => $d body:expr) => {
+                match $d value { $($name::$variant($d part) => $d body),+ }
+            };
+        }
+    };
+}
+pub(crate) use parts;

@@ -1,0 +1,77 @@
+//! What the value of a field can be, and values by name.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use crate::{Rgb, TriangleMesh};
+
+/// A triangle mesh and the file it came from.
+#[derive(Debug, Clone)]
+pub struct MeshSource {
+    /// Path as written in the scene, relative to the scene's folder.
+    pub path: String,
+    /// The triangles, in the mesh's own space.
+    pub mesh: Arc<TriangleMesh>,
+}
+
+impl PartialEq for MeshSource {
+    fn eq(&self, other: &Self) -> bool {
+        self.path == other.path && (Arc::ptr_eq(&self.mesh, &other.mesh) || self.mesh == other.mesh)
+    }
+}
+
+/// The value of a field.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// For [`FieldKind::Number`], `Length`, `Count`, `Fraction` and `Angle`.
+    Number(f64),
+    /// For [`FieldKind::Point`] and `Direction`.
+    Vector(DVec3),
+    /// For [`FieldKind::Color`] and `Quantity`.
+    Color(Rgb),
+    /// For [`FieldKind::Flag`].
+    Flag(bool),
+    /// For [`FieldKind::Choice`].
+    Word(String),
+    /// For [`FieldKind::Mesh`].
+    Mesh(MeshSource),
+}
+
+/// Values by field name, in order.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Values(Vec<(&'static str, Value)>);
+
+impl Values {
+    /// No values.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// With one more value, or a changed one.
+    #[must_use]
+    pub fn with(mut self, name: &'static str, value: Value) -> Self {
+        self.set(name, value);
+        self
+    }
+
+    /// Sets a value, replacing the one of that name.
+    pub fn set(&mut self, name: &'static str, value: Value) {
+        match self.0.iter_mut().find(|(n, _)| *n == name) {
+            Some(entry) => entry.1 = value,
+            None => self.0.push((name, value)),
+        }
+    }
+
+    /// The value of that name.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<&Value> {
+        self.0.iter().find(|(n, _)| *n == name).map(|(_, v)| v)
+    }
+
+    /// All of them, in order.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static str, &Value)> {
+        self.0.iter().map(|(n, v)| (*n, v))
+    }
+}

@@ -1,0 +1,47 @@
+//! Three numbers in every lane: points, directions, colours.
+
+use catoptra_core::Triple;
+use catoptra_core::glam::DVec3;
+use fearless_simd::prelude::*;
+
+use super::{D, F, M};
+
+/// Points, directions or colours in every lane.
+pub(crate) type F3<S> = Triple<F<S>>;
+
+/// Points or directions in every lane, in `f64`.
+pub(crate) type D3<S> = Triple<D<S>>;
+
+/// The same vector in every lane.
+#[inline(always)]
+pub(crate) fn splat3<S: Simd>(s: S, v: [f32; 3]) -> F3<S> {
+    Triple::new(F::splat(s, v[0]), F::splat(s, v[1]), F::splat(s, v[2]))
+}
+
+/// The same vector in every lane, in `f64`.
+#[inline(always)]
+pub(crate) fn splat_wide<S: Simd>(s: S, v: DVec3) -> D3<S> {
+    Triple::new(D::splat(s, v.x), D::splat(s, v.y), D::splat(s, v.z))
+}
+
+/// Rounded to `f32`.
+#[inline(always)]
+pub(crate) fn narrow3<S: Simd>(v: D3<S>) -> F3<S> {
+    Triple::new(v.x.narrow(), v.y.narrow(), v.z.narrow())
+}
+
+/// In `f64`, exactly.
+#[inline(always)]
+pub(crate) fn widen3<S: Simd>(v: F3<S>) -> D3<S> {
+    Triple::new(v.x.widen(), v.y.widen(), v.z.widen())
+}
+
+/// `if_true` where the mask holds, else `if_false`.
+#[inline(always)]
+pub(crate) fn pick3<S: Simd>(mask: M<S>, if_true: D3<S>, if_false: D3<S>) -> D3<S> {
+    Triple::new(
+        D::pick(mask, if_true.x, if_false.x),
+        D::pick(mask, if_true.y, if_false.y),
+        D::pick(mask, if_true.z, if_false.z),
+    )
+}
