@@ -1,11 +1,12 @@
 //! Where packets come from: the camera, pixel block by pixel block, or the stream of rays that surfaces sent on.
 
+use catoptra_core::Lane;
 use fearless_simd::Simd;
 
 use super::packet::{Packet, Primary};
 use super::queue::Queue;
 use crate::Tile;
-use crate::lanes::{F, F3};
+use crate::lanes::{F, F3, U};
 
 /// Packets that are traced together.
 pub(super) trait Batch<S: Simd> {
@@ -110,10 +111,12 @@ impl Found {
 }
 
 /// Copies what the camera's rays have met into a tile.
-pub(super) fn keep(tile: &mut Tile, found: &Found) {
-    let pixels = tile.depth.len();
-    tile.surface.copy_from_slice(&found.prim[..pixels]);
-    for (depth, t) in tile.depth.iter_mut().zip(&found.t) {
-        *depth = if *t == f32::MAX { f32::INFINITY } else { *t };
+#[inline(always)]
+pub(super) fn keep<S: Simd>(s: S, tile: &mut Tile, found: &Found) {
+    let (most, infinite) = (F::splat(s, f32::MAX), F::splat(s, f32::INFINITY));
+    for at in (0..tile.depth.len()).step_by(F::<S>::LANES) {
+        let t = F::load(s, &found.t[at..]);
+        F::pick(t.less(most), t, infinite).store(&mut tile.depth[at..]);
+        U::<S>::load(s, &found.prim[at..]).store(&mut tile.surface[at..]);
     }
 }

@@ -121,7 +121,7 @@ fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
         }
         tracer.trace_camera(&Primary::new(s, frame, tile, column, row), first, &mut tile.radiance);
         if (column, row) == (grid / 2, grid / 2) {
-            batch::keep(tile, tracer.found);
+            batch::keep(s, tile, tracer.found);
         }
         first.all(frame.snapshot.columns());
         for depth in 1.. {

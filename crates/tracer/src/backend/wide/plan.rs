@@ -122,8 +122,14 @@ impl Window {
 
     /// 1 / t of a plane along the four corners.
     fn nearness(&self, row: &PlaneRow) -> [f64; 4] {
-        let behind = row.distance - row.normal.dot(self.eye);
-        self.corners.map(|d| row.normal.dot(d) / behind)
+        let inverse = 1.0 / (row.distance - row.normal.dot(self.eye));
+        let (normal, [a, b, c, d]) = (row.normal, &self.corners);
+        [
+            normal.dot(*a) * inverse,
+            normal.dot(*b) * inverse,
+            normal.dot(*c) * inverse,
+            normal.dot(*d) * inverse,
+        ]
     }
 
     /// Where the points of a plane lie that fills the whole window; `None` where it does not for certain.
