@@ -24,17 +24,17 @@ impl PartialEq for MeshSource {
 /// The value of a field.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
-    /// For [`FieldKind::Number`], `Length`, `Count`, `Fraction` and `Angle`.
+    /// For [`FieldKind::Number`](super::FieldKind::Number), `Length`, `Count`, `Fraction` and `Angle`.
     Number(f64),
-    /// For [`FieldKind::Point`] and `Direction`.
+    /// For [`FieldKind::Point`](super::FieldKind::Point) and `Direction`.
     Vector(DVec3),
-    /// For [`FieldKind::Color`] and `Quantity`.
+    /// For [`FieldKind::Color`](super::FieldKind::Color) and `Quantity`.
     Color(Rgb),
-    /// For [`FieldKind::Flag`].
+    /// For [`FieldKind::Flag`](super::FieldKind::Flag).
     Flag(bool),
-    /// For [`FieldKind::Choice`].
+    /// For [`FieldKind::Choice`](super::FieldKind::Choice).
     Word(String),
-    /// For [`FieldKind::Mesh`].
+    /// For [`FieldKind::Mesh`](super::FieldKind::Mesh).
     Mesh(MeshSource),
 }
 
