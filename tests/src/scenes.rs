@@ -63,11 +63,7 @@ pub fn parsed(text: &str) -> Scene {
 /// When there is none.
 pub fn camera_of(scene: &Scene) -> Camera {
     let id = scene.main_camera().expect("a scene with a camera");
-    let (camera, placement) = (scene.camera(id), scene.world_placement(id));
-    camera
-        .zip(placement)
-        .and_then(|(camera, at)| camera.placed(&at).ok())
-        .expect("a camera that can be placed")
+    scene.world_camera(id).expect("a camera that can be placed")
 }
 
 /// How many triangles all meshes of a scene have.

@@ -140,7 +140,7 @@ impl Viewer {
     /// Looks through a camera of the scene; without one, at everything.
     pub(crate) fn adopt(&mut self, id: Option<EntityId>) {
         let scene = self.document.scene();
-        let seen = id.and_then(|id| scene.camera(id)?.placed(&scene.world_placement(id)?).ok());
+        let seen = id.and_then(|id| scene.world_camera(id));
         self.through = seen.as_ref().and(id);
         match seen {
             Some(camera) if camera.focus().is_none() => self.look(self.aimed(&camera)),

@@ -49,7 +49,7 @@ fn frustum(canvas: &mut Canvas<'_>, camera: &Camera, depth: f64, ink: Ink) {
 fn cameras<'a>(stage: &'a Stage<'_>) -> impl Iterator<Item = (EntityId, Camera)> + 'a {
     let ids = stage.scene.entities_of(Role::Camera);
     ids.filter_map(|id| {
-        let camera = stage.scene.camera(id)?.placed(&stage.scene.world_placement(id)?).ok()?;
+        let camera = stage.scene.world_camera(id)?;
         let apart = camera.eye().distance(stage.view.eye());
         (apart > OWN).then_some((id, camera))
     })

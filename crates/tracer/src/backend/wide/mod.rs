@@ -77,31 +77,26 @@ struct Room {
 fn trace_natively(frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
     let level = Level::new();
     #[cfg(target_arch = "x86_64")]
-    match (level.as_avx512(), level.as_avx2(), level.as_sse2()) {
-        (Some(s), ..) => {
-            return s.vectorize(
-                #[inline(always)]
-                || trace_tile(s, frame, tile, room),
-            );
-        }
-        (_, Some(s), _) => {
-            return s.vectorize(
-                #[inline(always)]
-                || trace_tile(s, frame, tile, room),
-            );
-        }
-        (.., Some(s)) => {
-            return s.vectorize(
-                #[inline(always)]
-                || trace_tile(s, frame, tile, room),
-            );
-        }
-        _ => {}
+    if let Some(s) = level.as_avx512() {
+        trace_with(s, frame, tile, room)
+    } else if let Some(s) = level.as_avx2() {
+        trace_with(s, frame, tile, room)
+    } else if let Some(s) = level.as_sse2() {
+        trace_with(s, frame, tile, room)
+    } else {
+        unreachable!("every x86-64 has SSE2")
     }
-    #[cfg(target_arch = "x86_64")]
-    unreachable!("every x86-64 has SSE2");
     #[cfg(not(target_arch = "x86_64"))]
     fearless_simd::dispatch!(level, s => trace_tile(s, frame, tile, room))
+}
+
+/// Lets the compiler use the instructions that `s` proves.
+#[cfg(target_arch = "x86_64")]
+fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
+    s.vectorize(
+        #[inline(always)]
+        || trace_tile(s, frame, tile, room),
+    )
 }
 
 /// Traces one tile with the instructions that `s` stands for.
