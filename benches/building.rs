@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use catoptra_benches::{criterion, scene, wavy_ball};
+use catoptra_benches::{criterion, scene};
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Rgb, Scene, geometry::Sphere, material::Matte};
+use catoptra_lab::scenes::wavy_ball;
 use catoptra_tracer::{MeshTree, Snapshot};
 use criterion::{BenchmarkId, Criterion, Throughput};
 

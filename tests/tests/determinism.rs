@@ -1,8 +1,21 @@
 //! Are the bits of a film the same however the work is shared out?
 
-use catoptra_core::EntityId;
+use catoptra_core::{EntityId, Scene};
+use catoptra_lab::scenes::placed_mesh;
 use catoptra_tests::{camera_of, film, shipped_scenes, traced, triangles};
-use catoptra_tracer::{Film, Size, Skip, View, backends};
+use catoptra_tracer::{Film, Instructions, Region, Size, Skip, View, backends};
+
+/// The shipped scenes, and a mesh that is moved, turned and scaled.
+fn scenes() -> Vec<(String, Scene)> {
+    let mut scenes = shipped_scenes();
+    scenes.push(("a placed mesh".to_owned(), placed_mesh(20).expect("a scene")));
+    scenes
+}
+
+/// What a scene's first camera sees, with reflections and their order in play.
+fn view(scene: &Scene) -> View {
+    View::of(scene, camera_of(scene), ODD)
+}
 
 /// Everything that a film knows of each pixel, colours and depths by their bits.
 fn bits(film: &Film) -> Vec<([u32; 3], u32, Option<EntityId>)> {
@@ -28,14 +41,14 @@ fn assert_same_bits(reference: &Film, test: &Film, what: &str) {
 const ODD: Size = Size::new(123, 77);
 
 #[test]
-fn one_two_and_three_threads_give_the_same_bits() {
-    for (name, scene) in shipped_scenes() {
+fn any_number_of_threads_gives_the_same_bits() {
+    for (name, scene) in scenes() {
         for backend in backends() {
             if backend.name() == "oracle" && triangles(&scene) > 1_000 {
                 continue;
             }
             let alone = film(&scene, backend.name(), ODD, 1);
-            for threads in [2, 3] {
+            for threads in [2, 3, 7] {
                 let shared = film(&scene, backend.name(), ODD, threads);
                 assert_same_bits(
                     &alone,
@@ -49,11 +62,11 @@ fn one_two_and_three_threads_give_the_same_bits() {
 
 #[test]
 fn the_size_of_the_tiles_does_not_matter() {
-    for (name, scene) in shipped_scenes() {
-        let view = View::of(&scene, camera_of(&scene), ODD);
+    for (name, scene) in scenes() {
+        let view = view(&scene);
         for backend in ["wide", "scalar"] {
             let usual = traced(&scene, backend, &view, Film::new(ODD), 2);
-            for edge in [4, 20, 64, 1024] {
+            for edge in [4, 8, 12, 16, 20, 36, 64, 1024] {
                 let tiled = traced(&scene, backend, &view, Film::with_tiles(ODD, edge), 2);
                 assert_same_bits(&usual, &tiled, &format!("{name} by {backend} in tiles of {edge}"));
             }
@@ -62,8 +75,60 @@ fn the_size_of_the_tiles_does_not_matter() {
 }
 
 #[test]
+fn every_kind_of_instructions_gives_the_same_bits() {
+    for (name, scene) in scenes() {
+        for grid in [1, 3] {
+            let view = View { grid, ..view(&scene) };
+            let usual = traced(&scene, "wide", &view, Film::new(ODD), 2);
+            for instructions in Instructions::all() {
+                let view = View { instructions: Some(instructions), ..view.clone() };
+                let forced = traced(&scene, "wide", &view, Film::with_tiles(ODD, 16), 2);
+                assert_same_bits(
+                    &usual,
+                    &forced,
+                    &format!("{name} with {instructions:?} and {grid} samples"),
+                );
+            }
+        }
+    }
+}
+
+/// The part of a whole film that a cropped one holds has the same bits.
+fn assert_same_part(whole: &Film, part: &Film, what: &str) {
+    let Region { x, y, size } = part.region();
+    let (whole_bits, part_bits) = (bits(whole), bits(part));
+    for row in 0..size.height {
+        for column in 0..size.width {
+            let was = &whole_bits[((y + row) * whole.size().width + x + column) as usize];
+            let is = &part_bits[(row * size.width + column) as usize];
+            assert!(was == is, "{what} at {column},{row}: {was:x?} became {is:x?}");
+        }
+    }
+}
+
+#[test]
+fn a_crop_has_the_bits_of_the_whole_picture() {
+    let crops = [
+        Region::new(0, 0, Size::new(5, 3)),
+        Region::new(17, 11, Size::new(50, 41)),
+        Region::new(101, 70, Size::new(900, 900)),
+    ];
+    for (name, scene) in scenes() {
+        for backend in ["wide", "scalar"] {
+            let view = View { grid: 3, ..view(&scene) };
+            let whole = traced(&scene, backend, &view, Film::new(ODD), 2);
+            for crop in crops {
+                let view = View { crop: Some(crop), ..view.clone() };
+                let part = traced(&scene, backend, &view, Film::of_region(view.region(), 24), 2);
+                assert_same_part(&whole, &part, &format!("{name} by {backend} cropped to {crop:?}"));
+            }
+        }
+    }
+}
+
+#[test]
 fn a_second_render_gives_the_same_bits() {
-    for (name, scene) in shipped_scenes() {
+    for (name, scene) in scenes() {
         let (first, second) = (film(&scene, "wide", ODD, 2), film(&scene, "wide", ODD, 2));
         assert_same_bits(&first, &second, &name);
     }
@@ -73,8 +138,8 @@ fn a_second_render_gives_the_same_bits() {
 fn work_left_out_changes_no_bit() {
     let skips =
         [Skip::NOTHING, Skip { hidden: true, ..Skip::NOTHING }, Skip { shafts: true, ..Skip::NOTHING }];
-    for (name, scene) in shipped_scenes() {
-        let view = View::of(&scene, camera_of(&scene), ODD);
+    for (name, scene) in scenes() {
+        let view = view(&scene);
         let usual = traced(&scene, "wide", &view, Film::new(ODD), 2);
         for skip in skips {
             let view = View { skip, ..view.clone() };

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use catoptra_tracer::Size;
+use catoptra_tracer::{Film, Region, Size};
 use clap::{Args, Parser, Subcommand};
 
 /// Renders scenes on the CPU, says what they cost, and compares pictures.
@@ -49,6 +49,15 @@ pub(crate) struct JobArgs {
     /// Reflections followed one after another [default: the scene's setting]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub(crate) max_depth: Option<u32>,
+    /// Trace only this part of the picture, in pixels from its upper left corner
+    #[arg(long, value_name = "X,Y,W,H", value_parser = crop)]
+    pub(crate) crop: Option<Region>,
+    /// Edge of the tiles that work is shared out in, a multiple of 4 [default: 32]; changes no pixel
+    #[arg(long, value_name = "N", default_value_t = Film::TILE, hide_default_value = true, value_parser = tile)]
+    pub(crate) tile: u32,
+    /// Vector instructions of backend wide: avx512, avx2, sse2 [default: the best there are]; changes no pixel
+    #[arg(long, value_name = "LEVEL")]
+    pub(crate) simd: Option<String>,
 }
 
 #[derive(Args)]
@@ -135,6 +144,25 @@ fn size(text: &str) -> Result<Size, String> {
     Ok(Size { width, height })
 }
 
+/// Reads `X,Y,WIDTH,HEIGHT`.
+fn crop(text: &str) -> Result<Region, String> {
+    let wanted = || "a part is written X,Y,WIDTH,HEIGHT in pixels, such as 100,50,64,64".to_owned();
+    let numbers: Result<Vec<u32>, _> = text.split(',').map(str::parse).collect();
+    match numbers.map_err(|_| wanted())?[..] {
+        [x, y, width, height] if width > 0 && height > 0 => Ok(Region::new(x, y, Size { width, height })),
+        [_, _, _, _] => Err("a part has at least one pixel".to_owned()),
+        _ => Err(wanted()),
+    }
+}
+
+/// Reads the edge of a tile.
+fn tile(text: &str) -> Result<u32, String> {
+    match text.parse::<u32>() {
+        Ok(edge) if (4..=4096).contains(&edge) && edge.is_multiple_of(4) => Ok(edge),
+        _ => Err("the edge of a tile is a multiple of 4, from 4 to 4096".to_owned()),
+    }
+}
+
 /// Reads a square number of samples.
 fn samples(text: &str) -> Result<u32, String> {
     let count: u32 = text.parse().map_err(|_| "samples are a whole number".to_owned())?;
@@ -176,6 +204,22 @@ mod tests {
             ["", "450", "x", "450x", "0x10", "10x0", "-1x5", "1x2x3", "1.5x2", "99999x1", "32768x32768"]
         {
             assert!(size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_crop_is_four_numbers_and_not_empty() {
+        assert_eq!(crop("1,2,30,40"), Ok(Region::new(1, 2, Size::new(30, 40))));
+        for bad in ["", "1,2,3", "1,2,3,4,5", "1,2,0,4", "-1,2,3,4", "1;2;3;4", "1,2,3,99999999999"] {
+            assert!(crop(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn tiles_are_whole_blocks() {
+        assert_eq!(tile("12"), Ok(12));
+        for bad in ["", "0", "6", "-4", "5000"] {
+            assert!(tile(bad).is_err(), "{bad}");
         }
     }
 

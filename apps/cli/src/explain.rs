@@ -1,7 +1,7 @@
 //! `catoptra explain`: what does a scene need, what runs for it, and which work was skipped as it could not matter?
 
 use catoptra_core::Light;
-use catoptra_tracer::{Film, Needs, Skipped, Stats};
+use catoptra_tracer::{Needs, Skipped, Stats};
 use miette::Result;
 use serde_json::{Map, Value, json};
 
@@ -15,7 +15,7 @@ use crate::{Outcome, interrupt, progress};
 pub(crate) fn run(args: &ExplainArgs) -> Result<Outcome> {
     let job = Job::new(&args.job)?;
     let control = interrupt::control();
-    let mut film = Film::new(job.view.size);
+    let mut film = job.film();
     let Ok((_, stats)) = progress::while_showing(&control, || job.frame(&mut film, &control)) else {
         return Ok(Outcome::Interrupted);
     };
@@ -63,10 +63,11 @@ impl Found<'_> {
             "scene": self.job.scene_name,
             "camera": self.job.camera_name,
             "size": self.job.view.size,
+            "crop": self.job.view.crop,
             "samples": self.job.view.samples(),
             "max_depth": self.job.view.max_depth,
             "backend": self.job.backend.name(),
-            "simd": self.job.backend.level(),
+            "simd": self.job.backend.level(&self.job.view),
             "threads": self.job.pool.threads(),
             "shapes": by_kind(&needs.shapes),
             "materials": by_kind(&needs.materials),
@@ -143,8 +144,11 @@ impl Found<'_> {
         } else {
             "no reflections: no surface in the scene reflects".to_owned()
         };
-        let mut lines =
-            vec![format!("backend {} with {} on {threads}", job.backend.name(), job.backend.level())];
+        let mut lines = vec![format!(
+            "backend {} with {} on {threads}",
+            job.backend.name(),
+            job.backend.level(&job.view)
+        )];
         if job.backend.name() == "wide" {
             lines.push(kernels);
         }

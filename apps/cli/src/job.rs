@@ -6,7 +6,8 @@ use std::time::Instant;
 
 use catoptra_core::{Camera, EntityId, Role, Scene};
 use catoptra_tracer::{
-    Backend, Cancelled, Control, Film, Pool, Snapshot, Stats, View, backend_named, backends, render,
+    Backend, Cancelled, Control, Film, Instructions, Pool, Region, Size, Snapshot, Stats, View,
+    backend_named, backends, render,
 };
 use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
 
@@ -22,6 +23,8 @@ pub(crate) struct Job {
     /// How long it took to make the snapshot from the scene, trees included.
     pub(crate) build_ms: f64,
     pub(crate) view: View,
+    /// Edge of the film's tiles, pixels.
+    tile: u32,
     pub(crate) backend: &'static dyn Backend,
     pub(crate) pool: Pool,
 }
@@ -33,14 +36,25 @@ impl Job {
         let (scene, _) = catoptra_scene::load(&args.scene)?;
         let camera_id = find_camera(&scene, args.camera.as_deref())?;
         let view = View::of(&scene, placed_camera(&scene, camera_id)?, args.size).with_samples(args.samples);
-        let view = View { max_depth: args.max_depth.unwrap_or(view.max_depth), ..view };
+        let view = View {
+            max_depth: args.max_depth.unwrap_or(view.max_depth),
+            crop: args.crop.map(|crop| check_crop(crop, args.size)).transpose()?,
+            instructions: args.simd.as_deref().map(find_instructions).transpose()?,
+            ..view
+        };
         let started = Instant::now();
         let snapshot = Arc::new(Snapshot::extract(&scene));
         let build_ms = milliseconds_since(started);
         let pool = Pool::new(args.threads.map_or(0, usize::from)).into_diagnostic()?;
         let camera_name = scene.name(camera_id).unwrap_or_default();
         let scene_name = file_name(&args.scene);
-        Ok(Self { scene, scene_name, camera_name, snapshot, build_ms, view, backend, pool })
+        let tile = args.tile;
+        Ok(Self { scene, scene_name, camera_name, snapshot, build_ms, view, tile, backend, pool })
+    }
+
+    /// A film for its frames.
+    pub(crate) fn film(&self) -> Film {
+        Film::of_region(self.view.region(), self.tile)
     }
 
     /// Traces one frame; how long it took from snapshot to film, and what was done.
@@ -62,6 +76,34 @@ fn file_name(path: &Path) -> String {
 fn find_backend(name: &str) -> Result<&'static dyn Backend> {
     let names = || backends().iter().map(|backend| backend.name()).collect::<Vec<_>>();
     backend_named(name).ok_or_else(|| unknown("backend", name, &names()))
+}
+
+/// The instructions of that name; an error where there are none such, or not on this CPU.
+fn find_instructions(name: &str) -> Result<Instructions> {
+    let here: Vec<&str> = Instructions::all().into_iter().map(Instructions::name).collect();
+    Instructions::named(name).ok_or_else(|| {
+        if Instructions::NAMES.contains(&name) {
+            miette!(help = format!("it has: {}", here.join(", ")), "this CPU has no {name}")
+        } else {
+            unknown("level of instructions", name, &here)
+        }
+    })
+}
+
+/// A crop that lies within the picture.
+fn check_crop(crop: Region, picture: Size) -> Result<Region> {
+    if crop.within(picture) == crop {
+        return Ok(crop);
+    }
+    let Size { width, height } = picture;
+    Err(miette!(
+        help = format!("the picture has {width} columns and {height} rows; --size changes that"),
+        "the part {}x{} at {},{} reaches beyond the picture",
+        crop.size.width,
+        crop.size.height,
+        crop.x,
+        crop.y
+    ))
 }
 
 fn find_camera(scene: &Scene, name: Option<&str>) -> Result<EntityId> {

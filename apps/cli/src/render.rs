@@ -15,7 +15,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome> {
     let display = check(args)?;
     let job = Job::new(&args.job)?;
     let control = interrupt::control();
-    let mut film = Film::new(job.view.size);
+    let mut film = job.film();
     let Ok((times, stats)) = frames(&job, args.repeat, &mut film, &control) else {
         eprintln!("interrupted: nothing is written");
         return Ok(Outcome::Interrupted);
@@ -72,7 +72,7 @@ fn frames(
 
 /// The line that `--repeat` prints.
 fn summary(job: &Job, times: &FrameTimes) -> String {
-    let size = job.view.size;
+    let size = job.view.region().size;
     format!(
         "{} {}x{} threads {} {} {}: min {:.2} ms median {:.2} ms over {} frames\n",
         job.scene_name,
@@ -80,7 +80,7 @@ fn summary(job: &Job, times: &FrameTimes) -> String {
         size.height,
         job.pool.threads(),
         job.backend.name(),
-        job.backend.level(),
+        job.backend.level(&job.view),
         times.min,
         times.median,
         times.frames

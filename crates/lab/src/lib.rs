@@ -18,6 +18,7 @@
 pub mod metrics;
 mod mismatch;
 mod picture;
+pub mod scenes;
 mod ulps;
 
 pub use metrics::{METRICS, Metric, Viewing, metric_named};

@@ -65,7 +65,7 @@ impl Display {
             let bands = out.par_chunks_mut(width * film.edge() as usize);
             bands.zip(rows).for_each(|(band, tiles)| {
                 for tile in tiles {
-                    self.encode_tile(tile, width, band);
+                    self.encode_tile(tile, film.region().x, width, band);
                 }
             });
         });
@@ -77,9 +77,9 @@ impl Display {
         film.radiances().into_iter().flat_map(|light| light.map(|v| self.byte(v))).collect()
     }
 
-    fn encode_tile(self, tile: &Tile, width: usize, band: &mut [u32]) {
+    fn encode_tile(self, tile: &Tile, left: u32, width: usize, band: &mut [u32]) {
         for y in 0..tile.height {
-            let start = y as usize * width + tile.x as usize;
+            let start = y as usize * width + (tile.x - left) as usize;
             for (x, out) in (0..tile.width).zip(&mut band[start..]) {
                 let i = tile.index(x, y);
                 let [r, g, b] = [0, 1, 2].map(|c| u32::from(self.byte(tile.radiance[c][i])));

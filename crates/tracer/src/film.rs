@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use catoptra_core::EntityId;
 
-use crate::Size;
+use crate::{Region, Size};
 
 /// Edge of the square blocks that pixels of a tile are stored in. Sixteen pixels lie side by side in memory, so that
 /// a packet of 4, 8 or 16 lanes is one stretch of a column.
@@ -16,7 +16,7 @@ pub(crate) const BLOCK_PIXELS: usize = (BLOCK * BLOCK) as usize;
 /// Stands for "no surface".
 pub(crate) const NOTHING: u32 = u32::MAX;
 
-/// A rectangle of a film, written by one thread.
+/// A rectangle of a film, written by one thread. Its place is counted from the corner of the whole picture.
 ///
 /// Columns hold whole blocks of 4 x 4 pixels, row by row of blocks and row by row within a block; blocks at the right
 /// and lower edge of the picture reach beyond it.
@@ -61,7 +61,7 @@ impl Tile {
 /// A picture in linear Rec. 709 light, with depth and surface of every pixel.
 #[derive(Debug, Clone)]
 pub struct Film {
-    size: Size,
+    region: Region,
     edge: u32,
     tiles: Vec<Tile>,
     entities: Arc<[EntityId]>,
@@ -80,19 +80,33 @@ impl Film {
     /// A black film with tiles of `edge` pixels, rounded up to a multiple of 4; what is traced does not depend on it.
     #[must_use]
     pub fn with_tiles(size: Size, edge: u32) -> Self {
+        Self::of_region(size.into(), edge)
+    }
+
+    /// A black film of a part of a picture, such as [`View::region`](crate::View::region); pixels are counted from its
+    /// upper left corner. Tiles are as in [`with_tiles`](Self::with_tiles).
+    #[must_use]
+    pub fn of_region(region: Region, edge: u32) -> Self {
+        let Region { x: left, y: top, size } = region;
         let edge = edge.clamp(BLOCK, 1 << 16).next_multiple_of(BLOCK);
         let starts = |length: u32| (0..length).step_by(edge as usize);
         let tiles = starts(size.height)
             .flat_map(|y| starts(size.width).map(move |x| (x, y)))
-            .map(|(x, y)| Tile::new(x, y, edge.min(size.width - x), edge.min(size.height - y)))
+            .map(|(x, y)| Tile::new(left + x, top + y, edge.min(size.width - x), edge.min(size.height - y)))
             .collect();
-        Self { size, edge, tiles, entities: Arc::default() }
+        Self { region, edge, tiles, entities: Arc::default() }
     }
 
     /// Its size.
     #[must_use]
     pub fn size(&self) -> Size {
-        self.size
+        self.region.size
+    }
+
+    /// The part of a picture that it holds.
+    #[must_use]
+    pub fn region(&self) -> Region {
+        self.region
     }
 
     /// Linear red, green and blue of a pixel; never NaN or infinite.
@@ -138,7 +152,8 @@ impl Film {
     }
 
     fn rows<T>(&self, read: impl Fn(&Tile, usize) -> T) -> Vec<T> {
-        let pixels = (0..self.size.height).flat_map(|y| (0..self.size.width).map(move |x| (x, y)));
+        let Size { width, height } = self.size();
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         pixels
             .map(|(x, y)| {
                 let (tile, i) = self.place(x, y);
@@ -148,8 +163,9 @@ impl Film {
     }
 
     fn place(&self, x: u32, y: u32) -> (&Tile, usize) {
-        assert!(x < self.size.width && y < self.size.height, "pixel ({x}, {y}) lies outside the picture");
-        let across = self.size.width.div_ceil(self.edge);
+        let Size { width, height } = self.size();
+        assert!(x < width && y < height, "pixel ({x}, {y}) lies outside the picture");
+        let across = width.div_ceil(self.edge);
         let tile = &self.tiles[((y / self.edge) * across + x / self.edge) as usize];
         (tile, tile.index(x % self.edge, y % self.edge))
     }
@@ -162,7 +178,7 @@ impl Film {
 
     /// The tiles of each row of tiles, top to bottom.
     pub(crate) fn tile_rows(&self) -> impl Iterator<Item = &[Tile]> {
-        self.tiles.chunks(self.size.width.div_ceil(self.edge).max(1) as usize)
+        self.tiles.chunks(self.size().width.div_ceil(self.edge).max(1) as usize)
     }
 
     /// Edge of a tile in pixels.

@@ -5,6 +5,10 @@
 /// A quarter of the step between two levels of an 8-bit display, 1/255, for light that would show as white.
 pub(crate) const WEIGHT_CUTOFF: f32 = 0.25 / 255.0;
 
+/// Samples lie on multiples of this within their pixel, in pixels: then the sum of a sample's place and the number of
+/// pixels before it, below 2³², needs 52 bits at most, so it is the same however it is put together.
+pub(crate) const SAMPLE_STEP: f64 = 1.0 / (1_u32 << 20) as f64;
+
 /// Unit roundoff of `f32`, 2⁻²⁴.
 const U: f32 = 1.0 / (1 << 24) as f32;
 

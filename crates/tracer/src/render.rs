@@ -17,7 +17,7 @@ pub struct Cancelled;
 /// [`Cancelled`] when `control` said so before the last tile was begun.
 ///
 /// # Panics
-/// A film of another size than the view's.
+/// A film of another part of the picture than the view's.
 pub fn render(
     backend: &dyn Backend,
     snapshot: &Snapshot,
@@ -26,7 +26,7 @@ pub fn render(
     pool: &Pool,
     control: &Control,
 ) -> Result<Stats, Cancelled> {
-    assert_eq!(film.size(), view.size, "the film has the size of the view");
+    assert_eq!(film.region(), view.region(), "the film holds what the view shows");
     let frame = Frame::new(snapshot, view);
     let tiles = film.begin(snapshot.entities());
     control.start(tiles.len());

@@ -2,7 +2,8 @@
 
 use catoptra_core::{Camera, Scene};
 
-use crate::numeric::WEIGHT_CUTOFF;
+use crate::Instructions;
+use crate::numeric::{SAMPLE_STEP, WEIGHT_CUTOFF};
 
 /// Picture size in pixels; either may be zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize)]
@@ -27,6 +28,42 @@ impl Size {
     }
 }
 
+/// A rectangle of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize)]
+pub struct Region {
+    /// Pixels left of it.
+    pub x: u32,
+    /// Pixels above it.
+    pub y: u32,
+    /// How large it is.
+    #[serde(flatten)]
+    pub size: Size,
+}
+
+impl Region {
+    /// `size` pixels, whose upper left one has `x` pixels to its left and `y` above it.
+    #[must_use]
+    pub const fn new(x: u32, y: u32, size: Size) -> Self {
+        Self { x, y, size }
+    }
+
+    /// What of it lies within a picture.
+    #[must_use]
+    pub fn within(self, picture: Size) -> Self {
+        let left = |from: u32, length: u32, whole: u32| length.min(whole.saturating_sub(from));
+        let width = left(self.x, self.size.width, picture.width);
+        let height = left(self.y, self.size.height, picture.height);
+        Self { size: Size { width, height }, ..self }
+    }
+}
+
+impl From<Size> for Region {
+    /// A whole picture.
+    fn from(size: Size) -> Self {
+        Self::new(0, 0, size)
+    }
+}
+
 /// One picture that is asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
@@ -34,6 +71,8 @@ pub struct View {
     pub camera: Camera,
     /// How large.
     pub size: Size,
+    /// Only this part of it; its pixels are those of the whole picture, bit for bit.
+    pub crop: Option<Region>,
     /// How many reflections after one another, at most.
     pub max_depth: u32,
     /// Rays that could add no more than this share of what they meet are not traced; 0 traces them all.
@@ -42,6 +81,8 @@ pub struct View {
     pub grid: u32,
     /// Which work that cannot matter is left out; the picture's bits do not depend on it.
     pub skip: Skip,
+    /// Vector instructions to trace with; without, the best that the CPU has. The picture's bits do not depend on them.
+    pub instructions: Option<Instructions>,
 }
 
 /// Work that is left out because it cannot matter. Switched off, the same bits are computed the long way.
@@ -64,7 +105,16 @@ impl View {
     /// Through a pixel's centre, five reflections deep.
     #[must_use]
     pub const fn new(camera: Camera, size: Size) -> Self {
-        Self { camera, size, max_depth: 5, weight_cutoff: WEIGHT_CUTOFF, grid: 1, skip: Skip::ALL }
+        Self {
+            camera,
+            size,
+            crop: None,
+            max_depth: 5,
+            weight_cutoff: WEIGHT_CUTOFF,
+            grid: 1,
+            skip: Skip::ALL,
+            instructions: None,
+        }
     }
 
     /// As deep as the scene's settings say, from the given camera.
@@ -80,9 +130,37 @@ impl View {
         Self { grid: grid.max(1), ..self }
     }
 
+    /// The part of the picture that is traced: what of the crop lies within it, or all of it.
+    #[must_use]
+    pub fn region(&self) -> Region {
+        self.crop.unwrap_or(Region::from(self.size)).within(self.size)
+    }
+
+    /// How far from a pixel's left or upper edge its sample number `k` along that axis lies, in pixels.
+    pub(crate) fn share(&self, k: u32) -> f64 {
+        let middle = (f64::from(k) + 0.5) / f64::from(self.grid);
+        (middle / SAMPLE_STEP).round() * SAMPLE_STEP
+    }
+
     /// Samples a pixel.
     #[must_use]
     pub const fn samples(&self) -> u32 {
         self.grid.saturating_mul(self.grid)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_region_is_cut_to_its_picture() {
+        let picture = Size::new(40, 30);
+        assert_eq!(
+            Region::new(30, 5, Size::new(20, 10)).within(picture),
+            Region::new(30, 5, Size::new(10, 10))
+        );
+        assert_eq!(Region::new(50, 5, Size::new(20, 10)).within(picture).size.pixels(), 0);
+        assert_eq!(Region::from(picture).within(picture), Region::from(picture));
     }
 }

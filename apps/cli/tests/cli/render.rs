@@ -202,3 +202,49 @@ fn a_scene_without_a_camera_is_refused() {
     std::fs::write(folder.path().join("blind.kdl"), "matte \"grey\" { color 1 1 1 }\n").unwrap();
     assert_refused(folder.path(), &["render", "blind.kdl", "-o", "a.png"], &["camera"]);
 }
+
+#[test]
+fn a_crop_is_a_part_of_the_whole_picture() {
+    let folder = folder();
+    let whole = ["render", "scene.kdl", "-o", "whole.png", "--size", "60x40"];
+    let part =
+        ["render", "scene.kdl", "-o", "part.png", "--size", "60x40", "--crop", "13,7,20,15", "--tile", "8"];
+    for arguments in [&whole[..], &part] {
+        assert_eq!(catoptra(folder.path(), arguments).code, 0, "{arguments:?}");
+    }
+    let read = |name: &str| catoptra_scene::image::read_png(&folder.path().join(name)).unwrap();
+    let (whole, part) = (read("whole.png"), read("part.png"));
+    assert_eq!((part.width(), part.height()), (20, 15));
+    for (x, y) in (0..15).flat_map(|y| (0..20).map(move |x| (x, y))) {
+        assert_eq!(part.pixel(x, y), whole.pixel(x + 13, y + 7), "{x},{y}");
+    }
+}
+
+#[test]
+fn every_kind_of_instructions_writes_the_same_file() {
+    let folder = folder();
+    let mut files = Vec::new();
+    for instructions in catoptra_tracer::Instructions::all() {
+        let simd = instructions.name();
+        let ran = catoptra(
+            folder.path(),
+            &["render", "scene.kdl", "-o", "a.exr", "--size", "40x30", "--simd", simd, "--repeat", "1"],
+        );
+        assert!(ran.code == 0 && ran.out.contains(&format!(" wide {simd}:")), "{}{}", ran.out, ran.err);
+        files.push(std::fs::read(folder.path().join("a.exr")).unwrap());
+    }
+    assert!(files.iter().all(|file| *file == files[0]));
+}
+
+#[test]
+fn crops_tiles_and_instructions_that_cannot_be_are_refused() {
+    let folder = folder();
+    let with =
+        |option: &'static str, value: &'static str| ["render", "scene.kdl", "-o", "a.png", option, value];
+    assert_refused(folder.path(), &with("--crop", "630,0,20,20"), &["beyond the picture", "640 columns"]);
+    assert_refused(folder.path(), &with("--crop", "1,2,3"), &["X,Y,WIDTH,HEIGHT"]);
+    assert_refused(folder.path(), &with("--tile", "7"), &["multiple of 4"]);
+    assert_refused(folder.path(), &with("--simd", "avx3"), &["avx3"]);
+    let foreign = if cfg!(target_arch = "x86_64") { "neon" } else { "avx2" };
+    assert_refused(folder.path(), &with("--simd", foreign), &["this CPU has no", "it has:"]);
+}

@@ -38,8 +38,8 @@ pub trait Backend: Send + Sync {
     /// One sentence.
     fn doc(&self) -> &'static str;
 
-    /// Which instructions it uses, such as `avx512`; `scalar` for none in particular.
-    fn level(&self) -> &'static str {
+    /// Which instructions it uses for a view, such as `avx512`; `scalar` for none in particular.
+    fn level(&self, _view: &View) -> &'static str {
         "scalar"
     }
 

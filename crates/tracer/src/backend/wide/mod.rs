@@ -27,7 +27,7 @@ use super::{Backend, Frame};
 use crate::film::NOTHING;
 use crate::lanes::{F, F3, U, splat3};
 use crate::numeric::PLAN_MARGIN;
-use crate::{Stats, Tile};
+use crate::{Instructions, Stats, Tile, View};
 use batch::{Batch, Found};
 use packet::Primary;
 use plan::{Place, Seen, Shapes};
@@ -46,15 +46,13 @@ impl Backend for Wide {
         "packets of rays in f32 at the CPU's native width, settled in f64"
     }
 
-    fn level(&self) -> &'static str {
-        // The detected level and its proof print as `Avx512(Avx512 { .. })`.
-        let level = format!("{:?}", Level::new()).to_lowercase();
-        let known = ["avx512", "avx2", "sse4_2", "sse2", "neon", "wasmsimd128"];
-        known.into_iter().find(|name| level.starts_with(name)).unwrap_or("fallback")
+    fn level(&self, view: &View) -> &'static str {
+        view.instructions.unwrap_or_else(Instructions::best).name()
     }
 
     fn trace(&self, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
-        ROOM.with_borrow_mut(|room| trace_natively(frame, tile, room))
+        let level = frame.view.instructions.map_or_else(Level::new, Instructions::level);
+        ROOM.with_borrow_mut(|room| trace_at(level, frame, tile, room))
     }
 }
 
@@ -72,10 +70,8 @@ struct Room {
     between: Vec<Shapes>,
 }
 
-/// Traces one tile with the best of the instructions there are. Of the x86 family three kinds are told apart; each
-/// costs its time to compile.
-fn trace_natively(frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
-    let level = Level::new();
+/// Traces one tile with the instructions of a level.
+fn trace_at(level: Level, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
     #[cfg(target_arch = "x86_64")]
     if let Some(s) = level.as_avx512() {
         trace_with(s, frame, tile, room)

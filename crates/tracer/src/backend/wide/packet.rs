@@ -136,7 +136,7 @@ impl<S: Simd> Primary<S> {
     /// For the sample at a column and row of the grid within each pixel.
     #[inline(always)]
     pub(super) fn new(s: S, frame: &Frame<'_>, tile: &Tile, column: u32, row: u32) -> Self {
-        let share = |k: u32| (f64::from(k) + 0.5) / f64::from(frame.view.grid);
+        let share = |k: u32| frame.view.share(k);
         // A block and a bit, so that the last part can be loaded whole.
         let (mut columns, mut rows) = ([0.0; 2 * BLOCK_PIXELS], [0.0; 2 * BLOCK_PIXELS]);
         for pixel in 0..BLOCK_PIXELS {
