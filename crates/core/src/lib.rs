@@ -14,6 +14,7 @@ pub mod bounds;
 pub mod camera;
 pub mod color;
 pub mod error;
+pub mod exact;
 pub mod geometry;
 pub mod lane;
 pub mod light;

@@ -19,6 +19,23 @@ pub const RIGHT_ANGLE_TOLERANCE: f64 = 1e-9;
 /// size, √3 of it in length: 5.2, and the products that follow stay below 8.
 pub const EDGE_ROUNDING: f64 = 8.0 * UNIT_ROUNDOFF_F64;
 
+/// Error of an edge value `(a × b) · d` in `f64`, relative to R² |d|₁, where R bounds the coordinates of the corners a and
+/// b as seen from the origin.
+///
+/// Each of those is rounded once, each product of two once more (3u), their difference once (4u of 2R²); the product with
+/// d adds one, and the sum of three products two: 7u of 2R² |d|₁, so 14u, rounded up for the terms of higher order.
+pub const EDGE_VALUE_ERROR: f64 = 16.0 * UNIT_ROUNDOFF_F64;
+
+/// How well a root is known, relative to itself, before it counts as found in `f64`: 2⁻³⁶, a 4,096th of the step between
+/// two `f32`, so that rounding it to `f32` gives the right number or the one beside it.
+pub const ROOT_PRECISION: f64 = 1.0 / (1_u64 << 36) as f64;
+
+/// The least sine of the angle between two edges whose vector product is taken in `f64`: 2⁻²⁰.
+///
+/// The product is off by 5u of the product of the edges' lengths (one rounding in each coordinate of both, three in a
+/// difference of products), so its direction is off by at most 5u 2²⁰, about 6e-10. Thinner triangles get theirs exactly.
+pub const NORMAL_SINE: f64 = 1.0 / (1_u64 << 20) as f64;
+
 /// How far, in cells, the edges of a pattern lie beside whole numbers: 2⁻¹⁴.
 ///
 /// Scenes are written in whole numbers, and so whole rows of pixels fall exactly on an edge, where rounding would

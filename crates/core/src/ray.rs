@@ -1,6 +1,10 @@
 //! What is traced, over which stretch, and what it meets.
 
+use std::cmp::Ordering;
+
 use glam::{DVec2, DVec3};
+
+use crate::exact::{Dyadic, Located, Root, exactly};
 
 /// The half line `origin + t * direction`, t > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,29 +35,35 @@ impl Ray {
     }
 }
 
-/// The stretch `min < t <= max` of a ray.
+/// The stretch `min <= t <= max` of a ray; both ends belong to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
-    /// Open lower end.
+    /// Lower end.
     pub min: f64,
-    /// Closed upper end.
+    /// Upper end.
     pub max: f64,
 }
 
-impl Span {
-    /// Everything in front of the origin.
-    pub const AHEAD: Self = Self { min: 0.0, max: f64::INFINITY };
+/// The least number above 0: a stretch from here on leaves out the origin and nothing else that `f64` can name.
+const ABOVE_ZERO: f64 = f64::from_bits(1);
 
-    /// Everything in front of the origin up to and including `max`.
+impl Span {
+    /// Everything in front of the origin, but not the origin itself.
+    pub const AHEAD: Self = Self::until(f64::INFINITY);
+
+    /// Everything in front of the origin up to and including `max`, but not the origin itself.
     #[must_use]
     pub const fn until(max: f64) -> Self {
-        Self { min: 0.0, max }
+        Self { min: ABOVE_ZERO, max }
     }
+
+    /// The origin and everything in front of it.
+    pub const FROM_ORIGIN: Self = Self { min: 0.0, max: f64::INFINITY };
 
     /// Whether `t` lies on the stretch; never for NaN.
     #[must_use]
     pub fn contains(self, t: f64) -> bool {
-        self.min < t && t <= self.max
+        self.min <= t && t <= self.max
     }
 }
 
@@ -62,6 +72,8 @@ impl Span {
 pub struct Crossing {
     /// Ray parameter, in units of the ray's direction.
     pub t: f64,
+    /// Bound on how far `t` is from where the crossing is exactly.
+    pub error: f64,
     /// Unit geometric normal, on the shape's outer side (for open surfaces: the side the shape's definition names).
     pub normal: DVec3,
     /// Unit normal to shade with; differs from `normal` only on meshes with vertex normals.
@@ -75,16 +87,31 @@ pub struct Crossing {
 impl Crossing {
     /// A crossing that shades with its geometric normal and has no texture coordinates.
     #[must_use]
-    pub const fn flat(t: f64, normal: DVec3, facet: u32) -> Self {
-        Self { t, normal, shading_normal: normal, facet, uv: DVec2::ZERO }
+    pub const fn flat(at: Located, normal: DVec3, facet: u32) -> Self {
+        Self { t: at.t, error: at.error, normal, shading_normal: normal, facet, uv: DVec2::ZERO }
     }
-}
 
-/// The nearer of two crossings; the first where they tie.
-#[must_use]
-pub fn nearer(a: Option<Crossing>, b: Option<Crossing>) -> Option<Crossing> {
-    match (a, b) {
-        (Some(a), Some(b)) => Some(if b.t < a.t { b } else { a }),
-        (a, b) => a.or(b),
+    /// A `t` that the crossing does not lie beyond.
+    #[must_use]
+    pub fn latest(&self) -> f64 {
+        (self.t + self.error).next_up()
+    }
+
+    /// How its place on the ray compares with that of another crossing; where the bounds of both overlap, their exact
+    /// roots are asked for. `Equal` where a root is missing.
+    #[must_use]
+    pub fn order(&self, other: &Self, roots: impl FnOnce() -> [Option<Root<Dyadic>>; 2]) -> Ordering {
+        // Comparisons of rounded sums hold for the sums themselves, as rounding keeps order.
+        if self.t + self.error < other.t - other.error {
+            Ordering::Less
+        } else if other.t + other.error < self.t - self.error {
+            Ordering::Greater
+        } else {
+            let compared = exactly(|| match roots() {
+                [Some(a), Some(b)] => a.compare(&b).map(Some),
+                _ => Ok(None),
+            });
+            compared.unwrap_or(Ordering::Equal)
+        }
     }
 }

@@ -3,6 +3,7 @@
 
 mod samples;
 
+use catoptra_core::geometry::Plane;
 use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::{Crossing, Placement, Ray, Shape, Span};
 use proptest::prelude::*;
@@ -52,14 +53,22 @@ fn slant(ray: &Ray, crossing: &Crossing) -> f64 {
 }
 
 fn all_crossings(shape: &Shape, ray: &Ray) -> Vec<Crossing> {
-    let mut from = 0.0;
+    let mut ahead = Span::AHEAD;
     std::iter::from_fn(|| {
-        let crossing = shape.cross(ray, Span { min: from, max: f64::INFINITY }, None)?;
-        from = crossing.t;
+        let crossing = shape.cross(ray, ahead, None)?;
+        ahead.min = crossing.latest();
         Some(crossing)
     })
     .take(20)
     .collect()
+}
+
+/// Whether two crossings are one, however it was found.
+fn same(a: Option<&Crossing>, b: Option<&Crossing>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => a.facet == b.facet && (a.t - b.t).abs() <= a.error + b.error,
+        (a, b) => a.is_none() && b.is_none(),
+    }
 }
 
 #[test]
@@ -189,16 +198,33 @@ proptest! {
         for sample in samples() {
             let ray = sample.aimed(&draw);
             let crossings = all_crossings(&sample.shape, &ray);
+            let mut before = Span::AHEAD.min;
             for (i, crossing) in crossings.iter().enumerate() {
                 let cross = |min, max| sample.shape.cross(&ray, Span { min, max }, None);
-                let before = if i == 0 { 0.0 } else { crossings[i - 1].t };
-                prop_assert!(before < crossing.t);
-                prop_assert_eq!(cross(before, crossing.t), Some(*crossing));
-                prop_assert_eq!(cross(before, crossing.t.next_down()), None);
-                prop_assert_eq!(cross(crossing.t, f64::INFINITY), crossings.get(i + 1).copied());
-                prop_assert_eq!(cross(crossing.t.next_down(), f64::INFINITY), Some(*crossing));
+                let earliest = (crossing.t - crossing.error).next_down();
+                let next = crossings.get(i + 1);
+                prop_assert!(before < earliest);
+                prop_assert!(same(cross(before, crossing.latest()).as_ref(), Some(crossing)));
+                prop_assert_eq!(cross(before, earliest), None);
+                prop_assert!(same(cross(crossing.latest(), f64::INFINITY).as_ref(), next));
+                prop_assert!(same(cross(earliest, f64::INFINITY).as_ref(), Some(crossing)));
+                before = crossing.latest();
             }
         }
+    }
+
+    #[test]
+    fn a_span_ends_exactly_at_a_crossing_that_f64_can_name(height in -20..20, steps in 1..40_u32) {
+        let t = f64::from(height).exp2();
+        let down = Ray::new(DVec3::new(0.1, t, 0.2), DVec3::NEG_Y);
+        let plane = Shape::from(Plane::new(DVec3::ZERO, DVec3::Y).unwrap());
+        let next = |t: f64| (0..steps).fold(t, |t, _| t.next_up());
+        let last = |t: f64| (0..steps).fold(t, |t, _| t.next_down());
+        let is_met = |min, max| plane.cross(&down, Span { min, max }, None).is_some();
+        prop_assert!(is_met(t, t));
+        prop_assert!(is_met(last(t), next(t)));
+        prop_assert!(!is_met(next(t), 1e9));
+        prop_assert!(!is_met(0.0, last(t)));
     }
 
     #[test]

@@ -4,11 +4,12 @@
 
 use glam::DVec3;
 
-use super::Geometry;
+use super::{Geometry, Meeting};
+use crate::exact::{Located, Number, Root, Verdict};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
-/// A closed box. Face `2 * axis` lies at the lower end of that axis, face `2 * axis + 1` at the upper end.
+/// A closed box, or a flat one where its corners share a coordinate. Face `2 * axis` lies at the lower end of that axis, face `2 * axis + 1` at the upper end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cuboid {
     bounds: Aabb,
@@ -20,7 +21,7 @@ impl Cuboid {
     /// Between two opposite corners.
     ///
     /// # Errors
-    /// Corners that are not finite, or `max` not above `min` on every axis.
+    /// Corners that are not finite, or `max` below `min` on some axis; a box may be flat.
     pub fn new(min: DVec3, max: DVec3) -> Result<Self, InvalidPart> {
         crate::part::make(&Values::new().with("min", Value::Vector(min)).with("max", Value::Vector(max)))
     }
@@ -48,8 +49,8 @@ impl Part for Cuboid {
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         let bounds = Aabb { min: given.point("min")?, max: given.point("max")? };
-        if !bounds.min.cmplt(bounds.max).all() {
-            return Err(InvalidPart::new("max", "must be above min on every axis", bounds.max));
+        if bounds.is_empty() {
+            return Err(InvalidPart::new("max", "must not be below min on any axis", bounds.max));
         }
         Ok(Self { bounds, to_world: Placement::IDENTITY, to_object: Placement::IDENTITY })
     }
@@ -61,17 +62,32 @@ impl Part for Cuboid {
 }
 
 impl Geometry for Cuboid {
-    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
-        let own = Ray::new(self.to_object.point(ray.origin), self.to_object.vector(ray.direction));
-        if !own.is_valid() {
-            // A slab that NaN leaves undecided must not count as crossed.
-            return None;
+    fn own_ray(&self, ray: &Ray) -> Ray {
+        Ray::new(self.to_object.point(ray.origin), self.to_object.vector(ray.direction))
+    }
+
+    fn meet<N: Number>(
+        &self,
+        _: u32,
+        own: &Ray,
+        span: Span,
+        leaving: Option<u32>,
+    ) -> Verdict<Option<Meeting<N>>> {
+        let Some(ends) = slabs::<N>(&self.bounds, own)? else { return Ok(None) };
+        for (root, facet) in ends {
+            if leaving != Some(facet)
+                && let Some(meeting) = Meeting::on(span, root, facet)?
+            {
+                return Ok(Some(meeting));
+            }
         }
-        let ends = slabs(&self.bounds, &own)?;
-        let (t, facet) = ends.into_iter().find(|&(t, facet)| span.contains(t) && leaving != Some(facet))?;
+        Ok(None)
+    }
+
+    fn crossing(&self, _: &Ray, at: Located, facet: u32) -> Option<Crossing> {
         let outwards = if facet % 2 == 0 { -1.0 } else { 1.0 };
         let normal = DVec3::AXES[(facet / 2) as usize % 3] * outwards;
-        t.is_finite().then(|| Crossing::flat(t, self.to_world.direction(normal), facet))
+        Some(Crossing::flat(at, self.to_world.direction(normal), facet))
     }
 
     fn bounds(&self) -> Option<Aabb> {
@@ -88,29 +104,39 @@ impl Geometry for Cuboid {
     }
 }
 
-/// Where a line enters and leaves a box, and through which faces; `None` when it passes by.
-fn slabs(bounds: &Aabb, ray: &Ray) -> Option<[(f64, u32); 2]> {
-    let (mut enter, mut leave) = ((f64::NEG_INFINITY, 0), (f64::INFINITY, 0));
+/// A place on a line and the facet that lies there.
+type End<N> = (Root<N>, u32);
+
+/// Where a line enters and leaves a box, and through which faces; `None` when it passes by. Of faces met in one place
+/// that of the first axis counts.
+fn slabs<N: Number>(bounds: &Aabb, ray: &Ray) -> Verdict<Option<[End<N>; 2]>> {
+    let mut ends: Option<[End<N>; 2]> = None;
     for axis in 0..3_u32 {
         let i = axis as usize;
-        let (origin, direction) = (ray.origin[i], ray.direction[i]);
+        let (low, high, origin, direction) = (bounds.min[i], bounds.max[i], ray.origin[i], ray.direction[i]);
         if direction == 0.0 {
-            if !(bounds.min[i] <= origin && origin <= bounds.max[i]) {
-                return None;
+            if !(low <= origin && origin <= high) {
+                return Ok(None);
             }
             continue;
         }
-        let low = ((bounds.min[i] - origin) / direction, 2 * axis);
-        let high = ((bounds.max[i] - origin) / direction, 2 * axis + 1);
-        let (near, far) = if direction > 0.0 { (low, high) } else { (high, low) };
-        if near.0 > enter.0 {
-            enter = near;
-        }
-        if far.0 < leave.0 {
-            leave = far;
-        }
+        let at = |face: f64| Root::ratio(&N::of(face).minus(&N::of(origin)), &N::of(direction));
+        let (Some(low), Some(high)) = (at(low)?, at(high)?) else { return Ok(None) };
+        let (low, high) = ((low, 2 * axis), (high, 2 * axis + 1));
+        let [near, far] = if direction > 0.0 { [low, high] } else { [high, low] };
+        ends = Some(match ends {
+            None => [near, far],
+            Some([enter, leave]) => {
+                let later = near.0.compare(&enter.0)?.is_gt();
+                let sooner = far.0.compare(&leave.0)?.is_lt();
+                [if later { near } else { enter }, if sooner { far } else { leave }]
+            }
+        });
     }
-    (enter.0 <= leave.0).then_some([enter, leave])
+    match ends {
+        Some([enter, leave]) if enter.0.compare(&leave.0)?.is_le() => Ok(Some([enter, leave])),
+        _ => Ok(None),
+    }
 }
 
 #[cfg(test)]

@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
-use super::Geometry;
-use super::plane::cross_plane;
+use super::plane::plane_root;
+use super::{Geometry, Meeting};
+use crate::exact::{Located, Number, Vector, Verdict};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
@@ -72,10 +73,29 @@ impl Part for Disk {
 }
 
 impl Geometry for Disk {
-    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
-        let t = cross_plane(self.center, self.normal, ray)?;
-        let inside = ray.at(t).distance(self.center) <= self.radius;
-        (inside && leaving.is_none() && span.contains(t)).then(|| Crossing::flat(t, self.normal, 0))
+    fn meet<N: Number>(
+        &self,
+        _: u32,
+        own: &Ray,
+        span: Span,
+        leaving: Option<u32>,
+    ) -> Verdict<Option<Meeting<N>>> {
+        if leaving.is_some() {
+            return Ok(None);
+        }
+        let Some(root) = plane_root::<N>(self.center, self.upwards, own)? else { return Ok(None) };
+        // From the centre to where the ray meets the plane, times the root's divisor.
+        let from_center = Vector::of(own.origin).minus(&Vector::of(self.center)).scaled(&root.divisor);
+        let from_center = from_center.plus(&Vector::of(own.direction).scaled(&root.rational));
+        let reach = N::of(self.radius).times(&root.divisor);
+        if from_center.squared().minus(&reach.squared()).sign()?.is_gt() {
+            return Ok(None);
+        }
+        Meeting::on(span, root, 0)
+    }
+
+    fn crossing(&self, _: &Ray, at: Located, facet: u32) -> Option<Crossing> {
+        Some(Crossing::flat(at, self.normal, facet))
     }
 
     fn bounds(&self) -> Option<Aabb> {

@@ -1,9 +1,9 @@
 //! A triangle mesh standing somewhere.
 
-use super::Geometry;
-use super::triangle::{cross_triangle, unit_normal};
+use super::triangle::{meet_triangle, unit_normal, weights};
+use super::{Geometry, Meeting};
+use crate::exact::{Located, Number, Verdict};
 use crate::part::Given;
-use crate::ray::nearer;
 use crate::{
     Aabb, Crossing, Field, FieldKind, InvalidPart, MeshSource, Part, Placement, Ray, Span, TriangleMesh,
     Value, Values,
@@ -48,34 +48,17 @@ impl Mesh {
         &self.to_object
     }
 
-    /// A ray of the world in the mesh's own space; `t` stays what it is.
-    #[must_use]
-    pub fn own_ray(&self, ray: &Ray) -> Ray {
-        Ray::new(self.to_object.point(ray.origin), self.to_object.vector(ray.direction))
-    }
-
-    /// Where a ray given in the mesh's own space crosses one triangle; the normals are those of the world.
+    /// The crossing with a triangle that a ray in the mesh's own space is known to meet: nothing is decided, and how far
+    /// `t` may be off is not worked out.
     ///
     /// # Panics
     /// A triangle number out of range.
     #[must_use]
-    pub fn cross_one(&self, own: &Ray, span: Span, triangle: u32) -> Option<Crossing> {
-        let mesh = &self.source.mesh;
-        let corners = mesh.corners(triangle);
-        let (t, weights) = cross_triangle(&corners, own)?;
-        if !span.contains(t) {
-            return None;
-        }
-        let normal = unit_normal(&corners)?;
-        let shading =
-            mesh.normal_at(triangle, weights).and_then(glam::DVec3::try_normalize).unwrap_or(normal);
-        Some(Crossing {
-            t,
-            normal: self.to_world.direction(normal),
-            shading_normal: self.to_world.direction(shading),
-            facet: triangle,
-            uv: mesh.uv_at(triangle, weights),
-        })
+    pub fn met(&self, own: &Ray, triangle: u32) -> Option<Crossing> {
+        let [a, b, c] = self.source.mesh.corners(triangle);
+        let normal = (b - a).cross(c - a);
+        let t = normal.dot(a - own.origin) / normal.dot(own.direction);
+        self.crossing(own, Located { t, error: f64::INFINITY }, triangle)
     }
 }
 
@@ -95,13 +78,40 @@ impl Part for Mesh {
 }
 
 impl Geometry for Mesh {
-    /// Tries every triangle; the tracer keeps a tree over them.
-    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
-        let own = self.own_ray(ray);
-        (0..self.source.mesh.triangles().len() as u32)
-            .filter(|&i| leaving != Some(i))
-            .map(|i| self.cross_one(&own, span, i))
-            .fold(None, nearer)
+    fn pieces(&self) -> u32 {
+        self.source.mesh.triangles().len() as u32
+    }
+
+    fn own_ray(&self, ray: &Ray) -> Ray {
+        Ray::new(self.to_object.point(ray.origin), self.to_object.vector(ray.direction))
+    }
+
+    fn meet<N: Number>(
+        &self,
+        triangle: u32,
+        own: &Ray,
+        span: Span,
+        leaving: Option<u32>,
+    ) -> Verdict<Option<Meeting<N>>> {
+        if leaving == Some(triangle) {
+            return Ok(None);
+        }
+        meet_triangle(&self.source.mesh.corners(triangle), own, span, triangle)
+    }
+
+    fn crossing(&self, own: &Ray, at: Located, triangle: u32) -> Option<Crossing> {
+        let mesh = &self.source.mesh;
+        let corners = mesh.corners(triangle);
+        let normal = unit_normal(&corners)?;
+        let weights = weights(&corners, own);
+        let shading =
+            mesh.normal_at(triangle, weights).and_then(glam::DVec3::try_normalize).unwrap_or(normal);
+        Some(Crossing {
+            normal: self.to_world.direction(normal),
+            shading_normal: self.to_world.direction(shading),
+            uv: mesh.uv_at(triangle, weights),
+            ..Crossing::flat(at, normal, triangle)
+        })
     }
 
     fn bounds(&self) -> Option<Aabb> {

@@ -19,19 +19,81 @@ pub use plane::Plane;
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
 pub use tetrahedron::Tetrahedron;
-pub use triangle::{Triangle, cross_triangle};
+pub use triangle::Triangle;
 pub use triangle_mesh::TriangleMesh;
 
+use crate::exact::{Bounded, Dyadic, Located, Number, Root, Verdict, decide};
 use crate::{Aabb, Crossing, Placement, Ray, Span};
 
-/// What the tracer and the editor ask of a shape, in `f64`.
+/// What the tracer and the editor ask of a shape.
+///
+/// A shape says where a ray meets it once, in [`meet`](Self::meet), over any kind of number; [`cross`](Self::cross) asks
+/// that first in `f64` with bounds, then, where those do not decide, exactly. So hit or miss, and which crossing comes
+/// first, is the answer of exact arithmetic on the shape's numbers and those of [`own_ray`](Self::own_ray).
 pub trait Geometry {
-    /// The nearest crossing on `span`, or `None`. A ray that is not [valid](Ray::is_valid) crosses nothing; one
-    /// that runs within a flat surface does not cross it.
+    /// How many pieces it is made of that are met one by one, each a facet of that number: the triangles of a mesh. 1 for
+    /// a shape that is met as a whole.
+    fn pieces(&self) -> u32 {
+        1
+    }
+
+    /// A ray of the world in the space that the shape's numbers are given in; `t` stays what it is.
+    fn own_ray(&self, ray: &Ray) -> Ray {
+        *ray
+    }
+
+    /// The nearest crossing of a [valid](Ray::is_valid) ray in the shape's own space with one piece. `leaving` as in
+    /// [`cross`](Self::cross).
+    ///
+    /// # Errors
+    /// When such numbers cannot tell.
+    fn meet<N: Number>(
+        &self,
+        piece: u32,
+        own: &Ray,
+        span: Span,
+        leaving: Option<u32>,
+    ) -> Verdict<Option<Meeting<N>>>;
+
+    /// Normals and texture coordinates where a ray in the shape's own space meets a facet; `None` without a normal.
+    fn crossing(&self, own: &Ray, at: Located, facet: u32) -> Option<Crossing>;
+
+    /// The nearest crossing with one piece of a ray in the shape's own space.
+    fn cross_piece(&self, piece: u32, own: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
+        if !own.is_valid() {
+            return None;
+        }
+        let (at, facet) = decide(
+            || self.meet::<Bounded>(piece, own, span, leaving).map(found),
+            || self.meet::<Dyadic>(piece, own, span, leaving).map(found),
+        )?;
+        self.crossing(own, at, facet)
+    }
+
+    /// The exact root behind a crossing that [`cross_piece`](Self::cross_piece) has found on a facet.
+    fn root(&self, facet: u32, own: &Ray, span: Span, leaving: Option<u32>) -> Option<Root<Dyadic>> {
+        let piece = if self.pieces() > 1 { facet } else { 0 };
+        self.meet::<Dyadic>(piece, own, span, leaving).ok()?.map(|meeting| meeting.root)
+    }
+
+    /// The nearest crossing on `span`, or `None`; of crossings in one place, that of the lowest piece. A ray that is not
+    /// [valid](Ray::is_valid) crosses nothing; one that runs within a flat surface does not cross it.
     ///
     /// `leaving` names the facet that the ray's origin lies on, if it leaves from this very shape: that meeting
     /// (t ≈ 0) is not found again, while the far side of a curved shape is.
-    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing>;
+    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
+        let own = self.own_ray(ray);
+        let mut best: Option<Crossing> = None;
+        for piece in 0..self.pieces() {
+            let within = Span { max: best.map_or(span.max, |b| b.latest().min(span.max)), ..span };
+            let Some(next) = self.cross_piece(piece, &own, within, leaving) else { continue };
+            let root = |crossing: &Crossing| self.root(crossing.facet, &own, span, leaving);
+            if best.is_none_or(|b| next.order(&b, || [root(&next), root(&b)]).is_lt()) {
+                best = Some(next);
+            }
+        }
+        best
+    }
 
     /// An axis-aligned box round it, `None` where it has no end: the smallest to rounding, except round a turned
     /// [`Mesh`], where it is the box of its turned box, so that no triangle need be looked at.
@@ -45,6 +107,31 @@ pub trait Geometry {
 
     /// Whether it encloses a volume: a ray from outside that enters it leaves it again.
     fn is_closed(&self) -> bool;
+}
+
+/// Where a ray meets a piece of a shape.
+#[derive(Debug, Clone)]
+pub struct Meeting<N> {
+    /// Where on the ray, as an equation's root.
+    pub root: Root<N>,
+    /// Where on the ray, in `f64`.
+    pub at: Located,
+    /// Which flat piece of the shape; see [`Crossing::facet`].
+    pub facet: u32,
+}
+
+impl<N: Number> Meeting<N> {
+    /// Where a root lies on the stretch.
+    ///
+    /// # Errors
+    /// When such numbers cannot tell.
+    fn on(span: Span, root: Root<N>, facet: u32) -> Verdict<Option<Self>> {
+        Ok(N::locate(&root, span)?.map(|at| Self { root, at, facet }))
+    }
+}
+
+fn found<N>(meeting: Option<Meeting<N>>) -> Option<(Located, u32)> {
+    meeting.map(|m| (m.at, m.facet))
 }
 
 crate::part::parts! {
@@ -75,6 +162,12 @@ impl Shape {
     #[must_use]
     pub fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
         each_shape!(self, shape => shape.cross(ray, span, leaving))
+    }
+
+    /// The exact root behind a crossing that [`cross`](Self::cross) has found on a facet.
+    #[must_use]
+    pub fn root(&self, facet: u32, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Root<Dyadic>> {
+        each_shape!(self, shape => shape.root(facet, &shape.own_ray(ray), span, leaving))
     }
 
     /// See [`Geometry::bounds`].

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::Geometry;
+use super::{Geometry, Meeting};
+use crate::exact::{Located, Number, Root, Vector, Verdict};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
@@ -24,6 +25,12 @@ impl Plane {
         crate::part::make(
             &Values::new().with("point", Value::Vector(point)).with("normal", Value::Vector(normal)),
         )
+    }
+
+    /// The normal as it was given, of any length: what decides where a ray meets the plane.
+    #[must_use]
+    pub fn upwards(&self) -> DVec3 {
+        self.upwards
     }
 
     /// A point on it.
@@ -60,9 +67,24 @@ impl Part for Plane {
 }
 
 impl Geometry for Plane {
-    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
-        let t = cross_plane(self.point, self.normal, ray)?;
-        (leaving.is_none() && span.contains(t)).then(|| Crossing::flat(t, self.normal, 0))
+    fn meet<N: Number>(
+        &self,
+        _: u32,
+        own: &Ray,
+        span: Span,
+        leaving: Option<u32>,
+    ) -> Verdict<Option<Meeting<N>>> {
+        if leaving.is_some() {
+            return Ok(None);
+        }
+        match plane_root(self.point, self.upwards, own)? {
+            Some(root) => Meeting::on(span, root, 0),
+            None => Ok(None),
+        }
+    }
+
+    fn crossing(&self, _: &Ray, at: Located, facet: u32) -> Option<Crossing> {
+        Some(Crossing::flat(at, self.normal, facet))
     }
 
     fn bounds(&self) -> Option<Aabb> {
@@ -79,12 +101,12 @@ impl Geometry for Plane {
     }
 }
 
-/// Where a ray meets the plane through `point` with a `normal` of any length; `None` when parallel to it, or not
-/// [valid](Ray::is_valid).
-pub(super) fn cross_plane(point: DVec3, normal: DVec3, ray: &Ray) -> Option<f64> {
-    let along = normal.dot(ray.direction);
-    let t = normal.dot(point - ray.origin) / along;
-    (t.is_finite() && along.is_finite()).then_some(t)
+/// Where a ray meets the plane through `point` with a `normal` of any length; `None` when parallel to it.
+pub(super) fn plane_root<N: Number>(point: DVec3, normal: DVec3, ray: &Ray) -> Verdict<Option<Root<N>>> {
+    let normal = Vector::<N>::of(normal);
+    let along = normal.dot(&Vector::of(ray.direction));
+    let away = normal.dot(&Vector::of(point).minus(&Vector::of(ray.origin)));
+    Root::ratio(&away, &along)
 }
 
 #[cfg(test)]

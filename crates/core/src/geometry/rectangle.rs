@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::Geometry;
-use super::plane::cross_plane;
+use super::{Geometry, Meeting};
+use crate::exact::{Located, Number, Root, Vector, Verdict};
 use crate::numeric::RIGHT_ANGLE_TOLERANCE;
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
@@ -69,15 +69,41 @@ impl Part for Rectangle {
 }
 
 impl Geometry for Rectangle {
-    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
+    /// Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", Journal of Graphics Tools 2(1), 1997: with
+    /// the edges u and v and T from the corner to the origin, the place is (v · (T × u), T · (d × v), d · (T × u)) over
+    /// u · (d × v), as ray parameter and shares of the edges.
+    fn meet<N: Number>(
+        &self,
+        _: u32,
+        own: &Ray,
+        span: Span,
+        leaving: Option<u32>,
+    ) -> Verdict<Option<Meeting<N>>> {
+        if leaving.is_some() {
+            return Ok(None);
+        }
+        let (u, v) = (Vector::<N>::of(self.edge_u), Vector::of(self.edge_v));
+        let direction = Vector::of(own.direction);
+        let from_corner = Vector::of(own.origin).minus(&Vector::of(self.corner));
+        let (across, along) = (direction.cross(&v), from_corner.cross(&u));
+        let determinant = u.dot(&across);
+        let Some(root) = Root::ratio(&v.dot(&along), &determinant)? else { return Ok(None) };
+        let turned = determinant.sign()?.is_lt();
+        for share in [from_corner.dot(&across), direction.dot(&along)] {
+            let share = if turned { share.negative() } else { share };
+            if share.sign()?.is_lt() || share.minus(&root.divisor).sign()?.is_gt() {
+                return Ok(None);
+            }
+        }
+        Meeting::on(span, root, 0)
+    }
+
+    fn crossing(&self, own: &Ray, at: Located, facet: u32) -> Option<Crossing> {
         let normal = self.edge_u.cross(self.edge_v).try_normalize()?;
-        let t = cross_plane(self.corner, normal, ray)?;
-        let from_corner = ray.at(t) - self.corner;
+        let from_corner = own.at(at.t) - self.corner;
         let along = |edge: DVec3| from_corner.dot(edge) / edge.length_squared();
         let uv = DVec2::new(along(self.edge_u), along(self.edge_v));
-        let inside = (0.0..=1.0).contains(&uv.x) && (0.0..=1.0).contains(&uv.y);
-        (inside && leaving.is_none() && span.contains(t))
-            .then(|| Crossing { uv, ..Crossing::flat(t, normal, 0) })
+        Some(Crossing { uv, ..Crossing::flat(at, normal, facet) })
     }
 
     fn bounds(&self) -> Option<Aabb> {

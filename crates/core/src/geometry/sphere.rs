@@ -1,11 +1,14 @@
 //! The sphere, met from outside and from inside.
 //!
-//! Roots by the remainder form of Haines, Günther and Akenine-Möller, "Precision Improvements for Ray/Sphere
-//! Intersection", *Ray Tracing Gems* (2019), ch. 7.
+//! The discriminant is the remainder form of Haines, Günther and Akenine-Möller, "Precision Improvements for Ray/Sphere
+//! Intersection", *Ray Tracing Gems* (2019), ch. 7, times the square of the direction, so that nothing is divided.
+
+use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::Geometry;
+use super::{Geometry, Meeting};
+use crate::exact::{Located, Number, Radical, Root, Vector, Verdict};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
@@ -39,23 +42,42 @@ impl Sphere {
         self.radius
     }
 
-    fn roots(&self, ray: &Ray, leaving: bool) -> Option<[f64; 2]> {
-        let from_center = ray.origin - self.center;
-        let a = ray.direction.length_squared();
-        let b = from_center.dot(ray.direction);
-        if leaving {
-            return Some([f64::NEG_INFINITY, -2.0 * b / a]);
+    /// The near and the far crossing of a line with the sphere, `None` where it passes by. With o from the centre to the
+    /// origin: (−o·d ± √s) / d², where s = r² d² − |o × d|².
+    ///
+    /// That form of s, rather than (o·d)² − d² (o² − r²), keeps its digits when the sphere is small and far away.
+    fn roots<N: Number>(&self, ray: &Ray, span: Span) -> Verdict<Option<[Root<N>; 2]>> {
+        let direction = Vector::<N>::of(ray.direction);
+        let from_center = Vector::of(ray.origin).minus(&Vector::of(self.center));
+        let radius2 = N::of(self.radius).squared();
+        let towards = from_center.dot(&direction).negative();
+        let norm = from_center.squared().minus(&radius2);
+        let is_behind = |sign: Verdict<Ordering>, than: Ordering| span.min >= 0.0 && sign == Ok(than);
+        if is_behind(towards.sign(), Ordering::Less) && is_behind(norm.sign(), Ordering::Greater) {
+            return Ok(None);
         }
-        let closest = from_center - ray.direction * (b / a);
-        let discriminant = self.radius * self.radius - closest.length_squared();
-        if discriminant < 0.0 || discriminant.is_nan() {
-            return None;
+        let divisor = direction.squared();
+        let square = radius2.times(&divisor).minus(&from_center.cross(&direction).squared());
+        if square.sign()?.is_lt() {
+            return Ok(None);
         }
-        let distance = from_center.length();
-        let c = (distance - self.radius) * (distance + self.radius);
-        let q = -(b + (discriminant * a).sqrt().copysign(b));
-        let (t0, t1) = (c / q, q / a);
-        Some(if t0 <= t1 { [t0, t1] } else { [t1, t0] })
+        let root = |positive| Root {
+            rational: towards.clone(),
+            radical: Some(Radical { positive, square: square.clone(), norm: norm.clone() }),
+            divisor: divisor.clone(),
+        };
+        Ok(Some([root(false), root(true)]))
+    }
+
+    /// The other end of the chord that a ray from the sphere's surface goes along, `None` where it goes outwards: at
+    /// −2 o·d / d², whatever rounding has made of the distance of its origin.
+    fn chord<N: Number>(&self, ray: &Ray) -> Verdict<Option<Root<N>>> {
+        let direction = Vector::<N>::of(ray.direction);
+        let towards = Vector::of(self.center).minus(&Vector::of(ray.origin)).dot(&direction);
+        if towards.sign()?.is_le() {
+            return Ok(None);
+        }
+        Root::ratio(&towards.plus(&towards), &direction.squared())
     }
 }
 
@@ -77,10 +99,25 @@ impl Part for Sphere {
 }
 
 impl Geometry for Sphere {
-    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
-        let t =
-            self.roots(ray, leaving.is_some())?.into_iter().find(|&t| span.contains(t) && t.is_finite())?;
-        Some(Crossing::flat(t, (ray.at(t) - self.center).try_normalize()?, 0))
+    fn meet<N: Number>(
+        &self,
+        _: u32,
+        own: &Ray,
+        span: Span,
+        leaving: Option<u32>,
+    ) -> Verdict<Option<Meeting<N>>> {
+        if leaving.is_some() {
+            return self.chord(own)?.map_or(Ok(None), |end| Meeting::on(span, end, 0));
+        }
+        let Some([near, far]) = self.roots::<N>(own, span)? else { return Ok(None) };
+        match Meeting::on(span, near, 0)? {
+            None => Meeting::on(span, far, 0),
+            near => Ok(near),
+        }
+    }
+
+    fn crossing(&self, own: &Ray, at: Located, facet: u32) -> Option<Crossing> {
+        Some(Crossing::flat(at, (own.at(at.t) - self.center).try_normalize()?, facet))
     }
 
     fn bounds(&self) -> Option<Aabb> {

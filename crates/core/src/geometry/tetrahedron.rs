@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::Geometry;
-use super::triangle::{check_area, corner_values, cross_triangle, unit_normal};
+use super::triangle::{check_area, corner_values, meet_triangle, unit_normal};
+use super::{Geometry, Meeting};
+use crate::exact::{Located, Number, Verdict};
 use crate::numeric::EDGE_ROUNDING;
 use crate::part::Given;
-use crate::ray::nearer;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Values};
 
 /// Closed solid with four flat faces; face `i` lies opposite corner `i` and its normal points outwards.
@@ -74,13 +74,22 @@ impl Part for Tetrahedron {
 }
 
 impl Geometry for Tetrahedron {
-    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
-        let cross_face = |i: u32| {
-            let face = self.face(i);
-            let (t, _) = cross_triangle(&face, ray)?;
-            span.contains(t).then_some(Crossing::flat(t, unit_normal(&face)?, i))
-        };
-        (0..4).filter(|&i| leaving != Some(i)).map(cross_face).fold(None, nearer)
+    fn pieces(&self) -> u32 {
+        4
+    }
+
+    fn meet<N: Number>(
+        &self,
+        face: u32,
+        own: &Ray,
+        span: Span,
+        leaving: Option<u32>,
+    ) -> Verdict<Option<Meeting<N>>> {
+        if leaving == Some(face) { Ok(None) } else { meet_triangle(&self.face(face), own, span, face) }
+    }
+
+    fn crossing(&self, _: &Ray, at: Located, face: u32) -> Option<Crossing> {
+        Some(Crossing::flat(at, unit_normal(&self.face(face))?, face))
     }
 
     fn bounds(&self) -> Option<Aabb> {

@@ -1,9 +1,12 @@
 //! The flat triangle, seen from both sides, and the crossing that every shape made of triangles shares.
 
+use std::cmp::Ordering;
+
 use glam::{DVec2, DVec3};
 
-use super::Geometry;
-use crate::numeric::EDGE_ROUNDING;
+use super::{Geometry, Meeting};
+use crate::exact::{Dyadic, Located, Number, Root, Vector, Verdict};
+use crate::numeric::{EDGE_ROUNDING, EDGE_VALUE_ERROR, NORMAL_SINE};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
@@ -50,12 +53,18 @@ impl Part for Triangle {
 }
 
 impl Geometry for Triangle {
-    fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
-        if leaving.is_some() {
-            return None;
-        }
-        let (t, _) = cross_triangle(&self.corners, ray)?;
-        span.contains(t).then_some(Crossing::flat(t, unit_normal(&self.corners)?, 0))
+    fn meet<N: Number>(
+        &self,
+        _: u32,
+        own: &Ray,
+        span: Span,
+        leaving: Option<u32>,
+    ) -> Verdict<Option<Meeting<N>>> {
+        if leaving.is_some() { Ok(None) } else { meet_triangle(&self.corners, own, span, 0) }
+    }
+
+    fn crossing(&self, _: &Ray, at: Located, facet: u32) -> Option<Crossing> {
+        Some(Crossing::flat(at, unit_normal(&self.corners)?, facet))
     }
 
     fn bounds(&self) -> Option<Aabb> {
@@ -71,29 +80,60 @@ impl Geometry for Triangle {
     }
 }
 
-/// Where a ray meets a triangle, edges and corners included: `t`, and the weights of the three corners, which sum
-/// to one. `None` for a miss, a ray within the triangle's plane, a triangle without area, or a ray that is not
-/// [valid](Ray::is_valid).
+/// Where a ray meets a triangle, edges and corners included; not where it runs within the triangle's plane, nor a
+/// triangle without area.
 ///
-/// Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: corners are sheared so that the
-/// ray becomes an axis, which rounds a corner alike in all triangles that share it. An edge value is then the
-/// difference of two products, each rounded once: as rounding keeps order, its sign is never wrong, at worst 0,
-/// and 0 counts as inside. So no ray passes between triangles that share an edge or a corner.
-#[must_use]
-pub fn cross_triangle(corners: &[DVec3; 3], ray: &Ray) -> Option<(f64, [f64; 3])> {
+/// By the signs of three volumes, each spanned by an edge as seen from the origin and the direction (Segura and Feito,
+/// "Algorithms to test ray–triangle intersection", WSCG 2001): triangles that share an edge share the volume, so that
+/// no ray passes between them.
+pub(super) fn meet_triangle<N: Number>(
+    corners: &[DVec3; 3],
+    ray: &Ray,
+    span: Span,
+    facet: u32,
+) -> Verdict<Option<Meeting<N>>> {
+    if passes_by(corners, ray) {
+        return Ok(None);
+    }
+    let (origin, direction) = (Vector::<N>::of(ray.origin), Vector::of(ray.direction));
+    let [a, b, c] = corners.map(|p| Vector::of(p).minus(&origin));
+    let signs = [(&c, &b), (&a, &c), (&b, &a)].map(|(p, q)| p.cross(q).dot(&direction).sign());
+    if signs.contains(&Ok(Ordering::Less)) && signs.contains(&Ok(Ordering::Greater)) {
+        return Ok(None);
+    }
+    for sign in signs {
+        sign?;
+    }
+    let [p, q, r] = corners.map(Vector::<N>::of);
+    let normal = q.minus(&p).cross(&r.minus(&p));
+    match Root::ratio(&normal.dot(&a), &normal.dot(&direction))? {
+        Some(root) => Meeting::on(span, root, facet),
+        None => Ok(None),
+    }
+}
+
+/// Whether plain `f64` is certain that a line passes by a triangle: two of the three volumes have opposite signs.
+fn passes_by(corners: &[DVec3; 3], ray: &Ray) -> bool {
     let [a, b, c] = corners.map(|p| p - ray.origin);
-    let [p, q, r] = sheared([a, b, c], ray.direction);
+    let d = ray.direction;
+    let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
+    let size = d.abs().element_sum();
+    // Underflow costs half of 2⁻¹⁰⁷⁴ in each of a few products, some of them multiplied by the direction.
+    let error = EDGE_VALUE_ERROR * reach * reach * size + f64::MIN_POSITIVE * (1.0 + size);
+    let volumes = [c.cross(b).dot(d), a.cross(c).dot(d), b.cross(a).dot(d)];
+    volumes.iter().any(|&v| v > error) && volumes.iter().any(|&v| v < -error)
+}
+
+/// The weights of the three corners at the point where a ray meets a triangle; they sum up to one. For what is
+/// interpolated, not for what is decided.
+///
+/// Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
+pub(super) fn weights(corners: &[DVec3; 3], ray: &Ray) -> [f64; 3] {
+    let [p, q, r] = sheared(corners.map(|p| p - ray.origin), ray.direction);
     let edge = |v: DVec2, w: DVec2| v.x * w.y - v.y * w.x;
     let weights = [edge(r, q), edge(p, r), edge(q, p)];
-    let one_side = weights.iter().all(|&w| w >= 0.0) || weights.iter().all(|&w| w <= 0.0);
-    let sum = weights[0] + weights[1] + weights[2];
-    if !one_side || sum == 0.0 {
-        return None;
-    }
-    let normal = (b - a).cross(c - a);
-    let along = normal.dot(ray.direction);
-    let t = normal.dot(a) / along;
-    (t.is_finite() && along.is_finite()).then(|| (t, weights.map(|w| w / sum)))
+    let shares = weights.map(|w| w / weights.iter().sum::<f64>());
+    if shares.iter().all(|share| share.is_finite()) { shares } else { [1.0 / 3.0; 3] }
 }
 
 /// Where points lie across the ray through the origin along `direction`, moved along its largest component.
@@ -114,7 +154,25 @@ fn sheared(points: [DVec3; 3], direction: DVec3) -> [DVec2; 3] {
 /// Unit normal `(b − a) × (c − a)`; `None` without area.
 pub(super) fn unit_normal(corners: &[DVec3; 3]) -> Option<DVec3> {
     let [a, b, c] = corners;
-    (b - a).cross(c - a).try_normalize()
+    let (u, v) = (b - a, c - a);
+    let normal = u.cross(v);
+    let size = u.length() * v.length();
+    if normal.length() > NORMAL_SINE * size && normal.length() > f64::MIN_POSITIVE {
+        normal.try_normalize()
+    } else {
+        thin_normal(corners)
+    }
+}
+
+/// As [`unit_normal`], of a triangle so thin or so small that `f64` loses the normal.
+#[cold]
+fn thin_normal(corners: &[DVec3; 3]) -> Option<DVec3> {
+    let [a, b, c] = corners.map(Vector::<Dyadic>::of);
+    let n = b.minus(&a).cross(&c.minus(&a));
+    let bits =
+        [&n.x, &n.y, &n.z].into_iter().filter(|c| c.signum().is_ne()).map(Dyadic::magnitude_bits).max()?;
+    let [x, y, z] = [n.x, n.y, n.z].map(|c| c.doubled(-bits).to_f64());
+    DVec3::new(x, y, z).try_normalize()
 }
 
 /// Refuses corners that lie on one line, but for what rounding makes of it.
@@ -152,7 +210,8 @@ mod tests {
     #[test]
     fn corner_weights_rebuild_the_point() {
         let ray = Ray::new(DVec3::new(0.2, 0.3, 1.0), DVec3::new(0.1, 0.05, -1.0));
-        let (t, w) = cross_triangle(&triangle().corners, &ray).unwrap();
+        let t = triangle().cross(&ray, Span::AHEAD, None).unwrap().t;
+        let w = weights(&triangle().corners, &ray);
         let rebuilt =
             triangle().corners[0] * w[0] + triangle().corners[1] * w[1] + triangle().corners[2] * w[2];
         assert!((rebuilt - ray.at(t)).length() < 1e-15);

@@ -14,6 +14,7 @@ use catoptra_core::{Constant3, EntityId, Light, Material, Ray, Rgb, Shape};
 pub(crate) use columns::{Affine, Ball, Columns, Instance, Row};
 pub(crate) use lighting::{LightRow, MaterialRow};
 pub use needs::Needs;
+pub(crate) use search::Way;
 pub use search::{Hit, Place};
 
 use crate::accel::{MeshTree, Tree};

@@ -1,9 +1,13 @@
-//! What one ray meets, in `f64`: by the trees, and by trying everything.
+//! What one ray meets, for certain: by the trees, and by trying everything.
 
+use std::cmp::Ordering;
+
+use catoptra_core::exact::{Dyadic, Root};
 use catoptra_core::geometry::Mesh;
-use catoptra_core::{Crossing, Ray, Shape, Span};
+use catoptra_core::{Crossing, Geometry, Ray, Shape, Span};
 
 use super::Snapshot;
+use crate::accel::Tree;
 
 /// A place on a surface that a ray leaves from: that meeting is not found again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,12 +31,14 @@ impl Snapshot {
     /// What a ray meets first, found by the trees; ties go to the shape with the lower id.
     #[must_use]
     pub fn nearest(&self, ray: &Ray, span: Span, leaving: Option<Place>) -> Option<Hit> {
+        let way = Way { ray, span, leaving };
         let mut best = None;
         for &prim in &self.unbounded {
-            best = closer(best, self.cross(prim, ray, within(span, best), leaving));
+            best = self.closer(&way, best, self.cross(prim, ray, within(span, best), leaving));
         }
         self.tree.walk(ray, within(span, best), |item| {
-            best = closer(best, self.cross(self.bounded[item as usize], ray, within(span, best), leaving));
+            let hit = self.cross(self.bounded[item as usize], ray, within(span, best), leaving);
+            best = self.closer(&way, best, hit);
             within(span, best).max
         });
         best
@@ -55,11 +61,36 @@ impl Snapshot {
     /// What a ray meets first, found by trying every shape and every triangle.
     #[must_use]
     pub fn nearest_of_all(&self, ray: &Ray, span: Span, leaving: Option<Place>) -> Option<Hit> {
-        let crossings = (0..self.prims.len() as u32).map(|prim| {
-            let crossing = self.prims[prim as usize].shape.cross(ray, span, facet_left(prim, leaving))?;
-            Some(Hit { place: Place { prim, facet: crossing.facet }, crossing })
-        });
-        crossings.fold(None, closer)
+        let way = Way { ray, span, leaving };
+        (0..self.prims.len() as u32).fold(None, |best, prim| {
+            let crossing =
+                self.prims[prim as usize].shape.cross(ray, within(span, best), facet_left(prim, leaving));
+            let hit = crossing.map(|crossing| Hit { place: Place { prim, facet: crossing.facet }, crossing });
+            self.closer(&way, best, hit)
+        })
+    }
+
+    /// The nearer of two hits of one ray; the lower shape where they tie.
+    fn closer(&self, way: &Way<'_>, a: Option<Hit>, b: Option<Hit>) -> Option<Hit> {
+        match (a, b) {
+            (Some(a), Some(b)) => Some(if self.precedes(way, &b, &a) { b } else { a }),
+            (a, b) => a.or(b),
+        }
+    }
+
+    /// Whether a ray meets one hit before another: exactly, and of hits in one place that with the lower shape, then the
+    /// lower facet.
+    pub(crate) fn precedes(&self, way: &Way<'_>, a: &Hit, b: &Hit) -> bool {
+        let order = a.crossing.order(&b.crossing, || [a, b].map(|hit| self.root(way, hit.place)));
+        match order {
+            Ordering::Equal => (a.place.prim, a.place.facet) < (b.place.prim, b.place.facet),
+            order => order.is_lt(),
+        }
+    }
+
+    fn root(&self, way: &Way<'_>, place: Place) -> Option<Root<Dyadic>> {
+        let shape = &self.prims[place.prim as usize].shape;
+        shape.root(place.facet, way.ray, way.span, facet_left(place.prim, way.leaving))
     }
 
     /// Where a ray crosses one shape, or one facet of it: with a facet, a mesh is crossed in that triangle only.
@@ -76,10 +107,8 @@ impl Snapshot {
             return self.cross(prim, ray, span, leaving);
         };
         let place = Place { prim, facet };
-        if leaving == Some(place) {
-            return None;
-        }
-        mesh.cross_one(&mesh.own_ray(ray), span, facet).map(|crossing| Hit { place, crossing })
+        let crossing = mesh.cross_piece(facet, &mesh.own_ray(ray), span, facet_left(prim, leaving))?;
+        Some(Hit { place, crossing })
     }
 
     /// The mesh that a shape is, if it is one.
@@ -97,19 +126,7 @@ impl Snapshot {
         let crossing = match (&row.shape, row.mesh) {
             (Shape::Mesh(mesh), Some(tree)) => {
                 let tree = &self.meshes[tree as usize].tree;
-                let own = mesh.own_ray(ray);
-                let mut best: Option<Crossing> = None;
-                tree.walk(&own, span, |triangle| {
-                    let far = best.map_or(span.max, |b| b.t);
-                    if left != Some(triangle)
-                        && let Some(c) = mesh.cross_one(&own, Span { max: far, ..span }, triangle)
-                        && best.is_none_or(|b| (c.t, c.facet) < (b.t, b.facet))
-                    {
-                        best = Some(c);
-                    }
-                    best.map_or(span.max, |b| b.t)
-                });
-                best
+                cross_mesh(mesh, tree, &mesh.own_ray(ray), span, left)
             }
             (shape, _) => shape.cross(ray, span, left),
         }?;
@@ -117,21 +134,40 @@ impl Snapshot {
     }
 }
 
+/// What is asked of a ray.
+#[derive(Clone, Copy)]
+pub(crate) struct Way<'a> {
+    pub(crate) ray: &'a Ray,
+    pub(crate) span: Span,
+    pub(crate) leaving: Option<Place>,
+}
+
+/// The nearest crossing of a ray in a mesh's own space with its triangles; of crossings in one place, that of the lowest.
+fn cross_mesh(mesh: &Mesh, tree: &Tree, own: &Ray, span: Span, left: Option<u32>) -> Option<Crossing> {
+    let mut best: Option<Crossing> = None;
+    tree.walk(own, span, |triangle| {
+        let far = |best: Option<Crossing>| best.map_or(span.max, |b| b.latest().min(span.max));
+        let within = Span { max: far(best), ..span };
+        if let Some(next) = mesh.cross_piece(triangle, own, within, left) {
+            let root = |crossing: &Crossing| mesh.root(crossing.facet, own, span, left);
+            let precedes = |b: Crossing| match next.order(&b, || [root(&next), root(&b)]) {
+                Ordering::Equal => next.facet < b.facet,
+                order => order.is_lt(),
+            };
+            if best.is_none_or(precedes) {
+                best = Some(next);
+            }
+        }
+        far(best)
+    });
+    best
+}
+
 fn facet_left(prim: u32, leaving: Option<Place>) -> Option<u32> {
     leaving.filter(|place| place.prim == prim).map(|place| place.facet)
 }
 
+/// The stretch up to the latest place at which what has been found may lie.
 fn within(span: Span, best: Option<Hit>) -> Span {
-    Span { max: best.map_or(span.max, |hit| hit.crossing.t), ..span }
-}
-
-/// The nearer of two hits; the lower shape where they tie.
-fn closer(a: Option<Hit>, b: Option<Hit>) -> Option<Hit> {
-    match (a, b) {
-        (Some(a), Some(b)) => {
-            let later = (b.crossing.t, b.place.prim) < (a.crossing.t, a.place.prim);
-            Some(if later { b } else { a })
-        }
-        (a, b) => a.or(b),
-    }
+    Span { max: best.map_or(span.max, |hit| hit.crossing.latest().min(span.max)), ..span }
 }

@@ -10,7 +10,7 @@ use super::plan::Shapes;
 use crate::film::NOTHING;
 use crate::kernel::Proposal;
 use crate::lanes::{Bits, F, M, U};
-use crate::snapshot::Row;
+use crate::snapshot::{Row, Way};
 
 /// Shapes are tried one by one up to this many; more go by the tree.
 pub(super) const FEW: usize = 4;
@@ -176,7 +176,8 @@ impl<S: Simd> Tracer<'_, S> {
         let doubt = proposal.error + best.error;
         let hit = allowed & proposal.hit;
         let nearer = hit & (proposal.t + doubt).less(best.t);
-        let maybe = hit & !nearer & (proposal.t - doubt).less(best.t);
+        // Written so that NaN, from numbers beyond those of f32, stays in doubt.
+        let maybe = hit & !nearer & !best.t.less(proposal.t - doubt);
         let undecided = (allowed & proposal.undecided) | maybe;
         let take = nearer & !undecided;
         best.t = F::pick(take, proposal.t, best.t);
@@ -232,12 +233,13 @@ impl<S: Simd> Tracer<'_, S> {
         for lane in Bits(lanes) {
             self.stats.settled += 1;
             let (ray, leaving) = (packet.ray(lane), packet.leaving(lane));
-            let Some(hit) = snapshot.cross_part(prim, facet, &ray, Span::AHEAD, leaving) else { continue };
+            let way = Way { ray: &ray, span: Span::AHEAD, leaving };
+            let Some(hit) = snapshot.cross_part(prim, facet, &ray, way.span, leaving) else { continue };
             let other = best.prim.lane(lane);
             let held = (other != NOTHING)
-                .then(|| snapshot.cross_part(other, Some(best.facet.lane(lane)), &ray, Span::AHEAD, leaving))
+                .then(|| snapshot.cross_part(other, Some(best.facet.lane(lane)), &ray, way.span, leaving))
                 .flatten();
-            if held.is_some_and(|held| (held.crossing.t, other) <= (hit.crossing.t, prim)) {
+            if held.is_some_and(|held| !snapshot.precedes(&way, &hit, &held)) {
                 continue;
             }
             // What a kernel found where it was certain stays, whatever it had to compete with.

@@ -4,7 +4,7 @@
 //! where the ray is not grazing, and grazing rays have been settled before.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, Lane, Span};
+use catoptra_core::{Arithmetic, Geometry, Lane, Span};
 use fearless_simd::Simd;
 
 use super::Tracer;
@@ -171,10 +171,9 @@ impl<S: Simd> Tracer<'_, S> {
             return self.settle_triangles(packet, best, &corners);
         }
         let mut lanes = LaneVectors::default();
-        let anywhere = Span { min: f64::NEG_INFINITY, max: f64::INFINITY };
         for lane in mask.lanes() {
             let ray = packet.ray(lane);
-            if let Some(c) = shape.cross_one(&shape.own_ray(&ray), anywhere, best.facet.lane(lane)) {
+            if let Some(c) = shape.met(&shape.own_ray(&ray), best.facet.lane(lane)) {
                 lanes.set(lane, ray.at(c.t), c.normal, c.shading_normal);
             }
         }

@@ -1,0 +1,229 @@
+//! The exact number: a whole number times a power of two.
+
+use std::cmp::Ordering;
+
+use dashu_int::ops::{BitTest, SquareRoot};
+use dashu_int::{IBig, Sign, UBig};
+
+use super::{Located, Number, Root, Verdict};
+use crate::Span;
+use crate::numeric::UNIT_ROUNDOFF_F64;
+
+/// `mantissa × 2^exponent`, of any size.
+#[derive(Debug, Clone)]
+pub struct Dyadic {
+    mantissa: IBig,
+    exponent: i64,
+}
+
+/// Bits that roots and quotients are worked out to before they are rounded to `f64`.
+const WORKING_BITS: i64 = 96;
+
+impl Dyadic {
+    /// The mantissa at a lower exponent.
+    fn at(&self, exponent: i64) -> IBig {
+        let up = usize::try_from(self.exponent - exponent).unwrap_or(0);
+        if up == 0 { self.mantissa.clone() } else { &self.mantissa << up }
+    }
+
+    /// Both at their lower exponent.
+    fn aligned(&self, other: &Self) -> (IBig, IBig, i64) {
+        let exponent = self.exponent.min(other.exponent);
+        (self.at(exponent), other.at(exponent), exponent)
+    }
+
+    fn is_zero(&self) -> bool {
+        self.mantissa.is_zero()
+    }
+
+    /// How it compares with zero.
+    #[must_use]
+    pub fn signum(&self) -> Ordering {
+        match self.mantissa.sign() {
+            _ if self.is_zero() => Ordering::Equal,
+            Sign::Positive => Ordering::Greater,
+            Sign::Negative => Ordering::Less,
+        }
+    }
+
+    fn magnitude(&self) -> UBig {
+        self.mantissa.clone().into_parts().1
+    }
+
+    /// Its square root, rounded down to [`WORKING_BITS`] and more; 0 for negative numbers.
+    fn root(&self) -> Self {
+        if self.signum() != Ordering::Greater {
+            return Self::of(0.0);
+        }
+        let missing = (2 * WORKING_BITS - self.mantissa.bit_len() as i64).max(0);
+        // The exponent must be even.
+        let up = missing + (self.exponent - missing).rem_euclid(2);
+        let mantissa = (self.magnitude() << usize::try_from(up).unwrap_or(0)).sqrt();
+        Self { mantissa: mantissa.into(), exponent: (self.exponent - up) / 2 }
+    }
+
+    /// The nearest `f64` to `self / other`, or one beside it; infinite beyond the largest, and for `other` = 0.
+    #[must_use]
+    pub fn over(&self, other: &Self) -> f64 {
+        if other.is_zero() {
+            return f64::INFINITY;
+        }
+        let bits = self.mantissa.bit_len() as i64 - other.mantissa.bit_len() as i64;
+        let up = (WORKING_BITS - bits).max(0);
+        let quotient = (self.magnitude() << usize::try_from(up).unwrap_or(0)) / other.magnitude();
+        let negative = (self.mantissa.sign() == Sign::Negative) != (other.mantissa.sign() == Sign::Negative);
+        let size = float(&quotient, self.exponent - other.exponent - up);
+        if negative { -size } else { size }
+    }
+
+    /// The nearest `f64`, or one beside it; infinite beyond the largest.
+    #[must_use]
+    pub fn to_f64(&self) -> f64 {
+        let size = float(&self.magnitude(), self.exponent);
+        if self.mantissa.sign() == Sign::Negative { -size } else { size }
+    }
+
+    /// Times 2^`up`.
+    #[must_use]
+    pub fn doubled(mut self, up: i64) -> Self {
+        self.exponent += up;
+        self
+    }
+
+    /// The least `n` with `|self| < 2^n`; 0 for zero.
+    #[must_use]
+    pub fn magnitude_bits(&self) -> i64 {
+        if self.is_zero() { 0 } else { self.mantissa.bit_len() as i64 + self.exponent }
+    }
+
+    /// How `a + b √s` compares with zero.
+    fn sign_with_root(a: &Self, b: &Self, s: &Self) -> Ordering {
+        let of_root = if s.is_zero() { Ordering::Equal } else { b.signum() };
+        let of_rest = a.signum();
+        if of_root == Ordering::Equal || of_rest == of_root {
+            return of_rest;
+        }
+        if of_rest == Ordering::Equal {
+            return of_root;
+        }
+        // Opposite signs: the larger square wins.
+        let excess = a.squared().minus(&b.squared().times(s)).signum();
+        if of_rest == Ordering::Greater { excess } else { excess.reverse() }
+    }
+}
+
+/// `mantissa × 2^exponent`, rounded at most twice.
+fn float(mantissa: &UBig, exponent: i64) -> f64 {
+    let surplus = (mantissa.bit_len() as i64 - 64).max(0);
+    let top = mantissa >> usize::try_from(surplus).unwrap_or(0);
+    let top = u64::try_from(&top).unwrap_or(u64::MAX) as f64;
+    // Powers of two beyond those of f64 are reached in steps; all but a step into the subnormals are exact.
+    let mut left = exponent + surplus;
+    let mut value = top;
+    while left != 0 && value != 0.0 && value.is_finite() {
+        let step = left.clamp(-512, 512);
+        value *= 2.0_f64.powi(step as i32);
+        left -= step;
+    }
+    value
+}
+
+impl Number for Dyadic {
+    /// Numbers that are not finite, which no shape or ray past its door holds, count as 0.
+    fn of(value: f64) -> Self {
+        if value == 0.0 || !value.is_finite() {
+            return Self { mantissa: IBig::ZERO, exponent: 0 };
+        }
+        let bits = value.to_bits();
+        let field = (bits >> 52 & 0x7ff) as i64;
+        let fraction = bits & ((1 << 52) - 1);
+        let (mantissa, exponent) =
+            if field == 0 { (fraction, -1074) } else { (fraction | 1 << 52, field - 1075) };
+        let zeros = mantissa.trailing_zeros();
+        let mantissa = IBig::from(mantissa >> zeros);
+        let exponent = exponent + i64::from(zeros);
+        Self { mantissa: if value < 0.0 { -mantissa } else { mantissa }, exponent }
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        if self.is_zero() {
+            return other.clone();
+        }
+        if other.is_zero() {
+            return self.clone();
+        }
+        let (a, b, exponent) = self.aligned(other);
+        Self { mantissa: a + b, exponent }
+    }
+
+    fn minus(&self, other: &Self) -> Self {
+        self.plus(&other.negative())
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        Self { mantissa: &self.mantissa * &other.mantissa, exponent: self.exponent + other.exponent }
+    }
+
+    fn negative(&self) -> Self {
+        Self { mantissa: -&self.mantissa, exponent: self.exponent }
+    }
+
+    fn sign(&self) -> Verdict<Ordering> {
+        Ok(self.signum())
+    }
+
+    /// By squaring: with X = a + b √s and Y = c √r of opposite signs, X² − Y² has one root less.
+    fn sign_with_roots([a, b, c]: [&Self; 3], [s, r]: [&Self; 2]) -> Verdict<Ordering> {
+        let x = Self::sign_with_root(a, b, s);
+        let y = if r.is_zero() { Ordering::Equal } else { c.signum() };
+        if y == Ordering::Equal || x == y {
+            return Ok(x);
+        }
+        if x == Ordering::Equal {
+            return Ok(y);
+        }
+        let rest = a.squared().plus(&b.squared().times(s)).minus(&c.squared().times(r));
+        let twice = a.times(b).doubled(1);
+        let excess = Self::sign_with_root(&rest, &twice, s);
+        Ok(if x == Ordering::Greater { excess } else { excess.reverse() })
+    }
+
+    /// A root beyond the largest `f64` is not found.
+    fn locate(root: &Root<Self>, span: Span) -> Verdict<Option<Located>> {
+        let side = |limit: f64| {
+            if limit.is_infinite() {
+                return if limit > 0.0 { Ordering::Less } else { Ordering::Greater };
+            }
+            let rest = root.rational.minus(&root.divisor.times(&Self::of(limit)));
+            match &root.radical {
+                None => rest.signum(),
+                Some(r) => {
+                    Self::sign_with_root(&rest, &Self::of(if r.positive { 1.0 } else { -1.0 }), &r.square)
+                }
+            }
+        };
+        if span.min.is_nan() || span.max.is_nan() {
+            return Ok(None);
+        }
+        if side(span.min) == Ordering::Less || side(span.max) == Ordering::Greater {
+            return Ok(None);
+        }
+        let t = match &root.radical {
+            None => root.rational.over(&root.divisor),
+            Some(radical) => {
+                let term = radical.square.root();
+                let term = if radical.positive { term } else { term.negative() };
+                if (root.rational.signum() == Ordering::Greater) == radical.positive {
+                    root.rational.plus(&term).over(&root.divisor)
+                } else {
+                    let conjugate = root.rational.minus(&term);
+                    if conjugate.is_zero() { 0.0 } else { radical.norm.over(&conjugate) }
+                }
+            }
+        };
+        // Rounded at most twice, by half a step of 2u each at most, after what the working bits leave out; a subnormal
+        // is off by a step or two of its own.
+        let error = t.abs() * 4.0 * UNIT_ROUNDOFF_F64 + f64::from_bits(2);
+        Ok(t.is_finite().then_some(Located { t, error }))
+    }
+}

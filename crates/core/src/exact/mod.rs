@@ -1,0 +1,105 @@
+//! How is a question about a ray answered for certain? One formula over any kind of [`Number`], first with numbers
+//! that know how far they may be off, then, where those cannot tell, with exact ones.
+//!
+//! Every `f64` is a whole number times a power of two, so sums and products of them are too, and the sign of a
+//! polynomial in them can be had without any rounding. That is slow and almost never needed: [`Bounded`] carries a
+//! running bound on its error, operation by operation, and gives way to [`Dyadic`] only where the bound reaches zero.
+//! (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", Discrete &
+//! Computational Geometry 18, 1997, has the same plan with static bounds and expansions; those need more care at the
+//! ends of the exponent range, where whole numbers need none.)
+
+mod bounded;
+mod dyadic;
+mod root;
+mod vector;
+
+use std::cell::Cell;
+use std::cmp::Ordering;
+
+pub use bounded::Bounded;
+pub use dyadic::Dyadic;
+pub use root::{Located, Radical, Root};
+pub use vector::Vector;
+
+use crate::Span;
+
+/// The numbers at hand are too coarse to answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Undecided;
+
+/// An answer, unless the numbers at hand are too coarse.
+pub type Verdict<T> = Result<T, Undecided>;
+
+/// What a formula of geometry asks of its numbers. Exact ones answer always.
+pub trait Number: Clone {
+    /// A finite number as it is.
+    fn of(value: f64) -> Self;
+
+    /// `self + other`.
+    #[must_use]
+    fn plus(&self, other: &Self) -> Self;
+
+    /// `self − other`.
+    #[must_use]
+    fn minus(&self, other: &Self) -> Self;
+
+    /// `self × other`.
+    #[must_use]
+    fn times(&self, other: &Self) -> Self;
+
+    /// `−self`.
+    #[must_use]
+    fn negative(&self) -> Self;
+
+    /// How it compares with zero.
+    ///
+    /// # Errors
+    /// When its error reaches beyond zero.
+    fn sign(&self) -> Verdict<Ordering>;
+
+    /// How `a + b √s + c √r` compares with zero; `s` and `r` are not negative.
+    ///
+    /// # Errors
+    /// When the error of the sum reaches beyond zero.
+    fn sign_with_roots(terms: [&Self; 3], roots: [&Self; 2]) -> Verdict<Ordering>;
+
+    /// Where on a ray a root lies, if it lies on the stretch.
+    ///
+    /// # Errors
+    /// When the root may or may not lie on the stretch, or is not known as well as
+    /// [`ROOT_PRECISION`](crate::numeric::ROOT_PRECISION) asks.
+    fn locate(root: &Root<Self>, span: Span) -> Verdict<Option<Located>>;
+
+    /// Its square.
+    #[must_use]
+    fn squared(&self) -> Self {
+        self.times(self)
+    }
+}
+
+thread_local! {
+    static EXACT: Cell<u64> = const { Cell::new(0) };
+}
+
+/// How many questions this thread has answered by exact arithmetic since it started.
+#[must_use]
+pub fn answered_exactly() -> u64 {
+    EXACT.get()
+}
+
+/// The answer of numbers that know their error, or where they have none, of exact arithmetic.
+#[inline]
+pub fn decide<T>(
+    bounded: impl FnOnce() -> Verdict<Option<T>>,
+    exact: impl FnOnce() -> Verdict<Option<T>>,
+) -> Option<T> {
+    bounded().unwrap_or_else(|Undecided| exactly(exact))
+}
+
+/// Answers by exact arithmetic, and counts it.
+#[cold]
+#[inline(never)]
+pub fn exactly<T>(exact: impl FnOnce() -> Verdict<Option<T>>) -> Option<T> {
+    EXACT.set(EXACT.get() + 1);
+    exact().unwrap_or(None)
+}
