@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use catoptra_tracer::{Film, Region, Size};
 use clap::{Args, Parser, Subcommand};
 
+use crate::lab::LabArgs;
+
 /// Renders scenes on the CPU, says what they cost, and compares pictures.
 #[derive(Parser)]
 #[command(name = "catoptra", version, propagate_version = true, after_help = EXIT_CODES)]
@@ -24,6 +26,8 @@ pub(crate) enum Command {
     Explain(ExplainArgs),
     /// Measure how far a picture is from a reference
     Compare(CompareArgs),
+    /// Measure how fast and how exact tracing is
+    Lab(LabArgs),
 }
 
 /// What a picture is made from: shared by the commands that trace.

@@ -65,7 +65,7 @@ impl Job {
     }
 }
 
-fn milliseconds_since(started: Instant) -> f64 {
+pub(crate) fn milliseconds_since(started: Instant) -> f64 {
     started.elapsed().as_secs_f64() * 1e3
 }
 
@@ -73,7 +73,7 @@ fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-fn find_backend(name: &str) -> Result<&'static dyn Backend> {
+pub(crate) fn find_backend(name: &str) -> Result<&'static dyn Backend> {
     let names = || backends().iter().map(|backend| backend.name()).collect::<Vec<_>>();
     backend_named(name).ok_or_else(|| unknown("backend", name, &names()))
 }

@@ -8,6 +8,7 @@ mod explain;
 mod input;
 mod interrupt;
 mod job;
+mod lab;
 mod memory;
 mod output;
 mod progress;
@@ -40,6 +41,7 @@ fn main() -> ExitCode {
         Command::Render(args) => render::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Lab(args) => lab::run(&args),
     };
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,

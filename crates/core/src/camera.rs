@@ -28,6 +28,14 @@ pub enum Aim {
     Direction(DVec3),
 }
 
+impl Default for Camera {
+    /// At the origin, looking along −z with y up and a right angle of view.
+    fn default() -> Self {
+        let (eye, forward, right, up) = (DVec3::ZERO, -DVec3::Z, DVec3::X, DVec3::Y);
+        Self { eye, aim: Aim::Direction(forward), up_hint: up, fov: PI / 2.0, forward, right, up }
+    }
+}
+
 impl Camera {
     /// What a camera is made of.
     pub const KIND: &'static Kind<Self> =

@@ -35,6 +35,7 @@ mod lanes;
 mod numeric;
 mod pick;
 mod pool;
+pub mod query;
 mod render;
 mod snapshot;
 mod stats;

@@ -44,3 +44,11 @@ pub(crate) const BOX_STRETCH: f32 = 1.0 + 10.0 * U / (1.0 - 5.0 * U);
 /// How far a box is widened on every side, per metre of the ray origin's largest coordinate: the origin is rounded
 /// once to `f32`.
 pub(crate) const BOX_PAD: f32 = 2.0 * U;
+
+/// Relative error of the end of a stretch in metres: its rounding, that of the length (three of the squares' sum,
+/// halved by the root, and those of root and quotient), the direction's own, and a quotient: below 6, rounded up.
+pub(crate) const END_ERROR: f32 = 8.0 * U;
+
+/// Between which magnitudes a ray's numbers may be traced in `f32`: their squares, and products with a scene's
+/// coordinates of the same size, stay within its range (2⁻¹²⁶ … 2¹²⁸).
+pub(crate) const ORDINARY: [f64; 2] = [1.0 / (1_u64 << 60) as f64, (1_u64 << 60) as f64];

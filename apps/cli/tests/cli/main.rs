@@ -2,6 +2,7 @@
 
 mod compare;
 mod explain;
+mod lab;
 mod program;
 mod render;
 mod usage;

@@ -31,6 +31,25 @@ impl Box32 {
         let [x, y, z] = std::array::from_fn(|i| (self.max[i] - self.min[i]).max(0.0));
         x * y + y * z + z * x
     }
+
+    /// Where a ray may enter the box, if it may do so up to `far`; never a false no.
+    ///
+    /// Slabs with the far side stretched by 1 + 2γ₃ in `f64` (Ize 2013); NaN, from a ray within a face, counts as
+    /// inside.
+    pub(crate) fn entered_by(&self, ray: &Ray, far: f64) -> Option<f64> {
+        let (mut enter, mut leave) = (0.0_f64, far);
+        let stretch = 1.0 + 2.0 * catoptra_core::numeric::gamma_f64(3);
+        for i in 0..3 {
+            let inverse = 1.0 / ray.direction[i];
+            let t0 = (f64::from(self.min[i]) - ray.origin[i]) * inverse;
+            let t1 = (f64::from(self.max[i]) - ray.origin[i]) * inverse;
+            let (near, away) = if inverse.is_sign_negative() { (t1, t0) } else { (t0, t1) };
+            // `max` and `min` ignore NaN.
+            enter = enter.max(near);
+            leave = leave.min(away * stretch);
+        }
+        (enter <= leave).then_some(enter)
+    }
 }
 
 impl From<Aabb> for Box32 {
@@ -92,7 +111,7 @@ impl Tree {
         let mut at = 0_u32;
         loop {
             let node = &self.nodes[at as usize];
-            if meets(&node.bounds, ray, far) {
+            if node.bounds.entered_by(ray, far).is_some() {
                 if node.count == 0 {
                     let [near, away] = node.children(at, backwards);
                     stack[depth] = away;
@@ -112,22 +131,4 @@ impl Tree {
             at = stack[depth];
         }
     }
-}
-
-/// Whether a ray may meet a box up to `far`; never a false no.
-///
-/// Slabs with the far side stretched by 1 + 2γ₃ in `f64` (Ize 2013); NaN, from a ray within a face, counts as inside.
-fn meets(b: &Box32, ray: &Ray, far: f64) -> bool {
-    let (mut enter, mut leave) = (0.0_f64, far);
-    let stretch = 1.0 + 2.0 * catoptra_core::numeric::gamma_f64(3);
-    for i in 0..3 {
-        let inverse = 1.0 / ray.direction[i];
-        let t0 = (f64::from(b.min[i]) - ray.origin[i]) * inverse;
-        let t1 = (f64::from(b.max[i]) - ray.origin[i]) * inverse;
-        let (near, away) = if inverse.is_sign_negative() { (t1, t0) } else { (t0, t1) };
-        // `max` and `min` ignore NaN.
-        enter = enter.max(near);
-        leave = leave.min(away * stretch);
-    }
-    enter <= leave
 }

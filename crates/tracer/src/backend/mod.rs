@@ -8,6 +8,7 @@ mod wide;
 
 use catoptra_core::Raster;
 
+use crate::query::{HitSlice, RaySlice};
 use crate::{Snapshot, Stats, Tile, View};
 
 /// What a backend is given: a snapshot, and from where it is looked at.
@@ -45,6 +46,16 @@ pub trait Backend: Send + Sync {
 
     /// Traces all pixels of a tile. Knows no threads; never stores a light that is not finite.
     fn trace(&self, frame: &Frame<'_>, tile: &mut Tile) -> Stats;
+
+    /// Finds what each ray meets first, for as many rays as there are in `rays`. Knows no threads.
+    fn find_nearest(&self, snapshot: &Snapshot, rays: RaySlice<'_>, hits: &mut HitSlice<'_>) -> Stats {
+        hits.fill(snapshot, rays, |ray, span, leaving| snapshot.nearest(ray, span, leaving))
+    }
+
+    /// Finds whether each ray meets anything, for as many rays as there are in `rays`. Knows no threads.
+    fn find_occluded(&self, snapshot: &Snapshot, rays: RaySlice<'_>, occluded: &mut [bool]) -> Stats {
+        rays.ask(snapshot, occluded, |ray, span, leaving| snapshot.occluded(ray, span, leaving))
+    }
 }
 
 const BACKENDS: &[&dyn Backend] = &[&wide::Wide, &scalar::Scalar, &oracle::Oracle];

@@ -4,6 +4,7 @@ use catoptra_core::{Ray, Span};
 
 use super::{Backend, Frame};
 use crate::integrator::{Search, trace_pixels};
+use crate::query::{HitSlice, RaySlice};
 use crate::{Hit, Place, Snapshot, Stats, Tile};
 
 /// Tries everything.
@@ -30,5 +31,15 @@ impl Backend for Oracle {
 
     fn trace(&self, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
         trace_pixels(self, frame, tile)
+    }
+
+    fn find_nearest(&self, snapshot: &Snapshot, rays: RaySlice<'_>, hits: &mut HitSlice<'_>) -> Stats {
+        hits.fill(snapshot, rays, |ray, span, leaving| snapshot.nearest_of_all(ray, span, leaving))
+    }
+
+    fn find_occluded(&self, snapshot: &Snapshot, rays: RaySlice<'_>, occluded: &mut [bool]) -> Stats {
+        rays.ask(snapshot, occluded, |ray, span, leaving| {
+            snapshot.nearest_of_all(ray, span, leaving).is_some()
+        })
     }
 }

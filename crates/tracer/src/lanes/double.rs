@@ -39,6 +39,15 @@ impl<S: Simd> D<S> {
         Self { lower: self.lower.max(o.lower), upper: self.upper.max(o.upper) }
     }
 
+    /// Where `self <= o`; never for NaN.
+    #[inline(always)]
+    pub(crate) fn at_most(self, o: Self) -> M<S> {
+        let half = S::f64s::LEN;
+        let (lower, upper) = (self.lower.simd_le(o.lower), self.upper.simd_le(o.upper));
+        let s = self.lower.token();
+        M(S::mask32s::from_bitmask(s, lower.to_bitmask() | upper.to_bitmask() << half))
+    }
+
     /// Writes the lanes where the mask holds one after another, and anything after them, up to all lanes.
     #[inline(always)]
     pub(crate) fn compress(self, mask: M<S>, to: &mut [f64]) {

@@ -6,6 +6,7 @@
 //! then they gather their light. Every lane computes on its own,
 //! so a pixel's bits depend on neither the number of lanes nor its neighbours.
 
+mod ask;
 mod batch;
 mod light;
 mod meet;
@@ -27,7 +28,9 @@ use super::{Backend, Frame};
 use crate::film::NOTHING;
 use crate::lanes::{F, F3, U, splat3};
 use crate::numeric::PLAN_MARGIN;
-use crate::{Instructions, Stats, Tile, View};
+use crate::query::{HitSlice, RaySlice};
+use crate::{Instructions, Snapshot, Stats, Tile, View};
+use ask::Answers;
 use batch::{Batch, Found};
 use packet::Primary;
 use plan::{Place, Seen, Shapes};
@@ -53,6 +56,14 @@ impl Backend for Wide {
     fn trace(&self, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
         let level = frame.view.instructions.map_or_else(Level::new, Instructions::level);
         ROOM.with_borrow_mut(|room| trace_at(level, frame, tile, room))
+    }
+
+    fn find_nearest(&self, snapshot: &Snapshot, rays: RaySlice<'_>, hits: &mut HitSlice<'_>) -> Stats {
+        ask::answer_natively(snapshot, rays, &mut Answers::Nearest(hits))
+    }
+
+    fn find_occluded(&self, snapshot: &Snapshot, rays: RaySlice<'_>, occluded: &mut [bool]) -> Stats {
+        ask::answer_natively(snapshot, rays, &mut Answers::Occluded(occluded))
     }
 }
 

@@ -1,8 +1,9 @@
 //! A packet of rays, and how the camera's packets are made.
 
-use catoptra_core::{Lane, Raster, Ray};
+use catoptra_core::{Lane, Raster, Ray, Span};
 use fearless_simd::Simd;
 
+use super::ask::Asked;
 use super::queue::Queue;
 use crate::backend::Frame;
 use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING};
@@ -35,6 +36,15 @@ impl<S: Simd> Packet<'_, S> {
         match self.precise {
             Precise::Camera(primary, at) => primary.ray(at + lane),
             Precise::Stream(queue, at) => queue.ray(at + lane),
+            Precise::Asked(asked, at) => asked.ray(at + lane),
+        }
+    }
+
+    /// The stretch that the ray of a lane is followed on.
+    pub(super) fn span(&self, lane: usize) -> Span {
+        match self.precise {
+            Precise::Camera(..) | Precise::Stream(..) => Span::AHEAD,
+            Precise::Asked(asked, at) => asked.span(at + lane),
         }
     }
 
@@ -49,6 +59,7 @@ impl<S: Simd> Packet<'_, S> {
         match self.precise {
             Precise::Camera(primary, at) => (primary.eye, primary.directions(s, at)),
             Precise::Stream(queue, at) => queue.precise(s, at),
+            Precise::Asked(asked, at) => asked.precise(s, at),
         }
     }
 }
@@ -61,6 +72,8 @@ pub(super) enum Precise<'a, S: Simd> {
     Camera(&'a Primary<S>, usize),
     /// Those of a stream from a place on.
     Stream(&'a Queue, usize),
+    /// Those of a question from a place on.
+    Asked(&'a Asked<'a>, usize),
 }
 
 /// The places that the rays of a packet leave from.

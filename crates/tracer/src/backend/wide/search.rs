@@ -1,11 +1,11 @@
 //! What the rays of a packet meet first.
 
-use catoptra_core::{Lane, LaneMask, Span};
+use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
 
 use super::Tracer;
 use super::batch::Found;
-use super::packet::Packet;
+use super::packet::{Packet, Precise};
 use super::plan::Shapes;
 use crate::film::NOTHING;
 use crate::kernel::Proposal;
@@ -31,12 +31,13 @@ pub(super) struct Best<S: Simd> {
 impl<S: Simd> Best<S> {
     #[inline(always)]
     fn nothing(s: S) -> Self {
-        Self {
-            t: F::splat(s, f32::MAX),
-            error: F::splat(s, 0.0),
-            prim: U::splat(s, NOTHING),
-            facet: U::splat(s, 0),
-        }
+        Self::nothing_until(s, F::splat(s, f32::MAX), F::splat(s, 0.0))
+    }
+
+    /// Nothing met up to a distance that is known within a bound.
+    #[inline(always)]
+    pub(super) fn nothing_until(s: S, far: F<S>, error: F<S>) -> Self {
+        Self { t: far, error, prim: U::splat(s, NOTHING), facet: U::splat(s, 0) }
     }
 
     /// What has been found before.
@@ -82,23 +83,29 @@ impl<S: Simd> Tracer<'_, S> {
     /// What every ray meets first of the given shapes.
     #[inline(always)]
     pub(super) fn nearest(&mut self, packet: &Packet<'_, S>, shapes: &Shapes) -> Best<S> {
-        let columns = self.frame.snapshot.columns();
         let mut best = Best::nothing(self.s);
+        self.look(packet, &mut best, shapes);
+        best
+    }
+
+    /// Looks among the given shapes for what is nearer than what has been found.
+    #[inline(always)]
+    pub(super) fn look(&mut self, packet: &Packet<'_, S>, best: &mut Best<S>, shapes: &Shapes) {
+        let columns = self.frame.snapshot.columns();
         for &row in &shapes.planes {
             let plane = &columns.planes[row as usize];
             let proposal = plane.propose(self.s, &packet.rays);
-            self.consider(packet, &mut best, packet.live, (plane.prim, 0), proposal);
+            self.consider(packet, best, packet.live, (plane.prim, 0), proposal);
         }
         for &prim in &columns.general_unbounded {
-            self.settle_all(packet, &mut best, packet.live, prim);
+            self.settle_all(packet, best, packet.live, prim);
         }
         for &prim in &shapes.bounded {
-            self.try_prim(packet, &mut best, prim);
+            self.try_prim(packet, best, prim);
         }
         if shapes.tree {
-            best = self.walk_scene(packet, best);
+            *best = self.walk_scene(packet, *best);
         }
-        best
     }
 
     /// Tests every ray against one bounded shape.
@@ -178,7 +185,11 @@ impl<S: Simd> Tracer<'_, S> {
         let nearer = hit & (proposal.t + doubt).less(best.t);
         // Written so that NaN, from numbers beyond those of f32, stays in doubt.
         let maybe = hit & !nearer & !best.t.less(proposal.t - doubt);
-        let undecided = (allowed & proposal.undecided) | maybe;
+        let mut undecided = (allowed & proposal.undecided) | maybe;
+        if let Precise::Asked(asked, at) = packet.precise {
+            // What is met before the stretch begins may hide what is met on it.
+            undecided = undecided | (hit & !asked.begin(self.s, at).less(proposal.t - proposal.error));
+        }
         let take = nearer & !undecided;
         best.t = F::pick(take, proposal.t, best.t);
         best.error = F::pick(take, proposal.error, best.error);
@@ -232,12 +243,12 @@ impl<S: Simd> Tracer<'_, S> {
         let snapshot = self.frame.snapshot;
         for lane in Bits(lanes) {
             self.stats.settled += 1;
-            let (ray, leaving) = (packet.ray(lane), packet.leaving(lane));
-            let way = Way { ray: &ray, span: Span::AHEAD, leaving };
-            let Some(hit) = snapshot.cross_part(prim, facet, &ray, way.span, leaving) else { continue };
+            let (ray, span, leaving) = (packet.ray(lane), packet.span(lane), packet.leaving(lane));
+            let way = Way { ray: &ray, span, leaving };
+            let Some(hit) = snapshot.cross_part(prim, facet, &ray, span, leaving) else { continue };
             let other = best.prim.lane(lane);
             let held = (other != NOTHING)
-                .then(|| snapshot.cross_part(other, Some(best.facet.lane(lane)), &ray, way.span, leaving))
+                .then(|| snapshot.cross_part(other, Some(best.facet.lane(lane)), &ray, span, leaving))
                 .flatten();
             if held.is_some_and(|held| !snapshot.precedes(&way, &hit, &held)) {
                 continue;

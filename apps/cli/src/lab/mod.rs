@@ -1,0 +1,27 @@
+//! `catoptra lab`: how fast and how exact is tracing? One file for each question.
+
+mod trace;
+
+use clap::{Args, Subcommand};
+use miette::Result;
+
+use crate::Outcome;
+
+#[derive(Args)]
+pub(crate) struct LabArgs {
+    #[command(subcommand)]
+    question: Question,
+}
+
+#[derive(Subcommand)]
+enum Question {
+    /// Time how fast the rays of a file are traced against a mesh
+    Trace(trace::TraceArgs),
+}
+
+/// Answers one question.
+pub(crate) fn run(args: &LabArgs) -> Result<Outcome> {
+    match &args.question {
+        Question::Trace(args) => trace::run(args),
+    }
+}

@@ -1,0 +1,151 @@
+//! `catoptra lab trace`: how many rays of a file are traced against a mesh in a second?
+//!
+//! A ray file is a `u32` count and 32 bytes a ray: origin, tmin, direction, tmax, all little-endian `f32`.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use catoptra_core::geometry::Mesh;
+use catoptra_core::glam::DVec3;
+use catoptra_core::material::Matte;
+use catoptra_core::{Camera, MeshSource, Ray, Rgb, Scene};
+use catoptra_scene::mesh;
+use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
+use catoptra_tracer::{Backend, Pool, Size, Snapshot, View};
+use clap::Args;
+use miette::{IntoDiagnostic, Report, Result, miette};
+
+use crate::Outcome;
+use crate::job::{find_backend, milliseconds_since};
+use crate::output::print;
+
+#[derive(Args)]
+pub(crate) struct TraceArgs {
+    /// Mesh file (.ply or .obj)
+    mesh: PathBuf,
+    /// Ray file: u32 count, then origin, tmin, direction and tmax of each ray, all little-endian, f32
+    rays: PathBuf,
+    /// Ask whether anything is met, rather than what is met first
+    #[arg(long)]
+    any: bool,
+    /// Threads to trace with [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Times that all rays are traced after a warm-up
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    repeat: u32,
+    /// Backend to trace with: wide (fast), scalar or oracle (exhaustive)
+    #[arg(long, value_name = "NAME", default_value = "wide")]
+    backend: String,
+}
+
+/// Traces and prints one line of figures.
+pub(crate) fn run(args: &TraceArgs) -> Result<Outcome> {
+    let backend = find_backend(&args.backend)?;
+    let rays = read_rays(&args.rays)?;
+    let pool = Pool::new(args.threads.map_or(0, usize::from)).into_diagnostic()?;
+    let scene = scene_of(&args.mesh)?;
+    let started = Instant::now();
+    let snapshot = pool.run(|| Snapshot::extract(&scene));
+    let build_ms = milliseconds_since(started);
+    let mut traced = Traced::default();
+    let mut times: Vec<f64> =
+        (0..=args.repeat).map(|_| traced.once(args.any, backend, &snapshot, &rays, &pool)).skip(1).collect();
+    times.sort_by(f64::total_cmp);
+    let rate = |ms: f64| rays.len() as f64 / ms * 1e-3;
+    let (hits, sum) = traced.sums(args.any);
+    let triangles: usize = snapshot.meshes().iter().map(|m| m.mesh().triangles().len()).sum();
+    print(&format!(
+        "{} {} {} {} {} threads {}: best {:.2} Mrays/s median {:.2} Mrays/s rays {} hits {hits} sum_t {sum:.9e} \
+         build {build_ms:.2} ms tree {:.1} bytes/triangle\n",
+        args.mesh.display(),
+        args.rays.display(),
+        if args.any { "any" } else { "nearest" },
+        backend.name(),
+        backend.level(&View::new(Camera::default(), Size::new(1, 1))),
+        pool.threads(),
+        rate(times[0]),
+        rate(times[times.len() / 2]),
+        rays.len(),
+        snapshot.needs().tree_bytes as f64 / triangles.max(1) as f64,
+    ))?;
+    Ok(Outcome::Done)
+}
+
+/// What the rays of a file have met.
+#[derive(Default)]
+struct Traced {
+    hits: HitList,
+    occluded: Vec<bool>,
+}
+
+impl Traced {
+    /// Traces all rays once; milliseconds that it took.
+    fn once(
+        &mut self,
+        any: bool,
+        backend: &dyn Backend,
+        snapshot: &Snapshot,
+        rays: &RayList,
+        pool: &Pool,
+    ) -> f64 {
+        let started = Instant::now();
+        if any {
+            find_occluded(backend, snapshot, rays, &mut self.occluded, pool);
+        } else {
+            find_nearest(backend, snapshot, rays, &mut self.hits, pool);
+        }
+        milliseconds_since(started)
+    }
+
+    /// How many rays have met something, and the sum of their `t`.
+    fn sums(&self, any: bool) -> (usize, f64) {
+        if any {
+            return (self.occluded.iter().filter(|&&hit| hit).count(), 0.0);
+        }
+        let hits = (0..self.hits.len()).filter_map(|at| self.hits.get(at));
+        hits.fold((0, 0.0), |(count, sum), (_, t)| (count + 1, sum + t))
+    }
+}
+
+/// A scene of one mesh.
+fn scene_of(path: &Path) -> Result<Scene> {
+    let mesh = mesh::read(path)?;
+    let mut scene = Scene::new();
+    let clay = scene.add_material("clay", Matte::new(Rgb::grey(0.5)).into_diagnostic()?).into_diagnostic()?;
+    let source = MeshSource { path: path.display().to_string().into(), mesh: mesh.into() };
+    scene.add_shape("mesh", Mesh::new(source), clay, None).into_diagnostic()?;
+    Ok(scene)
+}
+
+/// Reads a ray file.
+fn read_rays(path: &Path) -> Result<RayList> {
+    let bytes = std::fs::read(path).map_err(|error| miette!("{} cannot be read: {error}", path.display()))?;
+    let (count, body) = bytes.split_first_chunk().ok_or_else(|| too_short(path, 4, bytes.len()))?;
+    let wanted = u32::from_le_bytes(*count) as usize * BYTES;
+    if body.len() != wanted {
+        return Err(too_short(path, wanted + 4, bytes.len()));
+    }
+    let mut rays = RayList::new();
+    for record in body.chunks_exact(BYTES) {
+        let mut numbers = [0.0; BYTES / 4];
+        for (number, bytes) in numbers.iter_mut().zip(record.chunks_exact(4)) {
+            *number = f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
+        }
+        let [ox, oy, oz, min, dx, dy, dz, max] = numbers;
+        rays.push(&Ray::new(DVec3::new(ox, oy, oz), DVec3::new(dx, dy, dz)), [min, max], None);
+    }
+    Ok(rays)
+}
+
+/// Bytes of a ray.
+const BYTES: usize = 32;
+
+fn too_short(path: &Path, wanted: usize, there: usize) -> Report {
+    miette!(
+        help =
+            "a ray file is a u32 count and 32 bytes a ray: origin, tmin, direction, tmax, little-endian f32",
+        "{} is no ray file: it should be {wanted} bytes long and is {there}",
+        path.display()
+    )
+}

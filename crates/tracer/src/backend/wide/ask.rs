@@ -1,0 +1,223 @@
+//! Questions about rays of anyone's choice, answered by the code that finds what pictures show.
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Arithmetic, Camera, Lane, Ray, Span};
+use fearless_simd::{Level, Simd};
+
+use super::Tracer;
+use super::batch::Found;
+use super::packet::{Left, Packet, Precise, kernel_rays};
+use super::plan::Shapes;
+use super::queue::Queue;
+use super::search::Best;
+use crate::backend::Frame;
+use crate::film::NOTHING;
+use crate::lanes::{D, D3, F, M, U, splat_wide, splat3};
+use crate::numeric::{END_ERROR, ORDINARY};
+use crate::query::{HitSlice, RaySlice};
+use crate::{Place, Size, Snapshot, Stats, View};
+
+/// What is asked about some rays.
+pub(super) struct Asked<'a> {
+    rays: RaySlice<'a>,
+    /// Where the snapshot's coordinates are zero.
+    origin: DVec3,
+}
+
+impl Asked<'_> {
+    /// A ray, relative to the snapshot's origin.
+    pub(super) fn ray(&self, at: usize) -> Ray {
+        let ray = self.rays.ray(at);
+        Ray::new(ray.origin - self.origin, ray.direction)
+    }
+
+    /// The stretch it is asked about.
+    pub(super) fn span(&self, at: usize) -> Span {
+        self.rays.span(at).unwrap_or(Span { min: 0.0, max: 0.0 })
+    }
+
+    /// Origins and directions from ray `at` on.
+    #[inline(always)]
+    pub(super) fn precise<S: Simd>(&self, s: S, at: usize) -> (D3<S>, D3<S>) {
+        let at = self.rays.first + at;
+        let load = |[x, y, z]: &[Vec<f64>; 3]| {
+            D3::new(D::load(s, &x[at..]), D::load(s, &y[at..]), D::load(s, &z[at..]))
+        };
+        (load(&self.rays.rays.origin) - splat_wide(s, self.origin), load(&self.rays.rays.direction))
+    }
+
+    /// At least the metres at which the stretches begin.
+    #[inline(always)]
+    pub(super) fn begin<S: Simd>(&self, s: S, at: usize) -> F<S> {
+        let min = self.end(s, &self.rays.rays.min, at);
+        min.abs().mul_add(F::splat(s, END_ERROR), min)
+    }
+
+    /// Ends of the stretches in metres, within [`END_ERROR`] of themselves.
+    #[inline(always)]
+    fn end<S: Simd>(&self, s: S, ends: &[f64], at: usize) -> F<S> {
+        let (_, direction) = self.precise(s, at);
+        let (_, inverse_length) = kernel_rays(s, direction, direction, None);
+        D::load(s, &ends[self.rays.first + at..]).narrow() / inverse_length
+    }
+
+    /// The packet that starts with ray `at`.
+    #[inline(always)]
+    fn packet<S: Simd>(&self, s: S, at: usize) -> Packet<'_, S> {
+        let (origin, direction) = self.precise(s, at);
+        let (rays, inverse_length) = kernel_rays(s, origin, direction, None);
+        let from = self.rays.first + at;
+        let any = !self.rays.rays.prim.is_empty();
+        let left = if any {
+            let place = |column: &[u32]| U::load(s, &column[from..]);
+            Left { prim: place(&self.rays.rays.prim), facet: place(&self.rays.rays.facet), any }
+        } else {
+            Left::nothing(s)
+        };
+        let count = (self.rays.len() - at).min(F::<S>::LANES);
+        let there = M::from_bits(s, u64::MAX >> (64 - count));
+        Packet {
+            precise: Precise::Asked(self, at),
+            rays,
+            inverse_length,
+            weight: splat3(s, [1.0; 3]),
+            pixel: U::splat(s, 0),
+            left,
+            live: there & self.in_order(s, from) & is_ordinary(s, origin, direction),
+        }
+    }
+
+    /// Stretches that are not empty.
+    #[inline(always)]
+    fn in_order<S: Simd>(&self, s: S, from: usize) -> M<S> {
+        let rays = self.rays.rays;
+        let (min, max) = (D::load(s, &rays.min[from..]), D::load(s, &rays.max[from..]));
+        let zero = D::splat(s, 0.0);
+        min.at_most(max) & zero.at_most(max)
+    }
+}
+
+/// Rays whose numbers are so ordinary that `f32` can hold them and their squares; false for NaN.
+#[inline(always)]
+fn is_ordinary<S: Simd>(s: S, origin: D3<S>, direction: D3<S>) -> M<S> {
+    let largest = |v: D3<S>| v.x.abs().max(v.y.abs()).max(v.z.abs());
+    // A sum is NaN where any of its summands is; the largest need not be.
+    let sum = |v: D3<S>| v.x.abs() + v.y.abs() + v.z.abs();
+    let [least, most] = ORDINARY.map(|v| D::splat(s, v));
+    sum(origin).at_most(most) & least.at_most(largest(direction)) & sum(direction).at_most(most)
+}
+
+/// Answers with the best of the instructions there are, as [`super::trace_natively`] traces.
+pub(super) fn answer_natively(
+    snapshot: &Snapshot,
+    rays: RaySlice<'_>,
+    answers: &mut Answers<'_, '_>,
+) -> Stats {
+    let level = Level::new();
+    #[cfg(target_arch = "x86_64")]
+    if let Some(s) = level.as_avx512() {
+        answer_with(s, snapshot, rays, answers)
+    } else if let Some(s) = level.as_avx2() {
+        answer_with(s, snapshot, rays, answers)
+    } else if let Some(s) = level.as_sse2() {
+        answer_with(s, snapshot, rays, answers)
+    } else {
+        unreachable!("every x86-64 has SSE2")
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    fearless_simd::dispatch!(level, s => answer_with(s, snapshot, rays, answers))
+}
+
+/// Lets the compiler use the instructions that `s` proves.
+fn answer_with<S: Simd>(
+    s: S,
+    snapshot: &Snapshot,
+    rays: RaySlice<'_>,
+    answers: &mut Answers<'_, '_>,
+) -> Stats {
+    let view = View::new(Camera::default(), Size::new(1, 1));
+    let frame = Frame::new(snapshot, &view);
+    let (mut next, mut found) = (Queue::default(), Found::default());
+    let mut tracer = Tracer {
+        s,
+        frame: &frame,
+        stats: Stats::default(),
+        next: &mut next,
+        found: &mut found,
+        between: &mut [],
+        outside: false,
+    };
+    let asked = Asked { rays, origin: snapshot.origin() };
+    s.vectorize(
+        #[inline(always)]
+        || tracer.answer(&asked, answers),
+    );
+    tracer.stats
+}
+
+/// Where answers go.
+pub(super) enum Answers<'a, 'b> {
+    /// What is met first.
+    Nearest(&'a mut HitSlice<'b>),
+    /// Whether anything is met.
+    Occluded(&'a mut [bool]),
+}
+
+impl Answers<'_, '_> {
+    fn set(&mut self, at: usize, hit: Option<(Place, f64)>) {
+        match self {
+            Self::Nearest(hits) => hits.set(at, hit),
+            Self::Occluded(occluded) => occluded[at] = hit.is_some(),
+        }
+    }
+}
+
+impl<S: Simd> Tracer<'_, S> {
+    #[inline(always)]
+    fn answer(&mut self, asked: &Asked<'_>, answers: &mut Answers<'_, '_>) {
+        let mut shapes = Shapes::default();
+        shapes.all(self.frame.snapshot.columns());
+        for at in (0..asked.rays.len()).step_by(F::<S>::LANES) {
+            let packet = asked.packet(self.s, at);
+            let far = asked.end(self.s, &asked.rays.rays.max, at).min(F::splat(self.s, f32::MAX));
+            let finite = far.less(F::splat(self.s, f32::MAX));
+            let none = F::splat(self.s, 0.0);
+            let error = F::pick(finite, far * F::splat(self.s, END_ERROR), none);
+            let mut best = Best::nothing_until(self.s, far, error);
+            self.look(&packet, &mut best, &shapes);
+            for lane in 0..(asked.rays.len() - at).min(F::<S>::LANES) {
+                let live = packet.live.bits() >> lane & 1 == 1;
+                let hit = if live {
+                    self.settled_hit(&packet, &best, lane)
+                } else {
+                    self.plainly(asked, at + lane)
+                };
+                answers.set(at + lane, hit);
+            }
+        }
+    }
+
+    /// The place that a lane has found, with its `t` from `f64`.
+    fn settled_hit(&self, packet: &Packet<'_, S>, best: &Best<S>, lane: usize) -> Option<(Place, f64)> {
+        let place = Place { prim: best.prim.lane(lane), facet: best.facet.lane(lane) };
+        if place.prim == NOTHING {
+            return None;
+        }
+        let (ray, span, leaving) = (packet.ray(lane), packet.span(lane), packet.leaving(lane));
+        let hit = self.frame.snapshot.cross_part(place.prim, Some(place.facet), &ray, span, leaving);
+        // What `f32` was certain of stands, though `f64` may see its `t` at the very end of the stretch.
+        let t = hit.map_or_else(
+            || f64::from(best.t.lane(lane) * packet.inverse_length.lane(lane)),
+            |h| h.crossing.t,
+        );
+        Some((place, t))
+    }
+
+    /// What a ray meets that `f32` cannot hold.
+    #[cold]
+    fn plainly(&self, asked: &Asked<'_>, at: usize) -> Option<(Place, f64)> {
+        let (ray, span) = asked.rays.own(self.frame.snapshot, at)?;
+        let hit = self.frame.snapshot.nearest(&ray, span, asked.rays.leaving(at))?;
+        Some((hit.place, hit.crossing.t))
+    }
+}

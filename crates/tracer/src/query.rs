@@ -1,0 +1,314 @@
+//! What do rays of anyone's choice meet? Rays and answers in columns, shared out among threads.
+//!
+//! The answers are those of pictures: a backend searches with the code that it renders with.
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Ray, Span};
+use rayon::prelude::*;
+
+use crate::film::NOTHING;
+use crate::{Backend, Hit, Place, Pool, Snapshot, Stats};
+
+/// Columns hold whole groups of this many rays, so that a packet of any width is one stretch of a column.
+const GROUP: usize = 64;
+
+/// Rays handed to a thread in one go.
+const SHARE: usize = 64 * GROUP;
+
+/// Rays of the world in `f64`, column by column, each asked about on the closed stretch `min <= t <= max`, where `t`
+/// counts in lengths of the ray's direction.
+///
+/// What lies behind the origin is never met, so a negative `min` counts as 0. A ray that is not
+/// [valid](Ray::is_valid), and a stretch whose ends are not in order, meet nothing.
+#[derive(Debug, Clone, Default)]
+pub struct RayList {
+    pub(crate) length: usize,
+    pub(crate) origin: [Vec<f64>; 3],
+    pub(crate) direction: [Vec<f64>; 3],
+    pub(crate) min: Vec<f64>,
+    pub(crate) max: Vec<f64>,
+    /// The places that rays leave from; empty where no ray leaves a surface.
+    pub(crate) prim: Vec<u32>,
+    pub(crate) facet: Vec<u32>,
+}
+
+impl RayList {
+    /// No rays.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// How many rays there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.length
+    }
+
+    /// Whether there is no ray.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.length == 0
+    }
+
+    /// Appends a ray of the world, asked about on `min <= t <= max`, that may leave a surface: what it leaves is not
+    /// met again there.
+    pub fn push(&mut self, ray: &Ray, [min, max]: [f64; 2], leaving: Option<Place>) {
+        self.make_room();
+        let at = self.length;
+        for axis in 0..3 {
+            self.origin[axis][at] = ray.origin[axis];
+            self.direction[axis][at] = ray.direction[axis];
+        }
+        (self.min[at], self.max[at]) = (min, max);
+        if let Some(place) = leaving {
+            self.prim.resize(self.min.len(), NOTHING);
+            self.facet.resize(self.min.len(), 0);
+            (self.prim[at], self.facet[at]) = (place.prim, place.facet);
+        }
+        self.length += 1;
+    }
+
+    fn make_room(&mut self) {
+        if self.length < self.min.len() {
+            return;
+        }
+        let room = self.length + GROUP;
+        let columns = self.origin.iter_mut().chain(&mut self.direction);
+        columns.chain([&mut self.min, &mut self.max]).for_each(|column| column.resize(room, 0.0));
+        if !self.prim.is_empty() {
+            self.prim.resize(room, NOTHING);
+            self.facet.resize(room, 0);
+        }
+    }
+
+    /// All of them.
+    #[must_use]
+    pub fn as_slice(&self) -> RaySlice<'_> {
+        RaySlice { rays: self, first: 0, length: self.length }
+    }
+}
+
+/// Some rays of a list, from the start of a group on.
+#[derive(Debug, Clone, Copy)]
+pub struct RaySlice<'a> {
+    pub(crate) rays: &'a RayList,
+    pub(crate) first: usize,
+    length: usize,
+}
+
+impl RaySlice<'_> {
+    /// How many rays there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.length
+    }
+
+    /// Whether there is no ray.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.length == 0
+    }
+
+    /// A ray of the world.
+    ///
+    /// # Panics
+    /// A number that is not below [`len`](Self::len).
+    #[must_use]
+    pub fn ray(&self, at: usize) -> Ray {
+        assert!(at < self.length, "ray {at} of {}", self.length);
+        let vector = |[x, y, z]: &[Vec<f64>; 3]| {
+            DVec3::new(x[self.first + at], y[self.first + at], z[self.first + at])
+        };
+        Ray::new(vector(&self.rays.origin), vector(&self.rays.direction))
+    }
+
+    /// The stretch that a ray is asked about; `None` where it is empty.
+    ///
+    /// # Panics
+    /// A number that is not below [`len`](Self::len).
+    #[must_use]
+    pub fn span(&self, at: usize) -> Option<Span> {
+        assert!(at < self.length, "ray {at} of {}", self.length);
+        let (min, max) = (self.rays.min[self.first + at], self.rays.max[self.first + at]);
+        (min <= max && max >= 0.0).then(|| Span { min: min.max(0.0), max })
+    }
+
+    /// The place that a ray leaves from.
+    ///
+    /// # Panics
+    /// A number that is not below [`len`](Self::len).
+    #[must_use]
+    pub fn leaving(&self, at: usize) -> Option<Place> {
+        assert!(at < self.length, "ray {at} of {}", self.length);
+        let prim = *self.rays.prim.get(self.first + at)?;
+        (prim != NOTHING).then(|| Place { prim, facet: self.rays.facet[self.first + at] })
+    }
+
+    /// A ray that can meet something, relative to a snapshot's origin, with its stretch.
+    pub(crate) fn own(&self, snapshot: &Snapshot, at: usize) -> Option<(Ray, Span)> {
+        let ray = snapshot.own_ray(&self.ray(at));
+        ray.is_valid().then_some(ray).zip(self.span(at))
+    }
+
+    /// Answers ray by ray whether anything is met.
+    pub(crate) fn ask(
+        &self,
+        snapshot: &Snapshot,
+        answers: &mut [bool],
+        search: impl Fn(&Ray, Span, Option<Place>) -> bool,
+    ) -> Stats {
+        for (at, answer) in answers.iter_mut().enumerate().take(self.length) {
+            *answer = self.own(snapshot, at).is_some_and(|(ray, span)| search(&ray, span, self.leaving(at)));
+        }
+        Stats::default()
+    }
+}
+
+/// What each ray of a list meets first.
+#[derive(Debug, Clone, Default)]
+pub struct HitList {
+    length: usize,
+    prim: Vec<u32>,
+    facet: Vec<u32>,
+    t: Vec<f64>,
+}
+
+impl HitList {
+    /// How many rays were asked about.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.length
+    }
+
+    /// Whether there was none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.length == 0
+    }
+
+    /// What a ray meets first: where, and at which `t` in lengths of its direction. `None` where it meets nothing.
+    ///
+    /// The place is the right one. `t` is what `f64` makes of it: the parameter of the plane or sphere of that place.
+    ///
+    /// # Panics
+    /// A number that is not below [`len`](Self::len).
+    #[must_use]
+    pub fn get(&self, at: usize) -> Option<(Place, f64)> {
+        assert!(at < self.length, "ray {at} of {}", self.length);
+        let prim = self.prim[at];
+        (prim != NOTHING).then(|| (Place { prim, facet: self.facet[at] }, self.t[at]))
+    }
+
+    fn resize(&mut self, length: usize) {
+        let room = length.next_multiple_of(GROUP);
+        self.length = length;
+        self.prim.resize(room, NOTHING);
+        self.facet.resize(room, 0);
+        self.t.resize(room, 0.0);
+    }
+}
+
+/// Room for the answers about some rays, in whole groups.
+#[derive(Debug)]
+pub struct HitSlice<'a> {
+    pub(crate) prim: &'a mut [u32],
+    pub(crate) facet: &'a mut [u32],
+    pub(crate) t: &'a mut [f64],
+}
+
+impl HitSlice<'_> {
+    /// Answers about one ray.
+    ///
+    /// # Panics
+    /// A number past the room.
+    pub fn set(&mut self, at: usize, hit: Option<(Place, f64)>) {
+        let (place, t) = hit.unwrap_or((Place { prim: NOTHING, facet: 0 }, 0.0));
+        (self.prim[at], self.facet[at], self.t[at]) = (place.prim, place.facet, t);
+    }
+
+    /// Answers ray by ray what is met first.
+    pub(crate) fn fill(
+        &mut self,
+        snapshot: &Snapshot,
+        rays: RaySlice<'_>,
+        search: impl Fn(&Ray, Span, Option<Place>) -> Option<Hit>,
+    ) -> Stats {
+        for at in 0..rays.len() {
+            let own = rays.own(snapshot, at);
+            let hit = own.and_then(|(ray, span)| search(&ray, span, rays.leaving(at)));
+            self.set(at, hit.map(|hit| (hit.place, hit.crossing.t)));
+        }
+        Stats::default()
+    }
+}
+
+/// Asks what each ray meets first, on the threads of `pool`. The answers do not depend on their number.
+pub fn find_nearest(
+    backend: &dyn Backend,
+    snapshot: &Snapshot,
+    rays: &RayList,
+    hits: &mut HitList,
+    pool: &Pool,
+) -> Stats {
+    hits.resize(rays.len());
+    let HitList { prim, facet, t, .. } = hits;
+    let shares = prim.par_chunks_mut(SHARE).zip(facet.par_chunks_mut(SHARE)).zip(t.par_chunks_mut(SHARE));
+    let answer = |(number, ((prim, facet), t))| {
+        backend.find_nearest(snapshot, share(rays, number), &mut HitSlice { prim, facet, t })
+    };
+    pool.run(|| shares.enumerate().map(answer).reduce(Stats::default, sum))
+}
+
+/// Asks for each ray whether it meets anything, on the threads of `pool`.
+pub fn find_occluded(
+    backend: &dyn Backend,
+    snapshot: &Snapshot,
+    rays: &RayList,
+    occluded: &mut Vec<bool>,
+    pool: &Pool,
+) -> Stats {
+    occluded.resize(rays.len(), false);
+    let answer = |(number, occluded): (usize, &mut [bool])| {
+        backend.find_occluded(snapshot, share(rays, number), occluded)
+    };
+    pool.run(|| occluded.par_chunks_mut(SHARE).enumerate().map(answer).reduce(Stats::default, sum))
+}
+
+fn share(rays: &RayList, number: usize) -> RaySlice<'_> {
+    let first = number * SHARE;
+    RaySlice { rays, first, length: SHARE.min(rays.length - first) }
+}
+
+fn sum(mut a: Stats, b: Stats) -> Stats {
+    a += b;
+    a
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_list_gives_back_what_was_put_in() {
+        let mut rays = RayList::new();
+        let place = Place { prim: 3, facet: 4 };
+        for i in 0..200 {
+            let ray = Ray::new(DVec3::splat(f64::from(i)), DVec3::X);
+            rays.push(&ray, [0.5, 2.0], (i == 100).then_some(place));
+        }
+        assert_eq!(rays.as_slice().ray(199).origin, DVec3::splat(199.0));
+        assert_eq!(rays.as_slice().leaving(100), Some(place));
+        assert_eq!(rays.as_slice().leaving(101), None);
+        assert!(rays.as_slice().span(7).unwrap().contains(0.5));
+    }
+
+    #[test]
+    fn ends_out_of_order_are_no_stretch() {
+        let mut rays = RayList::new();
+        for ends in [[1.0, 0.5], [f64::NAN, 1.0], [0.0, f64::NAN], [-2.0, -1.0]] {
+            rays.push(&Ray::new(DVec3::ZERO, DVec3::X), ends, None);
+        }
+        assert!((0..4).all(|at| rays.as_slice().span(at).is_none()));
+    }
+}

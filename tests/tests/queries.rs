@@ -1,0 +1,124 @@
+//! Does every backend answer questions about single rays as the exhaustive one does, and refuse what is no ray?
+
+use catoptra_core::Ray;
+use catoptra_core::glam::DVec3;
+use catoptra_tests::{parsed, shipped_scenes};
+use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
+use catoptra_tracer::{Place, Pool, Snapshot, backend_named, backends};
+
+/// Numbers from -1 to 1 that look random (xorshift, Marsaglia 2003).
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    fn vector(&mut self) -> DVec3 {
+        DVec3::new(self.next(), self.next(), self.next())
+    }
+}
+
+fn random_rays(count: usize) -> RayList {
+    let mut numbers = Numbers(88_172_645_463_325_252);
+    let mut rays = RayList::new();
+    for at in 0..count {
+        let ray = Ray::new(numbers.vector() * 6.0, numbers.vector());
+        let ends = match at % 3 {
+            0 => [0.0, f64::INFINITY],
+            1 => [0.0, 5.0 * numbers.next().abs()],
+            _ => [3.0 * numbers.next().abs(), 9.0],
+        };
+        rays.push(&ray, ends, None);
+    }
+    rays
+}
+
+fn nearest(backend: &str, snapshot: &Snapshot, rays: &RayList) -> HitList {
+    let mut hits = HitList::default();
+    let backend = backend_named(backend).unwrap();
+    find_nearest(backend, snapshot, rays, &mut hits, &Pool::new(2).unwrap());
+    hits
+}
+
+#[test]
+fn every_backend_meets_what_the_oracle_meets() {
+    let rays = random_rays(1000);
+    for (name, scene) in shipped_scenes() {
+        let snapshot = Snapshot::extract(&scene);
+        let right = nearest("oracle", &snapshot, &rays);
+        for backend in backends() {
+            let found = nearest(backend.name(), &snapshot, &rays);
+            let mut occluded = Vec::new();
+            find_occluded(*backend, &snapshot, &rays, &mut occluded, &Pool::new(2).unwrap());
+            for at in 0..rays.len() {
+                let (a, b) = (right.get(at), found.get(at));
+                assert_eq!(a.map(|h| h.0), b.map(|h| h.0), "{name} {} ray {at}", backend.name());
+                let (a, b) = (a.map_or(0.0, |h| h.1), b.map_or(0.0, |h| h.1));
+                assert!((a - b).abs() <= 1e-12 * a.abs(), "{name} {} ray {at}: {a} {b}", backend.name());
+                assert_eq!(right.get(at).is_some(), occluded[at], "{name} {} ray {at}", backend.name());
+            }
+        }
+    }
+}
+
+const BALL: &str = "matte \"grey\" { color 0.5 0.5 0.5 }\nsphere \"ball\" material=\"grey\" { radius 1 }";
+
+#[test]
+fn both_ends_of_a_stretch_belong_to_it() {
+    let snapshot = Snapshot::extract(&parsed(BALL));
+    let mut rays = RayList::new();
+    let ray = Ray::new(DVec3::Z * 3.0, -DVec3::Z);
+    for ends in [[0.0, 2.0], [2.0, 2.0], [2.0, 9.0], [0.0, 1.999], [2.001, 9.0], [4.001, 9.0]] {
+        rays.push(&ray, ends, None);
+    }
+    for backend in backends() {
+        let hits = nearest(backend.name(), &snapshot, &rays);
+        let t: Vec<f64> = (0..rays.len()).map(|at| hits.get(at).map_or(-1.0, |hit| hit.1)).collect();
+        assert_eq!(t, [2.0, 2.0, 2.0, -1.0, 4.0, -1.0], "{}", backend.name());
+    }
+}
+
+#[test]
+fn a_surface_that_is_left_is_not_met_at_once() {
+    let snapshot = Snapshot::extract(&parsed(BALL));
+    let mut rays = RayList::new();
+    rays.push(&Ray::new(DVec3::Z, DVec3::Z), [0.0, 9.0], Some(Place { prim: 0, facet: 0 }));
+    rays.push(&Ray::new(DVec3::Z, -DVec3::Z), [0.0, 9.0], Some(Place { prim: 0, facet: 0 }));
+    for backend in backends() {
+        let hits = nearest(backend.name(), &snapshot, &rays);
+        assert_eq!(hits.get(0), None, "{}", backend.name());
+        assert_eq!(hits.get(1).unwrap().1, 2.0, "{}", backend.name());
+    }
+}
+
+#[test]
+fn what_is_no_ray_meets_nothing() {
+    let snapshot = Snapshot::extract(&parsed(BALL));
+    let mut rays = RayList::new();
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        rays.push(&Ray::new(DVec3::new(bad, 0.0, 3.0), -DVec3::Z), [0.0, 9.0], None);
+        rays.push(&Ray::new(DVec3::Z * 3.0, DVec3::new(0.0, bad, -1.0)), [0.0, 9.0], None);
+    }
+    rays.push(&Ray::new(DVec3::ZERO, DVec3::ZERO), [0.0, 9.0], None);
+    for backend in backends() {
+        let hits = nearest(backend.name(), &snapshot, &rays);
+        assert!((0..rays.len()).all(|at| hits.get(at).is_none()), "{}", backend.name());
+    }
+}
+
+#[test]
+fn rays_of_extreme_length_meet_what_ordinary_ones_do() {
+    let snapshot = Snapshot::extract(&parsed(BALL));
+    for scale in [1e-38, 1e-100, 1e30, 1e100] {
+        let mut rays = RayList::new();
+        rays.push(&Ray::new(DVec3::Z * 3.0, -DVec3::Z * scale), [0.0, f64::INFINITY], None);
+        for backend in backends().iter().filter(|b| b.name() == "wide") {
+            let hit = nearest(backend.name(), &snapshot, &rays).get(0);
+            assert!(hit.is_some_and(|(_, t)| (t * scale - 2.0).abs() < 1e-12), "{scale:e} {hit:?}");
+        }
+    }
+}
