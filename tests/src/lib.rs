@@ -4,7 +4,7 @@ mod comparison;
 mod scenes;
 
 pub use comparison::{Comparison, Rates, picture};
-pub use scenes::{camera_of, parsed, scene_file, shipped_scenes, triangles};
+pub use scenes::{camera_of, load, parsed, scene_file, shipped_scenes, triangles};
 
 use catoptra_core::Scene;
 use catoptra_tracer::{Control, Film, Pool, Size, Snapshot, View, backend_named, render};

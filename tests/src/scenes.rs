@@ -32,14 +32,22 @@ pub fn shipped_scenes() -> Vec<(String, Scene)> {
         }
     }
     files.sort();
-    files.iter().map(|path| (name_of(path), load(path))).collect()
+    files.iter().map(|path| (name_of(path), read(path))).collect()
 }
 
 fn name_of(path: &Path) -> String {
     path.strip_prefix(folder()).unwrap_or(path).display().to_string()
 }
 
-fn load(path: &Path) -> Scene {
+/// A shipped scene by its path below `scenes/`.
+///
+/// # Panics
+/// When it cannot be read.
+pub fn load(name: &str) -> Scene {
+    read(&scene_file(name))
+}
+
+fn read(path: &Path) -> Scene {
     match catoptra_scene::load(path) {
         Ok((scene, _)) => scene,
         Err(error) => panic!("{}: {error:?}", path.display()),

@@ -39,8 +39,13 @@ pub const NORMAL_SINE: f64 = 1.0 / (1_u64 << 20) as f64;
 /// How far, in cells, the edges of a pattern lie beside whole numbers: 2⁻¹⁴.
 ///
 /// Scenes are written in whole numbers, and so whole rows of pixels fall exactly on an edge, where rounding would
-/// decide. Beside it, `f32` and `f64` agree for patterns of up to a thousand cells from the origin.
+/// decide.
 pub const PATTERN_SHIFT: f64 = 1.0 / (1_u64 << 14) as f64;
+
+/// How far a cell number `c = position · scale + phase` in `f32` may be off, in cells and per cell of |c| + 2, beside
+/// what the position's error makes of it: one rounding each in the scale, the phase (below 2) and the fused sum; 3,
+/// rounded up.
+pub const PATTERN_ERROR: f64 = 4.0 * UNIT_ROUNDOFF_F32;
 
 /// γₙ = n·u / (1 − n·u): the relative error bound of `n` accumulated roundings in `f32`
 /// (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., lemma 3.1).

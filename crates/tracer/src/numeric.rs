@@ -5,12 +5,21 @@
 /// A quarter of the step between two levels of an 8-bit display, 1/255, for light that would show as white.
 pub(crate) const WEIGHT_CUTOFF: f32 = 0.25 / 255.0;
 
+/// How many times as far from zero as the smallest thing seen sharply is large the eye may stand before a snapshot gets an
+/// origin of its own: up to there `f32` has coordinates right to 2³ · 2⁻²⁴, two millionths, of that thing.
+pub(crate) const FAR: f64 = 8.0;
+
 /// Samples lie on multiples of this within their pixel, in pixels: then the sum of a sample's place and the number of
 /// pixels before it, below 2³², needs 52 bits at most, so it is the same however it is put together.
 pub(crate) const SAMPLE_STEP: f64 = 1.0 / (1_u32 << 20) as f64;
 
 /// Unit roundoff of `f32`, 2⁻²⁴.
 const U: f32 = 1.0 / (1 << 24) as f32;
+
+/// How far a point `origin + t · direction` may be off beside the error of t, per metre of t and of the origin's
+/// magnitude: the origin is rounded once (u), the direction carries three roundings (3u of t), the fused sum one more
+/// (u of both): 2u and 4u, rounded up.
+pub(crate) const POSITION_ERROR: f32 = 6.0 * U;
 
 /// How far a coordinate relative to another point may be off, per metre of the two coordinates' magnitudes: each is
 /// rounded once to `f32` (u), and their difference once (2u of the same sum at most).

@@ -164,6 +164,15 @@ impl Shape {
         each_shape!(self, shape => shape.cross(ray, span, leaving))
     }
 
+    /// As [`cross`](Self::cross) for the piece alone that a facet belongs to: that facet, where the shape is made of them.
+    #[must_use]
+    pub fn cross_part(&self, facet: u32, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
+        each_shape!(self, shape => {
+            let piece = if shape.pieces() > 1 { facet } else { 0 };
+            shape.cross_piece(piece, &shape.own_ray(ray), span, leaving)
+        })
+    }
+
     /// The exact root behind a crossing that [`cross`](Self::cross) has found on a facet.
     #[must_use]
     pub fn root(&self, facet: u32, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Root<Dyadic>> {

@@ -1,8 +1,10 @@
 //! Two matte colours in squares, by position.
 
+use glam::DVec3;
+
 use super::{LAMBERT, REFLECTIVENESS, ShadingPoint, Surface};
 use crate::lane::Constant3;
-use crate::numeric::PATTERN_SHIFT;
+use crate::numeric::{PATTERN_ERROR, PATTERN_SHIFT};
 use crate::part::Given;
 use crate::{Coefficient, Field, FieldKind, InvalidPart, Lane, Part, Rgb, Triple, Value, Values};
 
@@ -12,6 +14,8 @@ pub struct Checker {
     color: Constant3,
     other: Constant3,
     scale: Coefficient,
+    /// Cell numbers along x and z at the origin of the positions that are asked about, less a multiple of two.
+    phase: [Coefficient; 2],
     reflectiveness: Coefficient,
 }
 
@@ -29,11 +33,18 @@ impl Checker {
         )
     }
 
+    /// In how many cells from the pattern's corner a point lies, along x and z.
+    #[inline(always)]
+    fn cells<L: Lane>(&self, at: &ShadingPoint<L>) -> [L; 2] {
+        let scale = at.distance.of(self.scale);
+        let [x, z] = self.phase;
+        [at.position.x.mul_add(scale, at.distance.of(x)), at.position.z.mul_add(scale, at.distance.of(z))]
+    }
+
     #[inline(always)]
     fn albedo<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
-        let scale = at.distance.of(self.scale);
-        let shift = at.distance.number(PATTERN_SHIFT);
-        let cell = at.position.x.mul_add(scale, shift).floor() + at.position.z.mul_add(scale, shift).floor();
+        let [x, z] = self.cells(at);
+        let cell = x.floor() + z.floor();
         let half = cell * cell.number(0.5);
         let odd = cell.number(0.25).less(half - half.floor());
         Triple::select(odd, Triple::of(cell, &self.color), Triple::of(cell, &self.other))
@@ -57,6 +68,7 @@ impl Part for Checker {
             color: given.color("color")?.into(),
             other: given.color("other")?.into(),
             scale: Coefficient::new(given.positive("scale")?),
+            phase: [Coefficient::new(PATTERN_SHIFT); 2],
             reflectiveness: Coefficient::new(given.fraction("reflectiveness")?),
         })
     }
@@ -83,5 +95,40 @@ impl Surface for Checker {
 
     fn reflectiveness(&self) -> Coefficient {
         self.reflectiveness
+    }
+
+    fn relative_to(&self, origin: DVec3) -> Self {
+        let phase = |along: f64, phase: Coefficient| {
+            Coefficient::new(along.mul_add(self.scale.wide, phase.wide).rem_euclid(2.0))
+        };
+        let [x, z] = self.phase;
+        Self { phase: [phase(origin.x, x), phase(origin.z, z)], ..self.clone() }
+    }
+
+    fn is_pattern(&self) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn undecided<L: Lane>(&self, at: &ShadingPoint<L>, error: L) -> L::Mask {
+        let (half, one) = (at.distance.number(0.5), at.distance.number(1.0));
+        let own_error = at.distance.number(PATTERN_ERROR);
+        let near_edge = |cell: L| {
+            let from_edge = half - (cell - cell.floor() - half).abs();
+            let least = (cell.abs() + one + one).mul_add(own_error, error * at.distance.of(self.scale));
+            // NaN is near an edge.
+            !least.less(from_edge)
+        };
+        let [x, z] = self.cells(at);
+        near_edge(x) | near_edge(z)
+    }
+
+    fn reduced(&self, position: DVec3) -> DVec3 {
+        let middle = |along: f64, phase: Coefficient| {
+            let cell = along.mul_add(self.scale.wide, phase.wide).floor();
+            (cell.rem_euclid(2.0) + 0.5 - phase.wide) / self.scale.wide
+        };
+        let [x, z] = self.phase;
+        DVec3::new(middle(position.x, x), position.y, middle(position.z, z))
     }
 }

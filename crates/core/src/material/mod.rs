@@ -15,13 +15,15 @@ pub use matte::Matte;
 pub use mirror::Mirror;
 pub use phong::Phong;
 
+use glam::DVec3;
+
 use crate::lane::Constant3;
 use crate::{Coefficient, Field, FieldKind, Lane, Triple, Value};
 
 /// Where and from where a surface is seen.
 #[derive(Debug, Clone, Copy)]
 pub struct ShadingPoint<L: Lane> {
-    /// The point, metres, in the space of the scene.
+    /// The point, metres, relative to the origin that the material has been told of; see [`Surface::relative_to`].
     pub position: Triple<L>,
     /// Unit normal on the viewer's side.
     pub normal: Triple<L>,
@@ -63,6 +65,33 @@ pub trait Surface {
     /// What reflected light is multiplied by, beside the reflectiveness.
     fn reflection_color(&self) -> Constant3 {
         crate::Rgb::WHITE.into()
+    }
+
+    /// The same material for positions that are counted from `origin`, a point of the scene.
+    #[must_use]
+    fn relative_to(&self, _origin: DVec3) -> Self
+    where
+        Self: Clone,
+    {
+        self.clone()
+    }
+
+    /// Whether its look jumps from one position to the next; only then are positions
+    /// [`undecided`](Self::undecided).
+    fn is_pattern(&self) -> bool {
+        false
+    }
+
+    /// Where its look could jump if the position were off by up to `error` metres and the formula by its roundings in
+    /// `f32`.
+    #[inline(always)]
+    fn undecided<L: Lane>(&self, _at: &ShadingPoint<L>, error: L) -> L::Mask {
+        error.less(error)
+    }
+
+    /// A position that looks the same as this one, and so for certain: far from where the look jumps, and near zero.
+    fn reduced(&self, position: DVec3) -> DVec3 {
+        position
     }
 }
 
@@ -121,6 +150,33 @@ impl Material {
     #[must_use]
     pub fn reflection_color(&self) -> Constant3 {
         each_material!(self, material => material.reflection_color())
+    }
+}
+
+/// Patterns, and where they are.
+impl Material {
+    /// See [`Surface::relative_to`].
+    #[must_use]
+    pub fn relative_to(&self, origin: DVec3) -> Self {
+        each_material!(self, material => material.relative_to(origin).into())
+    }
+
+    /// See [`Surface::is_pattern`].
+    #[must_use]
+    pub fn is_pattern(&self) -> bool {
+        each_material!(self, material => material.is_pattern())
+    }
+
+    /// See [`Surface::undecided`].
+    #[inline(always)]
+    pub fn undecided<L: Lane>(&self, at: &ShadingPoint<L>, error: L) -> L::Mask {
+        each_material!(self, material => material.undecided(at, error))
+    }
+
+    /// See [`Surface::reduced`].
+    #[must_use]
+    pub fn reduced(&self, position: DVec3) -> DVec3 {
+        each_material!(self, material => material.reduced(position))
     }
 }
 

@@ -139,7 +139,7 @@ impl<'a, S: Search> Path<'a, S> {
             point,
             normal: hit.crossing.normal * side,
             shading: ShadingPoint {
-                position: (point + snapshot.origin()).into(),
+                position: point.into(),
                 normal: (hit.crossing.shading_normal * side).into(),
                 to_viewer: (ray.direction / -length).into(),
                 distance: hit.crossing.t * length,

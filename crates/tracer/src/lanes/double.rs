@@ -48,6 +48,12 @@ impl<S: Simd> D<S> {
         M(S::mask32s::from_bitmask(s, lower.to_bitmask() | upper.to_bitmask() << half))
     }
 
+    #[inline(always)]
+    pub(crate) fn lane(self, lane: usize) -> f64 {
+        let half = S::f64s::LEN;
+        if lane < half { self.lower.as_slice()[lane] } else { self.upper.as_slice()[lane - half] }
+    }
+
     /// Writes the lanes where the mask holds one after another, and anything after them, up to all lanes.
     #[inline(always)]
     pub(crate) fn compress(self, mask: M<S>, to: &mut [f64]) {

@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{
-    Aabb, EntityId, Light, Material, MaterialId, Placement, Rgb, Role, Scene, Shape, TriangleMesh,
+    EntityId, Light, Material, MaterialId, Placement, Rgb, Role, Scene, Shape, TriangleMesh,
 };
 
+use super::origin::origin_for;
 use super::{Columns, LightRow, MaterialRow, Prim, Snapshot};
 use crate::accel::{MeshTree, Tree};
 
@@ -25,7 +26,8 @@ impl Snapshot {
             .entities_of(Role::Shape)
             .filter_map(|id| Some((id, scene.world_shape(id)?, scene.material_of(id)?)))
             .collect();
-        let origin = origin_of(placed.iter().filter_map(|(_, shape, _)| shape.bounds()));
+        let eye = scene.main_camera().and_then(|id| scene.world_camera(id)).map(|camera| camera.eye());
+        let origin = origin_for(placed.iter().filter_map(|(_, shape, _)| shape.bounds()), eye);
         let rows: HashMap<MaterialId, u32> = scene.materials().map(|(id, ..)| id).zip(0..).collect();
         let mut trees = MeshTrees::after(earlier);
         let prims: Vec<Prim> = placed
@@ -46,10 +48,12 @@ impl Snapshot {
         let ambient = lights.iter().map(Light::ambient).fold(Rgb::BLACK, |a, b| a + b);
         let lights: Vec<Light> =
             lights.iter().filter(|l| shines(l)).map(|l| l.placed(&moved(-origin))).collect();
-        let materials: Vec<Material> = scene.materials().map(|(.., material)| material.clone()).collect();
+        let materials: Vec<Material> =
+            scene.materials().map(|(.., material)| material.relative_to(origin)).collect();
         Self {
             origin,
-            constants: [ambient.into(), scene.settings().background().into(), origin.into()],
+            constants: [ambient.into(), scene.settings().background().into()],
+            has_patterns: materials.iter().any(Material::is_pattern),
             material_rows: materials.iter().map(MaterialRow::new).collect(),
             light_rows: lights.iter().map(|light| LightRow::new(light, &columns.planes)).collect(),
             columns,
@@ -78,18 +82,6 @@ fn moved(by: DVec3) -> Placement {
 
 fn relative(shape: &Shape, origin: DVec3) -> Shape {
     if origin == DVec3::ZERO { shape.clone() } else { shape.placed(&moved(-origin)) }
-}
-
-/// Where coordinates shall be zero: the world's origin, unless all bounded shapes lie farther from it than they are
-/// large; then their middle, in whole metres. So `f32` is spent on detail, not on distance.
-fn origin_of(bounds: impl Iterator<Item = Aabb>) -> DVec3 {
-    let all = bounds.fold(Aabb::EMPTY, Aabb::union);
-    let middle = all.centre();
-    if all.is_empty() || !middle.is_finite() || middle.length() <= all.size().length() {
-        DVec3::ZERO
-    } else {
-        middle.round()
-    }
 }
 
 /// The trees over the meshes of a scene, each built once.

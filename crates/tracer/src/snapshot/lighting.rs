@@ -14,6 +14,8 @@ pub(crate) struct MaterialRow {
     /// Share that is not reflected.
     pub(crate) kept: Coefficient,
     pub(crate) answers_light: bool,
+    /// Whether its look jumps from one position to the next.
+    pub(crate) is_pattern: bool,
 }
 
 impl MaterialRow {
@@ -24,6 +26,7 @@ impl MaterialRow {
             tint: (material.reflection_color().rgb() * reflected).into(),
             kept: Coefficient::new(1.0 - reflected),
             answers_light: material.answers_light() && reflected < 1.0,
+            is_pattern: material.is_pattern() && reflected < 1.0,
         }
     }
 

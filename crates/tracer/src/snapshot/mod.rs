@@ -4,6 +4,7 @@ mod columns;
 mod extract;
 mod lighting;
 mod needs;
+mod origin;
 mod search;
 
 use std::sync::Arc;
@@ -45,9 +46,10 @@ pub struct Snapshot {
     ambient: Rgb,
     background: Rgb,
     columns: Columns,
-    /// Ambient light, background and origin.
-    constants: [Constant3; 3],
+    /// Ambient light and background.
+    constants: [Constant3; 2],
     material_rows: Vec<MaterialRow>,
+    has_patterns: bool,
     light_rows: Vec<LightRow>,
 }
 
@@ -70,7 +72,7 @@ impl Snapshot {
         &self.entities
     }
 
-    /// All materials.
+    /// All materials, for positions relative to the snapshot's origin.
     #[must_use]
     pub fn materials(&self) -> &[Material] {
         &self.materials
@@ -123,10 +125,10 @@ impl Snapshot {
         &self.constants[1]
     }
 
-    /// The origin as a formula reads it.
+    /// Whether any material's look jumps from one position to the next.
     #[inline]
-    pub(crate) fn origin_constant(&self) -> &Constant3 {
-        &self.constants[2]
+    pub(crate) fn has_patterns(&self) -> bool {
+        self.has_patterns
     }
 
     /// The materials as the SIMD backend reads them.

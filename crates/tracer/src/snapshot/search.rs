@@ -93,8 +93,7 @@ impl Snapshot {
         shape.root(place.facet, way.ray, way.span, facet_left(place.prim, way.leaving))
     }
 
-    /// Where a ray crosses one shape, or one facet of it: with a facet, a mesh is crossed in that triangle only.
-    /// Other shapes answer with their nearest crossing, whichever facet it lies on.
+    /// Where a ray crosses one shape, or the facet of it alone where it is made of facets.
     pub(crate) fn cross_part(
         &self,
         prim: u32,
@@ -103,12 +102,12 @@ impl Snapshot {
         span: Span,
         leaving: Option<Place>,
     ) -> Option<Hit> {
-        let (Some(facet), Some(mesh)) = (facet, self.mesh_at(prim)) else {
+        let Some(facet) = facet else {
             return self.cross(prim, ray, span, leaving);
         };
-        let place = Place { prim, facet };
-        let crossing = mesh.cross_piece(facet, &mesh.own_ray(ray), span, facet_left(prim, leaving))?;
-        Some(Hit { place, crossing })
+        let shape = &self.prims[prim as usize].shape;
+        let crossing = shape.cross_part(facet, ray, span, facet_left(prim, leaving))?;
+        Some(Hit { place: Place { prim, facet: crossing.facet }, crossing })
     }
 
     /// The mesh that a shape is, if it is one.

@@ -1,6 +1,7 @@
 //! What the lanes of a packet show: their surfaces' own look, and where they send their rays on.
 
-use catoptra_core::{Lane, LaneMask, ShadingPoint};
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Arithmetic, Lane, LaneMask, Material, ShadingPoint};
 use fearless_simd::Simd;
 
 use super::packet::Packet;
@@ -9,6 +10,7 @@ use super::search::Best;
 use super::settle::{Groups, Settled};
 use super::{Tracer, dark};
 use crate::lanes::{D3, F, F3, M, narrow3, pick3};
+use crate::numeric::POSITION_ERROR;
 
 /// The lanes that have met something.
 pub(super) struct Meeting<S: Simd> {
@@ -74,13 +76,69 @@ impl<S: Simd> Tracer<'_, S> {
         let d = packet.rays.direction;
         let away = F::splat(self.s, 0.0).less(surface.normal.dot(d));
         let normal = turned(away, surface.normal);
-        let shading = ShadingPoint {
-            position: surface.point + F3::of(best.t, snapshot.origin_constant()),
+        let mut shading = ShadingPoint {
+            position: surface.point,
             normal: turned(away, surface.shading),
             to_viewer: F3::new(-d.x, -d.y, -d.z),
             distance: best.t,
         };
+        if snapshot.has_patterns() {
+            shading.position = self.place_in_patterns(packet, best, &shading, groups);
+        }
         Meeting { hits, normal, point: surface.point, shading }
+    }
+
+    /// Positions for materials to judge by: where `f32` cannot tell on which side of a pattern's edge a point lies,
+    /// one that `f64` has found to look the same.
+    #[inline(always)]
+    fn place_in_patterns(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        shading: &ShadingPoint<F<S>>,
+        groups: &Groups,
+    ) -> F3<S> {
+        let mut position = shading.position;
+        for group in 0..groups.len() {
+            let (mask, material) = groups.get(self.s, group);
+            let row = &self.frame.snapshot.material_rows()[material];
+            if !row.is_pattern {
+                continue;
+            }
+            let size = packet.rays.reach + best.t;
+            let error = size.mul_add(F::splat(self.s, POSITION_ERROR), best.error);
+            let lanes = mask & row.material.undecided(shading, error);
+            if lanes.any() {
+                position = self.settle_pattern(packet, best, lanes, &row.material, position);
+            }
+        }
+        position
+    }
+
+    /// As [`place_in_patterns`](Self::place_in_patterns), of lanes that wear one material. Compiled apart, on copies.
+    #[inline(always)]
+    fn settle_pattern(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        lanes: M<S>,
+        material: &Material,
+        mut position: F3<S>,
+    ) -> F3<S> {
+        let (packet, best) = (*packet, *best);
+        let point = self.s.vectorize(
+            #[inline(always)]
+            || self.settle_every(&packet, &best, lanes).point,
+        );
+        for lane in lanes.lanes() {
+            self.stats.settled += 1;
+            let near =
+                material.reduced(DVec3::new(point.x.lane(lane), point.y.lane(lane), point.z.lane(lane)));
+            position.x.set(lane, near.x as f32);
+            position.y.set(lane, near.y as f32);
+            position.z.set(lane, near.z as f32);
+        }
+        position
     }
 
     /// Queues the rays of lanes whose surfaces reflect.
