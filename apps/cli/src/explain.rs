@@ -195,7 +195,10 @@ impl Found<'_> {
         vec![
             format!("{} f32 could not decide, and f64 did", counted(stats.settled, "answer")),
             format!("{} f64 could not decide, and exact arithmetic did", counted(stats.exact, "answer")),
-            format!("{} not finite, put to black", counted(stats.not_finite, "colour")),
+            format!(
+                "{} not finite, put to the largest number or to black",
+                counted(stats.not_finite, "colour")
+            ),
         ]
     }
 }

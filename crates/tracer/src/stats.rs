@@ -56,7 +56,7 @@ pub struct Stats {
     pub settled: u64,
     /// Answers that `f64` could not decide and exact arithmetic did.
     pub exact: u64,
-    /// Radiances that were not finite and were put to black.
+    /// Radiances that were not finite: what was past every number became the largest, what was no number black.
     pub not_finite: u64,
 }
 

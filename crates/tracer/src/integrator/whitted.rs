@@ -48,14 +48,21 @@ pub(crate) fn trace_pixels(search: &impl Search, frame: &Frame<'_>, tile: &mut T
     path.stats
 }
 
-/// Divides sums over `grid` x `grid` samples and puts lights that are not finite to black; how many those were.
+/// Divides sums over `grid` x `grid` samples; lights past every number become the largest, what is no number black. How
+/// many those were.
 fn finish(tile: &mut Tile, grid: u32) -> u64 {
     let share = 1.0 / (grid as f32 * grid as f32);
     let mut not_finite = 0;
     for column in &mut tile.radiance {
         for light in column {
             let finite = light.is_finite();
-            *light = if finite { *light * share } else { 0.0 };
+            *light = if finite {
+                *light * share
+            } else if *light > 0.0 {
+                f32::MAX
+            } else {
+                0.0
+            };
             not_finite += u32::from(!finite);
         }
     }

@@ -256,17 +256,19 @@ impl<S: Simd> Tracer<'_, S> {
         }
     }
 
-    /// Divides sums over `grid` x `grid` samples and puts lights that are not finite to black.
+    /// Divides sums over `grid` x `grid` samples; lights past every number become the largest, what is no number black.
     #[inline(always)]
     fn finish(&mut self, tile: &mut Tile, grid: u32) {
         let share = F::splat(self.s, 1.0 / (grid as f32 * grid as f32));
         let (zero, infinite) = (F::splat(self.s, 0.0), F::splat(self.s, f32::INFINITY));
+        let most = F::splat(self.s, f32::MAX);
         for column in &mut tile.radiance {
             for at in (0..column.len()).step_by(F::<S>::LANES) {
                 let light = F::load(self.s, &column[at..]);
                 let finite = light.abs().less(infinite);
                 self.stats.not_finite += (!finite).count();
-                F::pick(finite, light * share, zero).store(&mut column[at..]);
+                F::pick(finite, light * share, F::pick(zero.less(light), most, zero))
+                    .store(&mut column[at..]);
             }
         }
     }

@@ -262,7 +262,7 @@ impl Place {
             (way.normalize_or_zero(), way.length())
         };
         let reach = (ball.radius + self.radius) * (1.0 + PLAN_MARGIN) + PLAN_MARGIN * to_ball.length();
-        let nearest = along * to_ball.dot(along).clamp(0.0, length);
+        let nearest = along * to_ball.dot(along).max(0.0).min(length);
         !((to_ball - nearest).length() > reach)
     }
 }
