@@ -3,7 +3,7 @@
 use catoptra_core::{EntityId, Scene};
 use catoptra_lab::scenes::placed_mesh;
 use catoptra_tests::{camera_of, film, shipped_scenes, traced, triangles};
-use catoptra_tracer::{Film, Instructions, Region, Size, Skip, View, backends};
+use catoptra_tracer::{Film, Instructions, Pattern, Region, Size, Skip, View, backends};
 
 /// The shipped scenes, and a mesh that is moved, turned and scaled.
 fn scenes() -> Vec<(String, Scene)> {
@@ -77,8 +77,8 @@ fn the_size_of_the_tiles_does_not_matter() {
 #[test]
 fn every_kind_of_instructions_gives_the_same_bits() {
     for (name, scene) in scenes() {
-        for grid in [1, 3] {
-            let view = View { grid, ..view(&scene) };
+        for (grid, pattern) in [(1, Pattern::Grid), (3, Pattern::Grid), (3, Pattern::Sobol)] {
+            let view = View { grid, pattern, ..view(&scene) };
             let usual = traced(&scene, "wide", &view, Film::new(ODD), 2);
             for instructions in Instructions::all() {
                 let view = View { instructions: Some(instructions), ..view.clone() };
@@ -86,7 +86,7 @@ fn every_kind_of_instructions_gives_the_same_bits() {
                 assert_same_bits(
                     &usual,
                     &forced,
-                    &format!("{name} with {instructions:?} and {grid} samples"),
+                    &format!("{name} with {instructions:?}, {grid} x {grid} by {pattern:?}"),
                 );
             }
         }
@@ -115,7 +115,7 @@ fn a_crop_has_the_bits_of_the_whole_picture() {
     ];
     for (name, scene) in scenes() {
         for backend in ["wide", "scalar"] {
-            let view = View { grid: 3, ..view(&scene) };
+            let view = View { grid: 3, pattern: Pattern::Sobol, ..view(&scene) };
             let whole = traced(&scene, backend, &view, Film::new(ODD), 2);
             for crop in crops {
                 let view = View { crop: Some(crop), ..view.clone() };

@@ -50,6 +50,9 @@ pub(crate) struct JobArgs {
     /// Samples per pixel: a square number, 1, 4, 9 and so on
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = samples)]
     pub(crate) samples: u32,
+    /// Where the samples lie in a pixel: grid or sobol
+    #[arg(long, value_name = "NAME", default_value = "grid")]
+    pub(crate) pattern: String,
     /// Reflections followed one after another [default: the scene's setting]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub(crate) max_depth: Option<u32>,

@@ -65,6 +65,7 @@ impl Found<'_> {
             "size": self.job.view.size,
             "crop": self.job.view.crop,
             "samples": self.job.view.samples(),
+            "pattern": self.job.view.pattern.name(),
             "max_depth": self.job.view.max_depth,
             "backend": self.job.backend.name(),
             "simd": self.job.backend.level(&self.job.view),

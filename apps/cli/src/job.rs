@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use catoptra_core::{Camera, EntityId, Role, Scene};
 use catoptra_tracer::{
-    Backend, Cancelled, Control, Film, Instructions, Pool, Region, Size, Snapshot, Stats, View,
+    Backend, Cancelled, Control, Film, Instructions, Pattern, Pool, Region, Size, Snapshot, Stats, View,
     backend_named, backends, render,
 };
 use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
@@ -39,6 +39,7 @@ impl Job {
         let view = View {
             max_depth: args.max_depth.unwrap_or(view.max_depth),
             crop: args.crop.map(|crop| check_crop(crop, args.size)).transpose()?,
+            pattern: find_pattern(&args.pattern)?,
             instructions: args.simd.as_deref().map(find_instructions).transpose()?,
             ..view
         };
@@ -76,6 +77,11 @@ fn file_name(path: &Path) -> String {
 pub(crate) fn find_backend(name: &str) -> Result<&'static dyn Backend> {
     let names = || backends().iter().map(|backend| backend.name()).collect::<Vec<_>>();
     backend_named(name).ok_or_else(|| unknown("backend", name, &names()))
+}
+
+fn find_pattern(name: &str) -> Result<Pattern> {
+    let names: Vec<&str> = Pattern::ALL.iter().map(|pattern| pattern.name()).collect();
+    Pattern::named(name).ok_or_else(|| unknown("pattern of samples", name, &names))
 }
 
 /// The instructions of that name; an error where there are none such, or not on this CPU.

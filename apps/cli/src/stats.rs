@@ -40,6 +40,7 @@ fn as_json(job: &Job, times: &FrameTimes, stats: &Stats) -> Result<Value> {
         "size": job.view.size,
         "crop": job.view.crop,
         "samples": job.view.samples(),
+        "pattern": job.view.pattern.name(),
         "max_depth": job.view.max_depth,
         "frames": times.frames,
         "frame_ms": { "min": times.min, "median": times.median },

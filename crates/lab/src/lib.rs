@@ -18,10 +18,12 @@
 pub mod metrics;
 mod mismatch;
 mod picture;
+mod plot;
 pub mod scenes;
 mod ulps;
 
 pub use metrics::{METRICS, Metric, Viewing, metric_named};
 pub use mismatch::mismatch_rate;
 pub use picture::{Pair, Picture, PictureError};
+pub use plot::{NoPlot, Plot};
 pub use ulps::{ulps_f32, ulps_f64};

@@ -2,8 +2,8 @@
 
 use catoptra_core::{Camera, Scene};
 
-use crate::Instructions;
-use crate::numeric::{SAMPLE_STEP, WEIGHT_CUTOFF};
+use crate::numeric::WEIGHT_CUTOFF;
+use crate::{Instructions, Pattern};
 
 /// Picture size in pixels; either may be zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize)]
@@ -75,10 +75,13 @@ pub struct View {
     pub crop: Option<Region>,
     /// How many reflections after one another, at most.
     pub max_depth: u32,
-    /// Rays that could add no more than this share of what they meet are not traced; 0 traces them all.
+    /// Rays that could add less than this share of what they meet are not traced; 0 traces them all. A pixel is darker
+    /// for it by at most this share of the brightest radiance that any such ray would have met, and never brighter.
     pub weight_cutoff: f32,
-    /// Samples per pixel along each axis: 1 is the pixel's centre, n is an n x n grid.
+    /// Samples per pixel along each axis: n x n of them; 1 is the pixel's centre.
     pub grid: u32,
+    /// Where in a pixel they lie.
+    pub pattern: Pattern,
     /// Which work that cannot matter is left out; the picture's bits do not depend on it.
     pub skip: Skip,
     /// Vector instructions to trace with; without, the best that the CPU has. The picture's bits do not depend on them.
@@ -112,6 +115,7 @@ impl View {
             max_depth: 5,
             weight_cutoff: WEIGHT_CUTOFF,
             grid: 1,
+            pattern: Pattern::Grid,
             skip: Skip::ALL,
             instructions: None,
         }
@@ -123,7 +127,7 @@ impl View {
         Self { max_depth: scene.settings().max_depth(), ..Self::new(camera, size) }
     }
 
-    /// With at least `samples` samples a pixel, on a square grid.
+    /// With at least `samples` samples a pixel, a square number of them.
     #[must_use]
     pub fn with_samples(self, samples: u32) -> Self {
         let grid = f64::from(samples).sqrt().ceil() as u32;
@@ -136,10 +140,9 @@ impl View {
         self.crop.unwrap_or(Region::from(self.size)).within(self.size)
     }
 
-    /// How far from a pixel's left or upper edge its sample number `k` along that axis lies, in pixels.
-    pub(crate) fn share(&self, k: u32) -> f64 {
-        let middle = (f64::from(k) + 0.5) / f64::from(self.grid);
-        (middle / SAMPLE_STEP).round() * SAMPLE_STEP
+    /// How far from a pixel's left and upper edge one of its samples lies, in pixels.
+    pub(crate) fn place(&self, column: u32, row: u32) -> [f64; 2] {
+        self.pattern.place(self.grid, column, row)
     }
 
     /// Samples a pixel.

@@ -1,5 +1,6 @@
 //! `catoptra lab`: how fast and how exact is tracing? One file for each question.
 
+mod pareto;
 mod trace;
 
 use clap::{Args, Subcommand};
@@ -17,11 +18,14 @@ pub(crate) struct LabArgs {
 enum Question {
     /// Time how fast the rays of a file are traced against a mesh
     Trace(trace::TraceArgs),
+    /// Measure run time against error for every way to answer a question
+    Pareto(pareto::ParetoArgs),
 }
 
 /// Answers one question.
 pub(crate) fn run(args: &LabArgs) -> Result<Outcome> {
     match &args.question {
         Question::Trace(args) => trace::run(args),
+        Question::Pareto(args) => pareto::run(args),
     }
 }

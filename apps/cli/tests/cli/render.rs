@@ -152,6 +152,7 @@ fn unknown_names_are_refused_with_the_one_that_was_probably_meant() {
     assert_refused(folder.path(), &with("--backend", "orcale"), &["orcale", "did you mean `oracle`?"]);
     assert_refused(folder.path(), &with("--camera", "frnt"), &["frnt", "did you mean `front`?"]);
     assert_refused(folder.path(), &with("--display", "sgrb"), &["sgrb", "did you mean `srgb`?"]);
+    assert_refused(folder.path(), &with("--pattern", "sobl"), &["did you mean `sobol`?"]);
     assert_refused(folder.path(), &with("--display", "zzz"), &["linear"]);
 }
 

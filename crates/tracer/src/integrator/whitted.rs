@@ -30,8 +30,8 @@ pub(crate) fn trace_pixels(search: &impl Search, frame: &Frame<'_>, tile: &mut T
         let i = tile.index(x, y);
         let mut sum = Rgb::BLACK;
         for (u, v) in (0..grid).flat_map(|v| (0..grid).map(move |u| (u, v))) {
-            let within = |k: u32| frame.view.share(k);
-            let ray = frame.raster.ray(f64::from(tile.x + x) + within(u), f64::from(tile.y + y) + within(v));
+            let [right, down] = frame.view.place(u, v);
+            let ray = frame.raster.ray(f64::from(tile.x + x) + right, f64::from(tile.y + y) + down);
             let (light, seen) = path.trace(ray);
             sum += light;
             if (u, v) == (grid / 2, grid / 2) {

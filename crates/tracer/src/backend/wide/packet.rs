@@ -149,12 +149,12 @@ impl<S: Simd> Primary<S> {
     /// For the sample at a column and row of the grid within each pixel.
     #[inline(always)]
     pub(super) fn new(s: S, frame: &Frame<'_>, tile: &Tile, column: u32, row: u32) -> Self {
-        let share = |k: u32| frame.view.share(k);
+        let share = frame.view.place(column, row);
         // A block and a bit, so that the last part can be loaded whole.
         let (mut columns, mut rows) = ([0.0; 2 * BLOCK_PIXELS], [0.0; 2 * BLOCK_PIXELS]);
         for pixel in 0..BLOCK_PIXELS {
-            columns[pixel] = (pixel as u32 % BLOCK) as f64 + share(column);
-            rows[pixel] = (pixel as u32 / BLOCK) as f64 + share(row);
+            columns[pixel] = (pixel as u32 % BLOCK) as f64 + share[0];
+            rows[pixel] = (pixel as u32 / BLOCK) as f64 + share[1];
         }
         let mut within = [(D::splat(s, 0.0), D::splat(s, 0.0)); BLOCK_PIXELS / 4];
         for (part, lanes) in within.iter_mut().enumerate().take(BLOCK_PIXELS / F::<S>::LANES) {
@@ -169,7 +169,7 @@ impl<S: Simd> Primary<S> {
             down: splat_wide(s, raster.down),
             within,
             raster: *raster,
-            share: [share(column), share(row)],
+            share,
             left: tile.x,
             top: tile.y,
             width: tile.width,

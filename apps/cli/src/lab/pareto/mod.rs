@@ -1,0 +1,138 @@
+//! `catoptra lab pareto`: what does each way to answer a question cost, and how wrong is it?
+
+mod closed_forms;
+mod cutoffs;
+mod page;
+mod pictures;
+mod visibility;
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use catoptra_core::Scene;
+use catoptra_lab::{Picture, Plot};
+use catoptra_tracer::{Backend, Control, Film, Pool, Snapshot, View, render};
+use clap::Args;
+use miette::{IntoDiagnostic, Result, WrapErr};
+
+use crate::Outcome;
+use crate::job::find_backend;
+use crate::output::{print, write_file};
+
+#[derive(Args)]
+pub(crate) struct ParetoArgs {
+    /// Folder for pareto.csv, a picture of each question (.svg) and the page ACCURACY.md; made where it is missing
+    #[arg(long, value_name = "DIR", default_value = "pareto")]
+    out: PathBuf,
+    /// Threads to trace with; times are those of one frame on them
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: u16,
+}
+
+/// A question with all ways to answer it that were tried.
+pub(super) struct Question {
+    /// The name of its picture and its rows in the CSV.
+    name: &'static str,
+    title: &'static str,
+    /// What was done, and what the errors are errors of.
+    words: String,
+    /// What the times are times of, such as `ms a frame`.
+    time: &'static str,
+    /// What the errors are, the one that is drawn first.
+    errors: &'static [&'static str],
+    ways: Vec<Way>,
+}
+
+impl Question {
+    /// Time against the first error.
+    fn svg(&self) -> Result<String> {
+        let mut lines: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
+        for way in &self.ways {
+            let point = (way.time, way.errors[0]);
+            match lines.last_mut().filter(|(series, _)| *series == way.series) {
+                Some((_, points)) => points.push(point),
+                None => lines.push((way.series.clone(), vec![point])),
+            }
+        }
+        Plot { title: self.title, x: self.time, y: self.errors[0], lines: &lines }.svg().into_diagnostic()
+    }
+}
+
+/// One way to answer a question.
+pub(super) struct Way {
+    /// Ways of one series are one line of the picture.
+    series: String,
+    setting: String,
+    time: f64,
+    /// In the order of the question's errors.
+    errors: Vec<f64>,
+}
+
+/// Answers every question and writes what was found.
+pub(crate) fn run(args: &ParetoArgs) -> Result<Outcome> {
+    let pool = Pool::new(usize::from(args.threads)).into_diagnostic()?;
+    let lab = Lab { pool, wide: find_backend("wide")? };
+    let ask: [fn(&Lab) -> Result<Vec<Question>>; 4] =
+        [visibility::ask, pictures::ask, cutoffs::ask, closed_forms::ask];
+    let mut questions = Vec::new();
+    for ask in ask {
+        let started = Instant::now();
+        let answered = ask(&lab)?;
+        let names: Vec<&str> = answered.iter().map(|question| question.name).collect();
+        print(&format!("{}: {:.1} s\n", names.join(", "), started.elapsed().as_secs_f64()))?;
+        questions.extend(answered);
+    }
+    let folder = &args.out;
+    std::fs::create_dir_all(folder)
+        .into_diagnostic()
+        .wrap_err_with(|| format!("the folder {} cannot be made", folder.display()))?;
+    for question in &questions {
+        write_file(&folder.join(format!("{}.svg", question.name)), question.svg()?.as_bytes())?;
+    }
+    write_file(&folder.join("pareto.csv"), page::csv(&questions).as_bytes())?;
+    write_file(&folder.join("ACCURACY.md"), page::markdown(&questions, &lab).as_bytes())?;
+    print(&format!("written to {}\n", folder.display()))?;
+    Ok(Outcome::Done)
+}
+
+/// What questions are answered with.
+pub(super) struct Lab {
+    pool: Pool,
+    wide: &'static dyn Backend,
+}
+
+/// Times shorter than this are taken again, and the least counts.
+const LONG_ENOUGH: Duration = Duration::from_millis(150);
+
+impl Lab {
+    /// A picture of a view, and the milliseconds of its fastest frame.
+    fn picture(&self, snapshot: &Snapshot, view: &View) -> Result<(Picture, f64)> {
+        let mut film = Film::new(view.size);
+        let (done, milliseconds) =
+            fastest(|| render(self.wide, snapshot, view, &mut film, &self.pool, &Control::default()));
+        done.into_diagnostic()?;
+        let size = film.size();
+        let picture =
+            Picture::painted(size.width, size.height, |x, y| film.radiance(x, y)).into_diagnostic()?;
+        Ok((picture, milliseconds))
+    }
+}
+
+/// The answer, and the least milliseconds that it took in at least five goes.
+fn fastest<T>(mut answer: impl FnMut() -> T) -> (T, f64) {
+    let (mut least, begun, mut goes) = (f64::INFINITY, Instant::now(), 0);
+    loop {
+        let started = Instant::now();
+        let answered = answer();
+        least = least.min(started.elapsed().as_secs_f64() * 1e3);
+        goes += 1;
+        if goes >= 5 && begun.elapsed() > LONG_ENOUGH {
+            return (answered, least);
+        }
+    }
+}
+
+/// A scene of the lab's own.
+fn parsed(text: &str) -> Result<Scene> {
+    Ok(catoptra_scene::parse(text, "lab", None)?.0)
+}

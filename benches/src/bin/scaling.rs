@@ -1,0 +1,116 @@
+//! How does a frame's time grow with lights, spheres, triangles, instances, pixels and threads? Writes a picture of each.
+//!
+//! ```sh
+//! cargo run --release -p catoptra-benches --bin scaling -- benches
+//! ```
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use catoptra_benches::{camera, scene};
+use catoptra_core::Scene;
+use catoptra_lab::Plot;
+use catoptra_lab::scenes::{NoScene, Reach, many_instances, many_lights, many_spheres, placed_mesh};
+use catoptra_tracer::{Control, Film, Pool, Size, Snapshot, View, backend_named, render};
+
+/// Size of the frames, unless the size is what grows.
+const SIZE: Size = Size::new(450, 450);
+
+/// A frame is traced again for this long, and the fastest counts.
+const LONG_ENOUGH: Duration = Duration::from_millis(150);
+
+type Failure = Box<dyn std::error::Error>;
+
+/// A line of a picture: its name, and time by number.
+type Line = (String, Vec<(f64, f64)>);
+
+fn main() -> Result<(), Failure> {
+    let folder = std::env::args().nth(1).map_or_else(|| PathBuf::from("benches"), PathBuf::from);
+    let lights = powers(2, 11);
+    write(
+        &folder,
+        "scaling-lights",
+        "lights",
+        vec![
+            growing("lights everywhere", &lights, |n| many_lights(n, Reach::Everywhere))?,
+            growing("lights nearby", &lights, |n| many_lights(n, Reach::Nearby))?,
+        ],
+    )?;
+    write(&folder, "scaling-spheres", "spheres", vec![growing("spheres", &powers(10, 7), many_spheres)?])?;
+    let (name, rings) = ("triangles of two meshes", [4, 16, 64, 256, 512]);
+    let (_, times) = growing(name, &rings, placed_mesh)?;
+    let triangles = times.into_iter().map(|(rings, time)| (4.0 * rings * rings, time)).collect();
+    write(&folder, "scaling-triangles", "triangles", vec![(name.to_owned(), triangles)])?;
+    let instances = growing("instances of 5000 triangles", &powers(10, 4), |n| many_instances(n, 50))?;
+    write(&folder, "scaling-instances", "instances", vec![instances])?;
+    write(&folder, "scaling-pixels", "pixels", vec![pixels("point")?, pixels("material")?])?;
+    write(&folder, "scaling-threads", "threads", vec![threads("point")?, threads("many")?])
+}
+
+fn powers(base: u32, count: u32) -> Vec<u32> {
+    (0..count).map(|power| base.pow(power)).collect()
+}
+
+fn write(folder: &Path, name: &str, what: &str, lines: Vec<Line>) -> Result<(), Failure> {
+    for (line, points) in &lines {
+        for (number, milliseconds) in points {
+            println!("{line:32} {number:>12} {milliseconds:>12.3} ms a frame");
+        }
+    }
+    let title = format!("Frame time against {what}");
+    let plot = Plot { title: &title, x: what, y: "ms a frame", lines: &lines };
+    catoptra_scene::atomic::write(&folder.join(format!("{name}.svg")), |out| {
+        out.write_all(plot.svg().map_err(std::io::Error::other)?.as_bytes())
+    })?;
+    Ok(())
+}
+
+/// The time of a frame for each number of things in a scene.
+fn growing(
+    name: &str,
+    numbers: &[u32],
+    scene: impl Fn(u32) -> Result<Scene, NoScene>,
+) -> Result<Line, Failure> {
+    let mut points = Vec::new();
+    for &number in numbers {
+        points.push((f64::from(number), milliseconds(&scene(number)?, SIZE, 1)?));
+    }
+    Ok((name.to_owned(), points))
+}
+
+fn pixels(name: &str) -> Result<Line, Failure> {
+    let scene = scene(&format!("seed/{name}.kdl"));
+    let mut points = Vec::new();
+    for edge in [32, 64, 128, 256, 512, 1024, 2048] {
+        let size = Size::new(edge, edge);
+        points.push((size.pixels() as f64, milliseconds(&scene, size, 1)?));
+    }
+    Ok((name.to_owned(), points))
+}
+
+fn threads(name: &str) -> Result<Line, Failure> {
+    let scene = scene(&format!("seed/{name}.kdl"));
+    let cores = std::thread::available_parallelism()?.get();
+    let mut points = Vec::new();
+    for threads in (0..).map(|power| 1 << power).take_while(|threads| *threads <= cores) {
+        points.push((threads as f64, milliseconds(&scene, Size::new(1920, 1080), threads)?));
+    }
+    Ok((name.to_owned(), points))
+}
+
+/// Of the fastest frame.
+fn milliseconds(scene: &Scene, size: Size, threads: usize) -> Result<f64, Failure> {
+    let backend = backend_named("wide").ok_or("there is no backend wide")?;
+    let (snapshot, view) = (Snapshot::extract(scene), View::of(scene, camera(scene), size));
+    let (pool, mut film) = (Pool::new(threads)?, Film::new(size));
+    let (mut least, begun) = (f64::INFINITY, Instant::now());
+    for frame in 0.. {
+        let started = Instant::now();
+        render(backend, &snapshot, &view, &mut film, &pool, &Control::default())?;
+        least = least.min(started.elapsed().as_secs_f64() * 1e3);
+        if frame >= 2 && begun.elapsed() > LONG_ENOUGH {
+            break;
+        }
+    }
+    Ok(least)
+}
