@@ -193,9 +193,13 @@ impl Found<'_> {
 
     fn certainty(&self) -> Vec<String> {
         let stats = &self.stats;
+        let rate = |count: u64| {
+            format!("{:.1} of a million tests", count as f64 * 1e6 / stats.tests.shapes.max(1) as f64)
+        };
+        let (settled, exact) = (counted(stats.settled, "answer"), counted(stats.exact, "answer"));
         vec![
-            format!("{} f32 could not decide, and f64 did", counted(stats.settled, "answer")),
-            format!("{} f64 could not decide, and exact arithmetic did", counted(stats.exact, "answer")),
+            format!("{settled} f32 could not decide, and f64 did: {}", rate(stats.settled)),
+            format!("{exact} f64 could not decide, and exact arithmetic did: {}", rate(stats.exact)),
             format!(
                 "{} not finite, put to the largest number or to black",
                 counted(stats.not_finite, "colour")

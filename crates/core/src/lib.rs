@@ -20,6 +20,7 @@ pub mod lane;
 pub mod light;
 pub mod material;
 pub mod numeric;
+pub mod optics;
 pub mod part;
 pub mod placement;
 pub mod ray;

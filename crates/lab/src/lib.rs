@@ -15,11 +15,14 @@
 //! # Ok::<(), catoptra_lab::PictureError>(())
 //! ```
 
+pub mod adversary;
 pub mod metrics;
 mod mismatch;
+pub mod oracle;
 mod picture;
 mod plot;
 pub mod scenes;
+pub mod stress;
 mod ulps;
 
 pub use metrics::{METRICS, Metric, Viewing, metric_named};

@@ -1,5 +1,7 @@
 //! Which numbers decide something in tracing: every tolerance of the crate, with its source.
 
+use catoptra_core::numeric::UNIT_ROUNDOFF_F64;
+
 /// Rays that could add less than this share of what they meet are not traced, unless a view says otherwise.
 ///
 /// A quarter of the step between two levels of an 8-bit display, 1/255, for light that would show as white.
@@ -33,6 +35,28 @@ pub(crate) const POINT_ERROR: f32 = 12.0 * U;
 /// sum of magnitudes, which is at most √3 of the vectors' lengths.
 pub(crate) const DIRECTION_ERROR: f32 = 16.0 * U;
 
+/// Share of a point's magnitude that `f64` may lose where it enters a sum that cancels, in units of [`POINT_ERROR`]: a
+/// scalar product of three terms with a normalised vector is off by 8 · 2⁻⁵³ of their magnitudes (three in the sum, one
+/// in each product, four in the vector), which is 2⁻²⁹ · 8 / 12 of that unit, rounded up to a power of two.
+pub(crate) const WIDE_SHARE: f32 = 1.0 / (1 << 28) as f32;
+
+/// Least size of coordinates that errors are reckoned with, 2⁻⁴⁸ metres: so the square of a [`POINT_ERROR`] of it, 2⁻¹³⁷,
+/// is larger than what underflow to subnormals costs a dozen operations, 2⁻¹⁵⁰ each. Smaller things are decided in `f64`.
+pub(crate) const LEAST_REACH: f32 = 1.0 / (1_u64 << 48) as f32;
+
+/// Rounding of a shape's bounds, and of a ray carried over into a placed shape's own space, per metre of the largest
+/// coordinate, in `f64`: a turn by a quaternion rounds some 15 times and is there and back within 4u of a turn, twice
+/// for the move, below 64 in all; doubled.
+pub(crate) const BOUNDS_ERROR: f64 = 128.0 * UNIT_ROUNDOFF_F64;
+
+/// What [`BOUNDS_ERROR`] is in units of a reach, the smallest multiple of which that counts is [`BOX_PAD`]:
+/// 2⁻⁴⁶ / 2⁻²³, doubled.
+pub(crate) const WORLD_DRIFT: f32 = 1.0 / (1 << 22) as f32;
+
+/// Relative error of a distance that was settled in `f64`: a rounding to `f32` and two for the length, rounded up beyond
+/// what the near side of a box may be off by (six, see [`BOX_STRETCH`]), so that no box is left out for its rounding.
+pub(crate) const SETTLED_ERROR: f32 = 8.0 * U;
+
 /// Error of an edge value `(e × q) · d`, relative to |d|₁ L R where L bounds the coordinates of the edge e, and R
 /// those of corners and origin together, so those of the corner q as seen from the origin too.
 ///
@@ -47,8 +71,8 @@ pub(crate) const EDGE_ERROR: f32 = 24.0 * U;
 pub(crate) const PLAN_MARGIN: f64 = 1.0 / (1_u64 << 18) as f64;
 
 /// Far ends of box intervals are stretched by 1 + 2γ₃ (Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013), with two
-/// more roundings for a direction that was itself converted and scaled: 1 + 2γ₅.
-pub(crate) const BOX_STRETCH: f32 = 1.0 + 10.0 * U / (1.0 - 5.0 * U);
+/// more roundings for a direction that was itself converted and scaled, and one for the box that was widened: 1 + 2γ₆.
+pub(crate) const BOX_STRETCH: f32 = 1.0 + 12.0 * U / (1.0 - 6.0 * U);
 
 /// How far a box is widened on every side, per metre of the ray origin's largest coordinate: the origin is rounded
 /// once to `f32`.

@@ -25,8 +25,7 @@ pub fn pick(snapshot: &Snapshot, view: &View, x: f64, y: f64) -> Option<Pick> {
         return None;
     }
     let ray = view.camera.ray(x, y, view.size.width, view.size.height);
-    let own = snapshot.own_ray(&ray);
-    let hit = snapshot.nearest(&own, Span::AHEAD, None)?;
+    let hit = snapshot.nearest(&snapshot.own_ray(&ray), Span::AHEAD, None)?;
     let normal = hit.crossing.normal;
     Some(Pick {
         entity: snapshot.entities()[hit.place.prim as usize],

@@ -7,6 +7,7 @@ use catoptra_core::{Ray, Span};
 use rayon::prelude::*;
 
 use crate::film::NOTHING;
+use crate::snapshot::Way;
 use crate::{Backend, Hit, Place, Pool, Snapshot, Stats};
 
 /// Columns hold whole groups of this many rays, so that a packet of any width is one stretch of a column.
@@ -145,10 +146,22 @@ impl RaySlice<'_> {
         (prim != NOTHING).then(|| Place { prim, facet: self.rays.facet[self.first + at] })
     }
 
-    /// A ray that can meet something, relative to a snapshot's origin, with its stretch.
-    pub(crate) fn own(&self, snapshot: &Snapshot, at: usize) -> Option<(Ray, Span)> {
-        let ray = snapshot.own_ray(&self.ray(at));
-        ray.is_valid().then_some(ray).zip(self.span(at))
+    /// Asks about a ray, unless it can meet nothing: in the snapshot's frame, or where that rounds it, in the world.
+    pub(crate) fn follow<T>(
+        &self,
+        snapshot: &Snapshot,
+        at: usize,
+        search: impl Fn(&Way<'_>) -> Option<T>,
+    ) -> Option<T> {
+        let ray = self.ray(at);
+        let (span, leaving) = (self.span(at)?, self.leaving(at));
+        if !ray.is_valid() {
+            return None;
+        }
+        match snapshot.exactly_own(&ray) {
+            Some(own) => search(&Way::new(&own, span, leaving)),
+            None => search(&Way { in_world: true, ..Way::new(&ray, span, leaving) }),
+        }
     }
 
     /// Answers ray by ray whether anything is met.
@@ -156,10 +169,10 @@ impl RaySlice<'_> {
         &self,
         snapshot: &Snapshot,
         answers: &mut [bool],
-        search: impl Fn(&Ray, Span, Option<Place>) -> bool,
+        search: impl Fn(&Way<'_>) -> bool,
     ) -> Stats {
         for (at, answer) in answers.iter_mut().enumerate().take(self.length) {
-            *answer = self.own(snapshot, at).is_some_and(|(ray, span)| search(&ray, span, self.leaving(at)));
+            *answer = self.follow(snapshot, at, |way| search(way).then_some(())).is_some();
         }
         Stats::default()
     }
@@ -232,11 +245,10 @@ impl HitSlice<'_> {
         &mut self,
         snapshot: &Snapshot,
         rays: RaySlice<'_>,
-        search: impl Fn(&Ray, Span, Option<Place>) -> Option<Hit>,
+        search: impl Fn(&Way<'_>) -> Option<Hit>,
     ) -> Stats {
         for at in 0..rays.len() {
-            let own = rays.own(snapshot, at);
-            let hit = own.and_then(|(ray, span)| search(&ray, span, rays.leaving(at)));
+            let hit = rays.follow(snapshot, at, &search);
             self.set(at, hit.map(|hit| (hit.place, hit.crossing.t)));
         }
         Stats::default()
@@ -255,7 +267,8 @@ pub fn find_nearest(
     let HitList { prim, facet, t, .. } = hits;
     let shares = prim.par_chunks_mut(SHARE).zip(facet.par_chunks_mut(SHARE)).zip(t.par_chunks_mut(SHARE));
     let answer = |(number, ((prim, facet), t))| {
-        backend.find_nearest(snapshot, share(rays, number), &mut HitSlice { prim, facet, t })
+        let mut hits = HitSlice { prim, facet, t };
+        Stats::with_exact(|| backend.find_nearest(snapshot, share(rays, number), &mut hits))
     };
     pool.run(|| shares.enumerate().map(answer).reduce(Stats::default, sum))
 }
@@ -270,7 +283,7 @@ pub fn find_occluded(
 ) -> Stats {
     occluded.resize(rays.len(), false);
     let answer = |(number, occluded): (usize, &mut [bool])| {
-        backend.find_occluded(snapshot, share(rays, number), occluded)
+        Stats::with_exact(|| backend.find_occluded(snapshot, share(rays, number), occluded))
     };
     pool.run(|| occluded.par_chunks_mut(SHARE).enumerate().map(answer).reduce(Stats::default, sum))
 }

@@ -34,7 +34,7 @@ pub fn render(
         if control.is_cancelled() {
             return Err(Cancelled);
         }
-        let stats = backend.trace(&frame, tile);
+        let stats = Stats::with_exact(|| backend.trace(&frame, tile));
         control.advance();
         Ok(stats)
     };

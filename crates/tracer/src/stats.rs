@@ -1,5 +1,6 @@
 //! What a render did, in counts.
 
+use catoptra_core::exact::answered_exactly;
 use serde::Serialize;
 
 /// Rays traced, by kind.
@@ -75,6 +76,15 @@ add_fields!(Tests: shapes, boxes);
 add_fields!(Skipped:
     facing_away, out_of_cone, shadow_off, unlit_material, nothing_between, not_reflective, depth_limit, weight_cutoff);
 add_fields!(Stats: rays, tests, skipped, settled, exact, not_finite);
+
+impl Stats {
+    /// The counts of some work on this thread, and how many of its questions exact arithmetic has answered.
+    pub(crate) fn with_exact(work: impl FnOnce() -> Self) -> Self {
+        let before = answered_exactly();
+        let stats = work();
+        Self { exact: stats.exact + answered_exactly() - before, ..stats }
+    }
+}
 
 impl Rays {
     /// All rays traced.

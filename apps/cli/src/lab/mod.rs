@@ -1,5 +1,6 @@
 //! `catoptra lab`: how fast and how exact is tracing? One file for each question.
 
+mod answer;
 mod pareto;
 mod trace;
 
@@ -18,6 +19,10 @@ pub(crate) struct LabArgs {
 enum Question {
     /// Time how fast the rays of a file are traced against a mesh
     Trace(trace::TraceArgs),
+    /// Answer a file of cases that are hard to answer
+    Answer(answer::AnswerArgs),
+    /// Count the wrong answers of a results file
+    Score(answer::ScoreArgs),
     /// Measure run time against error for every way to answer a question
     Pareto(pareto::ParetoArgs),
 }
@@ -26,6 +31,8 @@ enum Question {
 pub(crate) fn run(args: &LabArgs) -> Result<Outcome> {
     match &args.question {
         Question::Trace(args) => trace::run(args),
+        Question::Answer(args) => answer::run(args),
+        Question::Score(args) => answer::run_score(args),
         Question::Pareto(args) => pareto::run(args),
     }
 }

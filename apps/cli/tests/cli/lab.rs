@@ -41,3 +41,43 @@ fn files_that_are_none_are_refused() {
     write_rays(&folder.path().join("two.bin"));
     assert_refused(folder.path(), &["lab", "trace", "none.obj", "two.bin"], &["none.obj"]);
 }
+
+const CASES: &str = "STRESS 1\nS 7 2 open\n\
+    P 00000000 00000000 00000000 00000000 3f800000 00000000\n\
+    O 00000000 40000000 00000000 3f800000\n\
+    R 1 down 7 00000000 40a00000 00000000 00000000 bf800000 00000000 00000000 7f800000\n\
+    W 2 shade 7 00000000 3f000000 40a00000 00000000 00000000 c0a00000 00000000 40a00000 00000000\n\
+    C 3 mirrors 7 00000000 3f000000 00000000 00000000 bf800000 00000000 2\n";
+
+const ANSWERS: &str = "STRESS-ANSWERS 1\nA 1 down R H 1:2.0\nA 2 shade W V\nA 3 mirrors C 1 0 1 0 1.5 1.0\n";
+
+#[test]
+fn hard_cases_are_answered_and_scored() {
+    let folder = folder();
+    std::fs::write(folder.path().join("some.cases"), CASES).expect("cases are written");
+    std::fs::write(folder.path().join("some.answers"), ANSWERS).expect("answers are written");
+    for backend in ["wide", "scalar", "oracle"] {
+        let ran = catoptra(folder.path(), &["lab", "answer", "some.cases", "out", "--backend", backend]);
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        let results = std::fs::read_to_string(folder.path().join("out")).expect("results");
+        assert_eq!(results.lines().next(), Some("1 1 1 2e0"), "{backend}: {results}");
+        let ran = catoptra(folder.path(), &["lab", "score", "some.cases", "some.answers", "out"]);
+        println!("{results}{}", ran.out);
+        assert_eq!(ran.code, 1, "the light of case 2 stands behind the plane that is not met");
+        assert!(ran.out.contains("shade                         1      1  such as 2"), "{}", ran.out);
+        assert!(ran.out.contains("mirrors                       1      0\n"), "{}", ran.out);
+    }
+}
+
+#[test]
+fn case_files_that_are_none_are_refused_by_line() {
+    let folder = folder();
+    std::fs::write(folder.path().join("bad.cases"), "STRESS 1\nS 0 1 open\nO 0 1\n").expect("a file");
+    assert_refused(
+        folder.path(),
+        &["lab", "answer", "bad.cases", "out"],
+        &["bad.cases", "line 3", "eight hex"],
+    );
+    assert_refused(folder.path(), &["lab", "answer", "none.cases", "out"], &["none.cases"]);
+    assert!(!folder.path().join("out").exists());
+}

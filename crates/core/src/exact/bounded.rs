@@ -138,3 +138,98 @@ impl Number for Bounded {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::Dyadic;
+    use super::*;
+
+    /// Numbers of few and of many digits, large and small, so that sums of products cancel often.
+    fn number() -> impl Strategy<Value = f64> {
+        let whole = (-9_i32..10).prop_map(f64::from);
+        let any = (-1.0..1.0_f64, -40..40_i32).prop_map(|(m, e)| m * 2.0_f64.powi(e));
+        prop_oneof![whole, any, -2.0..2.0_f64]
+    }
+
+    /// How far a number is from what it stands for, in units of its bound; 0 where both are 0.
+    fn off(bounded: &Bounded, exact: &Dyadic) -> f64 {
+        let (value, error) = bounded.parts();
+        let off = Dyadic::of(value).minus(exact);
+        if off.signum().is_eq() { 0.0 } else { off.over(&Dyadic::of(error)).abs() }
+    }
+
+    /// (a b − c d)(e − f) + c².
+    fn formula<N: Number>(v: [f64; 6]) -> N {
+        let [a, b, c, d, e, f] = v.map(N::of);
+        a.times(&b).minus(&c.times(&d)).times(&e.minus(&f)).plus(&c.squared())
+    }
+
+    proptest! {
+        #[test]
+        fn the_bound_holds(a in number(), b in number(), c in number(), d in number(), e in number(), f in number()) {
+            // a b and c d differ by little.
+            for v in [[a, b, c, d, e, f], [a, b, c, a * b / c, e, e + f], [a, a, a, a.next_up(), e, f]] {
+                if v.iter().all(|v| v.is_finite()) {
+                    let (bounded, exact) = (formula::<Bounded>(v), formula::<Dyadic>(v));
+                    prop_assert!(off(&bounded, &exact) <= 1.0, "{v:?}: {bounded:?}");
+                    if let Ok(sign) = bounded.sign() {
+                        prop_assert_eq!(sign, exact.signum());
+                    }
+                }
+            }
+        }
+
+        #[test]
+        fn a_root_lies_within_its_bound(a in number(), b in number()) {
+            let square = Bounded::of(a).squared().plus(&Bounded::of(b).squared());
+            let exact = Dyadic::of(a).squared().plus(&Dyadic::of(b).squared());
+            let (value, error) = square.root().parts();
+            let end = |by: f64| Dyadic::of(value).plus(&Dyadic::of(by));
+            prop_assert!(exact.minus(&end(error).squared()).signum().is_le());
+            let low = end(-error);
+            prop_assert!(low.signum().is_lt() || exact.minus(&low.squared()).signum().is_ge());
+        }
+
+        #[test]
+        fn a_quotient_lies_within_its_bound(a in number(), b in number(), c in number()) {
+            let (p, q) = (Bounded::of(a).plus(&Bounded::of(b)), Bounded::of(b).minus(&Bounded::of(c)));
+            prop_assume!(q.sign().is_ok_and(Ordering::is_ne));
+            let (value, error) = p.over(q).parts();
+            let [p, q] = [Dyadic::of(a).plus(&Dyadic::of(b)), Dyadic::of(b).minus(&Dyadic::of(c))];
+            // |value − p / q| <= error, times |q|.
+            let off = Dyadic::of(value).times(&q).minus(&p).squared();
+            let bound = Dyadic::of(error).times(&q).squared();
+            prop_assert!(off.minus(&bound).signum().is_le());
+        }
+    }
+
+    #[test]
+    fn the_bound_is_no_larger_than_it_need_be() {
+        // Of products of random digits some are rounded by nearly half a step.
+        let products = (1..2000_u32).map(|i| (f64::from(i).sqrt(), f64::from(i).cbrt()));
+        let worst = products.map(|(a, b)| {
+            let (bounded, exact) =
+                (Bounded::of(a).times(&Bounded::of(b)), Dyadic::of(a).times(&Dyadic::of(b)));
+            off(&bounded, &exact)
+        });
+        let worst = worst.fold(0.0, f64::max);
+        assert!(0.9 < worst && worst <= 1.0, "{worst}");
+    }
+
+    #[test]
+    fn overflow_and_nan_decide_nothing() {
+        let large = Bounded::of(1e300);
+        assert_eq!(large.times(&large).sign(), Err(Undecided));
+        assert_eq!(large.times(&large).minus(&large.times(&large)).sign(), Err(Undecided));
+    }
+
+    #[test]
+    fn underflow_decides_nothing_and_zero_is_zero() {
+        let small = Bounded::of(1e-200);
+        assert_eq!(small.times(&small).sign(), Err(Undecided));
+        assert_eq!(Bounded::of(0.0).times(&small).sign(), Ok(Ordering::Equal));
+        assert_eq!(small.minus(&small).sign(), Ok(Ordering::Equal));
+    }
+}

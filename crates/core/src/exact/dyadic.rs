@@ -227,3 +227,77 @@ impl Number for Dyadic {
         Ok(t.is_finite().then_some(Located { t, error }))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn n(value: f64) -> Dyadic {
+        Dyadic::of(value)
+    }
+
+    fn finite() -> impl Strategy<Value = f64> {
+        any::<u64>().prop_map(f64::from_bits).prop_filter("finite", |v| v.is_finite())
+    }
+
+    proptest! {
+        #[test]
+        fn every_number_comes_back(value in finite()) {
+            prop_assert_eq!(n(value).to_f64(), value);
+        }
+
+        #[test]
+        fn sums_compare_as_their_numbers_do(a in finite(), b in finite()) {
+            prop_assert_eq!(n(a).minus(&n(b)).signum(), a.partial_cmp(&b).unwrap());
+            prop_assert_eq!(n(a).plus(&n(b)).minus(&n(b)).to_f64(), a);
+        }
+
+        #[test]
+        fn quotients_are_rounded_to_the_nearest_or_its_neighbour(a in 1_u32.., b in 1_u32.., e in -300..300) {
+            let scale = 2.0_f64.powi(e);
+            let (quotient, nearest) = (n(f64::from(a) * scale).over(&n(f64::from(b))), f64::from(a) / f64::from(b) * scale);
+            prop_assert!((quotient - nearest).abs() <= nearest * f64::EPSILON);
+        }
+
+        #[test]
+        fn roots_of_squares_cancel(a in -1e9..1e9_f64, b in -1e9..1e9_f64, c in -9..9_i32) {
+            // a² has the root |a|, so that b + c √a² can be had without roots.
+            let c = f64::from(c);
+            let plain = n(b).plus(&n(c).times(&n(a.abs()))).signum();
+            prop_assert_eq!(Dyadic::sign_with_root(&n(b), &n(c), &n(a).squared()), plain);
+            let with_both = Dyadic::sign_with_roots([&n(b), &n(c), &n(1.0)], [&n(a).squared(), &n(b).squared()]);
+            let plain = n(b).plus(&n(c).times(&n(a.abs()))).plus(&n(b.abs())).signum();
+            prop_assert_eq!(with_both, Ok(plain));
+        }
+    }
+
+    #[test]
+    fn roots_that_differ_late_are_told_apart() {
+        let large = n(1e15).squared();
+        let beside = |by: f64| Dyadic::sign_with_root(&n(-1e15), &n(1.0), &large.plus(&n(by)));
+        assert_eq!(
+            [beside(-1e-300), beside(0.0), beside(1e-300)],
+            [Ordering::Less, Ordering::Equal, Ordering::Greater]
+        );
+    }
+
+    #[test]
+    fn the_root_of_eighteen_is_that_of_eight_and_that_of_two() {
+        // 3 √2 − √18 = 0, and √2 + 1 < √6 < √2 + 1.5.
+        let sign = |a, b, s, c, r| Dyadic::sign_with_roots([&n(a), &n(b), &n(c)], [&n(s), &n(r)]);
+        assert_eq!(sign(0.0, 3.0, 2.0, -1.0, 18.0), Ok(Ordering::Equal));
+        assert_eq!(sign(1.0, 1.0, 2.0, -1.0, 6.0), Ok(Ordering::Less));
+        assert_eq!(sign(1.5, 1.0, 2.0, -1.0, 6.0), Ok(Ordering::Greater));
+    }
+
+    #[test]
+    fn the_range_of_f64_is_no_limit() {
+        let (large, small) = (n(f64::MAX), n(f64::from_bits(1)));
+        assert_eq!(large.squared().to_f64(), f64::INFINITY);
+        assert_eq!(large.squared().over(&large), f64::MAX);
+        assert_eq!(small.squared().over(&small), f64::from_bits(1));
+        assert_eq!(small.squared().signum(), Ordering::Greater);
+    }
+}

@@ -69,3 +69,55 @@ impl<N: Number> Root<N> {
         N::sign_with_roots([&difference, &b, &c], [&s, &r])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Bounded, Dyadic};
+    use super::*;
+
+    fn ratio<N: Number>(p: f64, q: f64) -> Root<N> {
+        Root::ratio(&N::of(p), &N::of(q)).unwrap().unwrap()
+    }
+
+    /// (p ± √s) / q.
+    fn quadratic<N: Number>(p: f64, s: f64, q: f64, positive: bool) -> Root<N> {
+        let norm = N::of((p * p - s) / q);
+        Root {
+            rational: N::of(p),
+            radical: Some(Radical { positive, square: N::of(s), norm }),
+            divisor: N::of(q),
+        }
+    }
+
+    #[test]
+    fn exact_roots_are_ordered() {
+        let golden = quadratic::<Dyadic>(1.0, 5.0, 2.0, true);
+        assert_eq!(golden.compare(&ratio(1.618_033_988_749_894, 1.0)), Ok(Ordering::Greater));
+        assert_eq!(golden.compare(&ratio(-1.618_033_988_749_895_3, -1.0)), Ok(Ordering::Less));
+        // (1 + √5) / 2 = (3 + √45) / 6 = 2 / (√5 − 1) is more than its conjugate.
+        assert_eq!(golden.compare(&quadratic(3.0, 45.0, 6.0, true)), Ok(Ordering::Equal));
+        assert_eq!(quadratic::<Dyadic>(1.0, 5.0, 2.0, false).compare(&golden), Ok(Ordering::Less));
+        // Tangent: a double root is the same as a rational one.
+        assert_eq!(quadratic::<Dyadic>(3.0, 0.0, 2.0, false).compare(&ratio(1.5, 1.0)), Ok(Ordering::Equal));
+    }
+
+    #[test]
+    fn bounded_roots_are_ordered_where_they_can_be() {
+        let golden = quadratic::<Bounded>(1.0, 5.0, 2.0, true);
+        assert_eq!(golden.compare(&ratio(1.618, 1.0)), Ok(Ordering::Greater));
+        assert!(golden.compare(&quadratic(3.0, 45.0, 6.0, true)).is_err());
+    }
+
+    #[test]
+    fn a_root_that_nearly_cancels_is_located() {
+        // The smaller root of x² − 2x + 2⁻⁶⁰: about 2⁻⁶¹.
+        let small = 2.0_f64.powi(-60);
+        let root = quadratic::<Dyadic>(1.0, 1.0 - 2.0_f64.powi(-50), 1.0, false);
+        let at = Dyadic::locate(&root, crate::Span::AHEAD).unwrap().unwrap();
+        assert!((at.t / 2.0_f64.powi(-51) - 1.0).abs() < 1e-14, "{at:?}");
+        let radical = Radical { positive: false, square: Bounded::of(1.0 - small), norm: Bounded::of(small) };
+        let root = Root { rational: Bounded::of(1.0), radical: Some(radical), divisor: Bounded::of(1.0) };
+        let at = Bounded::locate(&root, crate::Span::AHEAD).unwrap().unwrap();
+        assert!((at.t / (small / 2.0) - 1.0).abs() < 1e-14, "{at:?}");
+    }
+}

@@ -30,6 +30,12 @@ impl Disk {
         crate::part::make(&values.with("radius", Value::Number(radius)))
     }
 
+    /// The normal as it was given, of any length: what decides where a ray meets the disk.
+    #[must_use]
+    pub fn upwards(&self) -> DVec3 {
+        self.upwards
+    }
+
     /// Its middle.
     #[must_use]
     pub fn center(&self) -> DVec3 {

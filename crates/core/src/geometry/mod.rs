@@ -173,6 +173,13 @@ impl Shape {
         })
     }
 
+    /// Normals and texture coordinates where a ray is known to meet a facet at `t`; `None` without a normal.
+    #[must_use]
+    pub fn crossing(&self, ray: &Ray, t: f64, facet: u32) -> Option<Crossing> {
+        let at = Located { t, error: f64::INFINITY };
+        each_shape!(self, shape => shape.crossing(&shape.own_ray(ray), at, facet))
+    }
+
     /// The exact root behind a crossing that [`cross`](Self::cross) has found on a facet.
     #[must_use]
     pub fn root(&self, facet: u32, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Root<Dyadic>> {

@@ -1,9 +1,11 @@
 //! The infinite plane through a point, seen from both sides.
 
+use std::cmp::Ordering;
+
 use glam::DVec3;
 
 use super::{Geometry, Meeting};
-use crate::exact::{Located, Number, Root, Vector, Verdict};
+use crate::exact::{Bounded, Dyadic, Located, Number, Root, Vector, Verdict, decide};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
@@ -31,6 +33,26 @@ impl Plane {
     #[must_use]
     pub fn upwards(&self) -> DVec3 {
         self.upwards
+    }
+
+    /// On which side of the plane a point lies, exactly: `Greater` where the normal points to, `Equal` on it.
+    #[must_use]
+    pub fn side_of(&self, point: DVec3) -> Ordering {
+        fn side<N: Number>(plane: &Plane, point: DVec3) -> Verdict<Option<Ordering>> {
+            let away = Vector::<N>::of(point).minus(&Vector::of(plane.point));
+            Vector::of(plane.upwards).dot(&away).sign().map(Some)
+        }
+        decide(|| side::<Bounded>(self, point), || side::<Dyadic>(self, point)).unwrap_or(Ordering::Equal)
+    }
+
+    /// Whether a direction points to the side that the normal points to, exactly; `Equal` along the plane.
+    #[must_use]
+    pub fn side_of_direction(&self, direction: DVec3) -> Ordering {
+        fn side<N: Number>(plane: &Plane, direction: DVec3) -> Verdict<Option<Ordering>> {
+            Vector::<N>::of(plane.upwards).dot(&Vector::of(direction)).sign().map(Some)
+        }
+        decide(|| side::<Bounded>(self, direction), || side::<Dyadic>(self, direction))
+            .unwrap_or(Ordering::Equal)
     }
 
     /// A point on it.

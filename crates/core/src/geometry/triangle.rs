@@ -114,14 +114,19 @@ pub(super) fn meet_triangle<N: Number>(
 
 /// Whether plain `f64` is certain that a line passes by a triangle: two of the three volumes have opposite signs.
 fn passes_by(corners: &[DVec3; 3], ray: &Ray) -> bool {
+    let (volumes, error) = volumes(corners, ray);
+    volumes.iter().any(|&v| v > error) && volumes.iter().any(|&v| v < -error)
+}
+
+/// The volumes that the edges span with the direction as seen from the origin, and the bound on their error.
+fn volumes(corners: &[DVec3; 3], ray: &Ray) -> ([f64; 3], f64) {
     let [a, b, c] = corners.map(|p| p - ray.origin);
     let d = ray.direction;
     let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
     let size = d.abs().element_sum();
     // Underflow costs half of 2⁻¹⁰⁷⁴ in each of a few products, some of them multiplied by the direction.
     let error = EDGE_VALUE_ERROR * reach * reach * size + f64::MIN_POSITIVE * (1.0 + size);
-    let volumes = [c.cross(b).dot(d), a.cross(c).dot(d), b.cross(a).dot(d)];
-    volumes.iter().any(|&v| v > error) && volumes.iter().any(|&v| v < -error)
+    ([c.cross(b).dot(d), a.cross(c).dot(d), b.cross(a).dot(d)], error)
 }
 
 /// The weights of the three corners at the point where a ray meets a triangle; they sum up to one. For what is
@@ -215,6 +220,37 @@ mod tests {
         let rebuilt =
             triangle().corners[0] * w[0] + triangle().corners[1] * w[1] + triangle().corners[2] * w[2];
         assert!((rebuilt - ray.at(t)).length() < 1e-15);
+    }
+
+    #[test]
+    fn volumes_are_as_exact_as_their_bound_says_and_the_bound_is_not_idle() {
+        let mut worst = 0.0_f64;
+        for i in 0..20_000_u32 {
+            // Coordinates of like size and many digits, where roundings add up.
+            let at = |k: u32| {
+                let angle = f64::from(i * 16 + k);
+                DVec3::new(angle.sin(), (angle * 1.3).cos(), (angle * 0.7 + 1.0).sin())
+            };
+            let (corners, ray) = ([at(0), at(1), at(2)], Ray::new(at(3), at(4)));
+            let (values, error) = volumes(&corners, &ray);
+            let direction = Vector::<Dyadic>::of(ray.direction);
+            let [a, b, c] = corners.map(|p| Vector::of(p).minus(&Vector::of(ray.origin)));
+            let exact = [c.cross(&b), a.cross(&c), b.cross(&a)].map(|n| n.dot(&direction));
+            for (value, exact) in values.into_iter().zip(exact) {
+                worst = worst.max((Dyadic::of(value).minus(&exact)).over(&Dyadic::of(error)).abs());
+            }
+        }
+        assert!(0.1 < worst && worst <= 1.0, "{worst}");
+    }
+
+    #[test]
+    fn the_normal_of_a_sliver_is_right() {
+        // Thinner than f64 can tell: b lies 2⁻⁷⁰ beside the line from a to c, which f64 takes for the line.
+        let thin = [DVec3::ZERO, DVec3::new(1.0, 1.0, 2.0_f64.powi(-70)), DVec3::new(3.0, 3.0, 0.0)];
+        let normal = unit_normal(&thin).unwrap();
+        assert!(normal.distance(DVec3::new(-1.0, 1.0, 0.0) / 2.0_f64.sqrt()) < 1e-15, "{normal}");
+        let tiny = thin.map(|p| p * 2.0_f64.powi(-500));
+        assert!(unit_normal(&tiny).unwrap().distance(normal) < 1e-15);
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! The tree of boxes itself, and how one `f64` ray walks it.
 
+use catoptra_core::numeric::gamma_f64;
 use catoptra_core::{Aabb, Ray, Span};
 
 use super::build;
+use crate::numeric::BOUNDS_ERROR;
 
 /// An axis-aligned box in `f32`, never smaller than what it stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,15 +36,16 @@ impl Box32 {
 
     /// Where a ray may enter the box, if it may do so up to `far`; never a false no.
     ///
-    /// Slabs with the far side stretched by 1 + 2γ₃ in `f64` (Ize 2013); NaN, from a ray within a face, counts as
-    /// inside.
+    /// Slabs with the far side stretched by 1 + 2γ₃ in `f64` (Ize 2013), and one more rounding for the pad; NaN, from a ray within a face, counts as
+    /// inside. `far` is stretched too, and the box is wider by what a ray is off by that was carried over from elsewhere.
     pub(crate) fn entered_by(&self, ray: &Ray, far: f64) -> Option<f64> {
-        let (mut enter, mut leave) = (0.0_f64, far);
-        let stretch = 1.0 + 2.0 * catoptra_core::numeric::gamma_f64(3);
+        let stretch = 1.0 + 2.0 * gamma_f64(4);
+        let (mut enter, mut leave) = (0.0_f64, far * stretch);
+        let pad = BOUNDS_ERROR * ray.origin.abs().max_element();
         for i in 0..3 {
             let inverse = 1.0 / ray.direction[i];
-            let t0 = (f64::from(self.min[i]) - ray.origin[i]) * inverse;
-            let t1 = (f64::from(self.max[i]) - ray.origin[i]) * inverse;
+            let t0 = (f64::from(self.min[i]) - pad - ray.origin[i]) * inverse;
+            let t1 = (f64::from(self.max[i]) + pad - ray.origin[i]) * inverse;
             let (near, away) = if inverse.is_sign_negative() { (t1, t0) } else { (t0, t1) };
             // `max` and `min` ignore NaN.
             enter = enter.max(near);

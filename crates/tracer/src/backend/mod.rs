@@ -7,6 +7,7 @@ mod scalar;
 mod wide;
 
 use catoptra_core::Raster;
+use catoptra_core::glam::DVec3;
 
 use crate::query::{HitSlice, RaySlice};
 use crate::{Snapshot, Stats, Tile, View};
@@ -18,8 +19,10 @@ pub struct Frame<'a> {
     pub snapshot: &'a Snapshot,
     /// From where, and how far to go.
     pub view: &'a View,
-    /// The view's rays, relative to the snapshot's origin.
+    /// The view's rays, in the snapshot's frame.
     pub raster: Raster,
+    /// The eye, relative to the snapshot's origin.
+    pub(crate) eye: DVec3,
 }
 
 impl<'a> Frame<'a> {
@@ -27,7 +30,8 @@ impl<'a> Frame<'a> {
     #[must_use]
     pub fn new(snapshot: &'a Snapshot, view: &'a View) -> Self {
         let raster = view.camera.raster(view.size.width, view.size.height);
-        Self { snapshot, view, raster: Raster { eye: raster.eye - snapshot.origin(), ..raster } }
+        let eye = raster.eye - snapshot.origin();
+        Self { snapshot, view, raster: Raster { eye: raster.eye - snapshot.frame(), ..raster }, eye }
     }
 }
 
@@ -49,12 +53,12 @@ pub trait Backend: Send + Sync {
 
     /// Finds what each ray meets first, for as many rays as there are in `rays`. Knows no threads.
     fn find_nearest(&self, snapshot: &Snapshot, rays: RaySlice<'_>, hits: &mut HitSlice<'_>) -> Stats {
-        hits.fill(snapshot, rays, |ray, span, leaving| snapshot.nearest(ray, span, leaving))
+        hits.fill(snapshot, rays, |way| snapshot.nearest_on(way))
     }
 
     /// Finds whether each ray meets anything, for as many rays as there are in `rays`. Knows no threads.
     fn find_occluded(&self, snapshot: &Snapshot, rays: RaySlice<'_>, occluded: &mut [bool]) -> Stats {
-        rays.ask(snapshot, occluded, |ray, span, leaving| snapshot.occluded(ray, span, leaving))
+        rays.ask(snapshot, occluded, |way| snapshot.is_occluded_on(way))
     }
 }
 

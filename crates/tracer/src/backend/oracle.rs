@@ -34,12 +34,10 @@ impl Backend for Oracle {
     }
 
     fn find_nearest(&self, snapshot: &Snapshot, rays: RaySlice<'_>, hits: &mut HitSlice<'_>) -> Stats {
-        hits.fill(snapshot, rays, |ray, span, leaving| snapshot.nearest_of_all(ray, span, leaving))
+        hits.fill(snapshot, rays, |way| snapshot.nearest_of_all_on(way))
     }
 
     fn find_occluded(&self, snapshot: &Snapshot, rays: RaySlice<'_>, occluded: &mut [bool]) -> Stats {
-        rays.ask(snapshot, occluded, |ray, span, leaving| {
-            snapshot.nearest_of_all(ray, span, leaving).is_some()
-        })
+        rays.ask(snapshot, occluded, |way| snapshot.nearest_of_all_on(way).is_some())
     }
 }

@@ -146,7 +146,7 @@ impl<'a, S: Search> Path<'a, S> {
             point,
             normal: hit.crossing.normal * side,
             shading: ShadingPoint {
-                position: point.into(),
+                position: (point - snapshot.origin_in_frame()).into(),
                 normal: (hit.crossing.shading_normal * side).into(),
                 to_viewer: (ray.direction / -length).into(),
                 distance: hit.crossing.t * length,

@@ -3,6 +3,8 @@
 //! A kernel may leave a lane undecided, never decide it wrongly: undecided lanes go to `f64`, one ray at a time.
 //! A shape without a kernel leaves every lane undecided: slower, the same answer.
 
+#[cfg(test)]
+mod attack;
 mod plane;
 mod rectangle;
 mod sphere;
@@ -14,6 +16,7 @@ use fearless_simd::Simd;
 
 use crate::integrator::LIGHT_ITSELF;
 use crate::lanes::{F, F3, M};
+use crate::numeric::LEAST_REACH;
 
 pub(crate) use plane::PlaneRow;
 pub(crate) use rectangle::RectangleRow;
@@ -29,6 +32,14 @@ pub(crate) struct Rays<S: Simd> {
     pub(crate) direction: F3<S>,
     /// At least the sum of an origin's coordinates' magnitudes: what rounding errors grow with.
     pub(crate) reach: F<S>,
+}
+
+impl<S: Simd> Rays<S> {
+    /// With origins that may be off by more.
+    #[inline(always)]
+    pub(crate) fn drifting(self, drift: F<S>) -> Self {
+        Self { reach: self.reach + drift, ..self }
+    }
 }
 
 /// What a kernel says of the nearest crossing ahead.
@@ -60,17 +71,19 @@ pub(crate) struct Target<S: Simd> {
     pub(crate) distance: F<S>,
     /// Its position, or the unit vector towards it when `at_infinity`.
     pub(crate) place: DVec3,
+    /// The same in the snapshot's frame.
+    pub(crate) in_frame: DVec3,
     /// Whether it stands at infinity.
     pub(crate) at_infinity: bool,
 }
 
 impl<S: Simd> Target<S> {
-    /// The way from a point to the light.
+    /// The way from a point to the light, in the snapshot's frame.
     pub(crate) fn way_from(&self, point: DVec3) -> (Ray, Span) {
         if self.at_infinity {
-            (Ray::new(point, self.place), Span::AHEAD)
+            (Ray::new(point, self.in_frame), Span::AHEAD)
         } else {
-            (Ray::new(point, self.place - point), LIGHT_ITSELF)
+            (Ray::new(point, self.in_frame - point), LIGHT_ITSELF)
         }
     }
 }
@@ -91,9 +104,9 @@ pub(crate) fn magnitude<S: Simd>(v: F3<S>) -> F<S> {
     v.x.abs() + v.y.abs() + v.z.abs()
 }
 
-/// Sum of the magnitudes of the coordinates, rounded up a little.
+/// Sum of the magnitudes of the coordinates, rounded up, and at least [`LEAST_REACH`].
 pub(crate) fn magnitude_of(v: DVec3) -> f32 {
-    (v.abs().element_sum() as f32).next_up()
+    (v.abs().element_sum() as f32).next_up() + LEAST_REACH
 }
 
 /// Coordinates rounded to `f32`.

@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 
 use super::{Blocking, Proposal, Rays, magnitude_of, rounded};
 use crate::lanes::{F, splat3};
-use crate::numeric::{DIRECTION_ERROR, POINT_ERROR};
+use crate::numeric::{DIRECTION_ERROR, POINT_ERROR, WIDE_SHARE};
 
 /// A plane `normal · p = distance`.
 #[derive(Debug, Clone, Copy)]
@@ -22,13 +22,15 @@ pub(crate) struct PlaneRow {
 impl PlaneRow {
     pub(crate) fn new(point: DVec3, normal: DVec3, prim: u32) -> Self {
         let distance = normal.dot(point);
+        // Where the sum that makes the distance cancels, f64 itself rounds more than f32 shows.
+        let cancelled = magnitude_of(point) * WIDE_SHARE;
         Self {
             normal,
             distance,
             prim,
             normal32: rounded(normal),
             distance32: distance as f32,
-            reach: magnitude_of(normal * distance),
+            reach: magnitude_of(normal * distance) + cancelled,
         }
     }
 

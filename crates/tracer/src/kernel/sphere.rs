@@ -64,7 +64,8 @@ impl SphereRow {
         let (zero, two) = (F::splat(s, 0.0), F::splat(s, 2.0));
         let pass = self.pass(s, rays);
         let crosses = pass.error.less(pass.half_chord2);
-        let maybe = (-pass.error).less(pass.half_chord2);
+        // Written so that NaN, from numbers beyond those of f32, stays in doubt.
+        let maybe = !pass.half_chord2.less(-pass.error);
         if !(maybe | leaving).any() {
             return Proposal { t: zero, error: zero, hit: maybe, undecided: maybe };
         }
@@ -87,7 +88,7 @@ impl SphereRow {
     }
 
     /// A sphere stands between two points outside it where the line between them crosses it between them; between a
-    /// point inside and one outside, always.
+    /// point inside and one outside, always. `starts_outside` says that no way starts inside.
     #[inline(always)]
     pub(crate) fn block<S: Simd>(
         &self,
@@ -95,6 +96,7 @@ impl SphereRow {
         rays: &Rays<S>,
         target: &Target<S>,
         leaving: M<S>,
+        starts_outside: bool,
     ) -> Blocking<S> {
         let target_inside = !target.at_infinity && target.place.distance(self.center) <= self.radius;
         if target_inside || leaving.any() {
@@ -108,7 +110,7 @@ impl SphereRow {
         let beyond =
             pass.closest.less(-pass.point_error) | target.distance.less(pass.closest - pass.point_error);
         let misses = pass.half_chord2.less(-pass.error);
-        if !(!(misses | beyond)).any() {
+        if !(!misses).any() || (starts_outside && !(!(misses | beyond)).any()) {
             return Blocking { blocked: zero.less(zero), undecided: zero.less(zero) };
         }
         let outside = radius + radius + pass.point_error;

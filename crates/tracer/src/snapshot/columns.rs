@@ -6,6 +6,7 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Aabb, Placement, Shape};
 
 use super::Prim;
+use super::origin::relative;
 use crate::accel::MeshTree;
 use crate::kernel::{PlaneRow, RectangleRow, SphereRow, TriangleRow};
 
@@ -89,11 +90,13 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    pub(crate) fn of(prims: &[Prim], bounded: &[u32], meshes: &[Arc<MeshTree>]) -> Self {
-        let balls = bounded.iter().filter_map(|&i| Ball::of(&prims[i as usize].shape)).collect();
+    /// Relative to an origin.
+    pub(crate) fn of(prims: &[Prim], bounded: &[u32], meshes: &[Arc<MeshTree>], origin: DVec3) -> Self {
+        let ball = |i: u32| Ball::of(&relative(&prims[i as usize].shape, origin));
+        let balls = bounded.iter().filter_map(|&i| ball(i)).collect();
         let mut columns = Self { bounded: bounded.to_vec(), balls, ..Self::default() };
         for (prim, id) in prims.iter().zip(0..) {
-            let row = columns.add(prim, id, meshes);
+            let row = columns.add(prim, &relative(&prim.shape, origin), id, meshes);
             columns.rows.push(row);
             columns.smooth |= match row {
                 Row::Instance(_) => prim.mesh.is_some_and(|m| meshes[m as usize].mesh().normals().is_some()),
@@ -111,8 +114,8 @@ impl Columns {
         self.rows.iter().filter(|&&row| row == Row::General).count()
     }
 
-    fn add(&mut self, prim: &Prim, id: u32, meshes: &[Arc<MeshTree>]) -> Row {
-        match &prim.shape {
+    fn add(&mut self, prim: &Prim, shape: &Shape, id: u32, meshes: &[Arc<MeshTree>]) -> Row {
+        match shape {
             Shape::Plane(plane) => {
                 Row::Plane(push(&mut self.planes, PlaneRow::new(plane.point(), plane.normal(), id)))
             }

@@ -3,14 +3,16 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use catoptra_core::geometry::Plane;
 use catoptra_core::glam::DVec3;
 use catoptra_core::{
-    EntityId, Light, Material, MaterialId, Placement, Rgb, Role, Scene, Shape, TriangleMesh,
+    Aabb, EntityId, Light, Material, MaterialId, Placement, Rgb, Role, Scene, Shape, TriangleMesh,
 };
 
-use super::origin::origin_for;
+use super::origin::{frame_for, origin_for, relative};
 use super::{Columns, LightRow, MaterialRow, Prim, Snapshot};
-use crate::accel::{MeshTree, Tree};
+use crate::accel::{Box32, MeshTree, Tree};
+use crate::numeric::BOUNDS_ERROR;
 
 impl Snapshot {
     /// Freezes a scene. Trees over meshes are built on the threads of the pool this is called in.
@@ -28,12 +30,13 @@ impl Snapshot {
             .collect();
         let eye = scene.main_camera().and_then(|id| scene.world_camera(id)).map(|camera| camera.eye());
         let origin = origin_for(placed.iter().filter_map(|(_, shape, _)| shape.bounds()), eye);
+        let frame = frame_for(placed.iter().map(|(_, shape, _)| shape), origin);
         let rows: HashMap<MaterialId, u32> = scene.materials().map(|(id, ..)| id).zip(0..).collect();
         let mut trees = MeshTrees::after(earlier);
         let prims: Vec<Prim> = placed
             .iter()
             .map(|(_, shape, material)| Prim {
-                shape: relative(shape, origin),
+                shape: relative(shape, frame).into_owned(),
                 material: rows[material],
                 mesh: trees.of(shape),
             })
@@ -42,20 +45,23 @@ impl Snapshot {
             scene.entities_of(Role::Light).filter_map(|id| scene.world_light(id)).collect();
         let (bounded, unbounded): (Vec<u32>, Vec<u32>) =
             (0..prims.len() as u32).partition(|&i| prims[i as usize].shape.bounds().is_some());
-        let boxes: Vec<_> =
-            bounded.iter().filter_map(|&i| prims[i as usize].shape.bounds()).map(Into::into).collect();
-        let columns = Columns::of(&prims, &bounded, &trees.meshes);
+        let boxes = bounded.iter().filter_map(|&i| prims[i as usize].shape.bounds());
+        let boxes: Vec<Box32> = boxes.map(|b| around(b, origin - frame)).collect();
+        let columns = Columns::of(&prims, &bounded, &trees.meshes, origin - frame);
         let ambient = lights.iter().map(Light::ambient).fold(Rgb::BLACK, |a, b| a + b);
-        let lights: Vec<Light> =
-            lights.iter().filter(|l| shines(l)).map(|l| l.placed(&moved(-origin))).collect();
+        let to_frame = Placement::IDENTITY.moved(-frame).unwrap_or_default();
+        let lights: Vec<Light> = lights.iter().filter(|l| shines(l)).map(|l| l.placed(&to_frame)).collect();
+        let planes: Vec<&Plane> =
+            columns.planes.iter().filter_map(|row| plane_of(&prims[row.prim as usize])).collect();
         let materials: Vec<Material> =
             scene.materials().map(|(.., material)| material.relative_to(origin)).collect();
         Self {
             origin,
+            frame,
             constants: [ambient.into(), scene.settings().background().into()],
             has_patterns: materials.iter().any(Material::is_pattern),
             material_rows: materials.iter().map(MaterialRow::new).collect(),
-            light_rows: lights.iter().map(|light| LightRow::new(light, &columns.planes)).collect(),
+            light_rows: lights.iter().map(|light| LightRow::new(light, origin - frame, &planes)).collect(),
             columns,
             tree: Tree::build(&boxes),
             entities: placed.iter().map(|(id, ..)| *id).collect(),
@@ -76,12 +82,18 @@ fn shines(light: &Light) -> bool {
     light.position().is_some() || light.direction().is_some()
 }
 
-fn moved(by: DVec3) -> Placement {
-    Placement::IDENTITY.moved(by).unwrap_or_default()
+fn plane_of(prim: &Prim) -> Option<&Plane> {
+    match &prim.shape {
+        Shape::Plane(plane) => Some(plane),
+        _ => None,
+    }
 }
 
-fn relative(shape: &Shape, origin: DVec3) -> Shape {
-    if origin == DVec3::ZERO { shape.clone() } else { shape.placed(&moved(-origin)) }
+/// A box, relative to an origin, and wider by what rounding may make of its corners and of rays.
+fn around(bounds: Aabb, origin: DVec3) -> Box32 {
+    let largest = bounds.min.abs().max(bounds.max.abs()).max(origin.abs()).max_element();
+    let slack = DVec3::splat(BOUNDS_ERROR * largest + f64::MIN_POSITIVE);
+    Aabb { min: bounds.min - origin - slack, max: bounds.max - origin + slack }.into()
 }
 
 /// The trees over the meshes of a scene, each built once.

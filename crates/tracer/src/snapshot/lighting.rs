@@ -1,9 +1,10 @@
 //! Materials and lights as the SIMD backend reads them: what it asks of every packet, worked out once.
 
+use catoptra_core::geometry::Plane;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Coefficient, Constant3, Light, Material, Rgb};
+use catoptra_core::{Coefficient, Constant3, Light, Material, Placement, Rgb};
 
-use crate::kernel::{PlaneRow, magnitude_of};
+use crate::kernel::magnitude_of;
 
 /// A material.
 #[derive(Debug, Clone)]
@@ -36,13 +37,15 @@ impl MaterialRow {
     }
 }
 
-/// A light.
+/// A light, relative to the snapshot's origin.
 #[derive(Debug, Clone)]
 pub(crate) struct LightRow {
     pub(crate) light: Light,
     pub(crate) shadow: bool,
     /// Its position, or the unit vector towards it when `at_infinity`.
     pub(crate) place: DVec3,
+    /// The same in the snapshot's frame.
+    pub(crate) in_frame: DVec3,
     pub(crate) at_infinity: bool,
     /// What its coordinates add to what rounding errors grow with.
     pub(crate) reach: f32,
@@ -52,20 +55,22 @@ pub(crate) struct LightRow {
 }
 
 impl LightRow {
-    pub(crate) fn new(light: &Light, planes: &[PlaneRow]) -> Self {
+    pub(crate) fn new(light: &Light, origin: DVec3, planes: &[&Plane]) -> Self {
+        let own = light.placed(&Placement::IDENTITY.moved(-origin).unwrap_or_default());
+        let place =
+            |light: &Light| light.position().or_else(|| light.direction().map(|d| -d)).unwrap_or(DVec3::ZERO);
         let at_infinity = light.position().is_none();
-        let place = light.position().or_else(|| light.direction().map(|d| -d)).unwrap_or(DVec3::ZERO);
-        let behind = |plane: &PlaneRow| {
-            let along = plane.normal.dot(place);
-            if at_infinity { -along } else { plane.distance - along }
+        let behind = |plane: &&Plane| {
+            if at_infinity { plane.side_of_direction(place(light)) } else { plane.side_of(place(light)) }
         };
         Self {
-            light: light.clone(),
             shadow: light.shadow(),
-            place,
+            place: place(&own),
+            in_frame: place(light),
             at_infinity,
-            reach: if at_infinity { 0.0 } else { magnitude_of(place) },
-            behind: planes.iter().map(behind).collect(),
+            reach: if at_infinity { 0.0 } else { magnitude_of(place(&own)) },
+            behind: planes.iter().map(behind).map(|side| -f64::from(side as i8)).collect(),
+            light: own,
         }
     }
 }

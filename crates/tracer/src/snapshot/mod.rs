@@ -23,7 +23,7 @@ use crate::accel::{MeshTree, Tree};
 /// One shape of a snapshot; its number is its place in the order of entity ids.
 #[derive(Debug, Clone)]
 pub struct Prim {
-    /// The shape, where it stands, relative to the snapshot's origin.
+    /// The shape, where it stands in the snapshot's frame.
     pub shape: Shape,
     /// Which of the snapshot's materials it wears.
     pub material: u32,
@@ -35,6 +35,7 @@ pub struct Prim {
 #[derive(Debug)]
 pub struct Snapshot {
     origin: DVec3,
+    frame: DVec3,
     prims: Vec<Prim>,
     entities: Arc<[EntityId]>,
     unbounded: Vec<u32>,
@@ -54,7 +55,8 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// Where in the world the snapshot's coordinates are zero.
+    /// Where in the world the columns of the SIMD kernels have their zero, so that `f32` is spent on detail and not on
+    /// distance.
     #[must_use]
     pub fn origin(&self) -> DVec3 {
         self.origin
@@ -78,7 +80,7 @@ impl Snapshot {
         &self.materials
     }
 
-    /// All lights that shine from somewhere, relative to the snapshot's origin.
+    /// All lights that shine from somewhere, in the snapshot's frame.
     #[must_use]
     pub fn lights(&self) -> &[Light] {
         &self.lights
@@ -102,10 +104,22 @@ impl Snapshot {
         &self.meshes
     }
 
-    /// A ray of the world, relative to the snapshot's origin.
+    /// Where in the world the coordinates have their zero in which shapes and rays are compared: the
+    /// [origin](Self::origin), where moving every shape there rounds nothing, else the world's own.
+    #[must_use]
+    pub fn frame(&self) -> DVec3 {
+        self.frame
+    }
+
+    /// The origin in the snapshot's frame.
+    pub(crate) fn origin_in_frame(&self) -> DVec3 {
+        self.origin - self.frame
+    }
+
+    /// A ray of the world in the snapshot's frame, rounded.
     #[must_use]
     pub fn own_ray(&self, ray: &Ray) -> Ray {
-        Ray::new(ray.origin - self.origin, ray.direction)
+        Ray::new(ray.origin - self.frame, ray.direction)
     }
 
     /// The shapes as the SIMD kernels read them.

@@ -3,8 +3,10 @@
 //! `f32` shall be spent on detail and not on distance. What is seen sharply is what stands near the eye, so the origin
 //! follows the eye. It stays at the world's where that is near enough, which leaves every coordinate as it was given.
 
-use catoptra_core::Aabb;
+use std::borrow::Cow;
+
 use catoptra_core::glam::DVec3;
+use catoptra_core::{Aabb, FieldKind, Placement, Shape, Value};
 
 use crate::numeric::FAR;
 
@@ -38,8 +40,49 @@ fn rounded(place: DVec3, detail: f64) -> DVec3 {
     if short.is_finite() { short } else { place }
 }
 
+/// Where coordinates shall be zero in which shapes and rays are compared: the origin, if that rounds no number of any
+/// shape, so that points near the eye are known the better; else the world's own zero, so that every shape stays what it
+/// is.
+pub(super) fn frame_for<'a>(mut shapes: impl Iterator<Item = &'a Shape>, origin: DVec3) -> DVec3 {
+    if shapes.all(|shape| moves_exactly(shape, origin)) { origin } else { DVec3::ZERO }
+}
+
+/// Whether a shape can be moved to an origin without rounding. One that is turned or scaled sees rays through its
+/// placement, which rounds them in its own way.
+fn moves_exactly(shape: &Shape, origin: DVec3) -> bool {
+    let plain = |placement: &Placement| {
+        let stays = Placement::IDENTITY.moved(placement.translation());
+        stays.is_ok_and(|stays| stays == *placement) && is_exact(placement.translation(), origin)
+    };
+    match shape {
+        Shape::Mesh(mesh) => plain(mesh.placement()),
+        Shape::Cuboid(cuboid) => plain(cuboid.placement()),
+        shape => shape.kind().fields.iter().all(|field| match shape.values().get(field.name) {
+            Some(Value::Vector(point)) if field.kind == FieldKind::Point => is_exact(*point, origin),
+            _ => true,
+        }),
+    }
+}
+
+/// Whether `point − origin` is free of rounding: taking it away from either gives the other (Dekker, Numerische
+/// Mathematik 18, 1971).
+pub(super) fn is_exact(point: DVec3, origin: DVec3) -> bool {
+    let difference = point - origin;
+    difference + origin == point && point - difference == origin
+}
+
+/// A shape as seen from an origin.
+pub(super) fn relative(shape: &Shape, origin: DVec3) -> Cow<'_, Shape> {
+    match Placement::IDENTITY.moved(-origin) {
+        Ok(moved) if origin != DVec3::ZERO => Cow::Owned(shape.placed(&moved)),
+        _ => Cow::Borrowed(shape),
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use catoptra_core::geometry::Sphere;
+
     use super::*;
 
     fn cube(center: DVec3, edge: f64) -> Aabb {
@@ -82,5 +125,13 @@ mod tests {
         let place = DVec3::new(1000.3, 7.7, -20.1);
         let origin = origin_for([cube(place, 1e-5)].into_iter(), Some(place + DVec3::Z * 1e-5));
         assert!(origin.distance(place) < 1e-4);
+    }
+
+    #[test]
+    fn a_frame_rounds_no_shape() {
+        let origin = DVec3::splat(1024.0);
+        let frame = |center: DVec3| frame_for([Sphere::new(center, 1.0).unwrap().into()].iter(), origin);
+        assert_eq!(frame(DVec3::new(1000.1, 1030.7, 1024.0)), origin);
+        assert_eq!(frame(DVec3::new(1000.1, 0.1, 1024.0)), DVec3::ZERO, "0.1 − 1024 rounds");
     }
 }

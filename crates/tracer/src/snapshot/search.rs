@@ -1,5 +1,6 @@
 //! What one ray meets, for certain: by the trees, and by trying everything.
 
+use std::borrow::Cow;
 use std::cmp::Ordering;
 
 use catoptra_core::exact::{Dyadic, Root};
@@ -7,6 +8,7 @@ use catoptra_core::geometry::Mesh;
 use catoptra_core::{Crossing, Geometry, Ray, Shape, Span};
 
 use super::Snapshot;
+use super::origin::{is_exact, relative};
 use crate::accel::Tree;
 
 /// A place on a surface that a ray leaves from: that meeting is not found again.
@@ -23,51 +25,81 @@ pub struct Place {
 pub struct Hit {
     /// Where on which shape.
     pub place: Place,
-    /// The crossing, relative to the snapshot's origin.
+    /// The crossing, in the snapshot's frame.
     pub crossing: Crossing,
 }
 
 impl Snapshot {
-    /// What a ray meets first, found by the trees; ties go to the shape with the lower id.
+    /// What a ray in the snapshot's frame meets first, found by the trees; ties go to the shape with the lower id.
     #[must_use]
     pub fn nearest(&self, ray: &Ray, span: Span, leaving: Option<Place>) -> Option<Hit> {
-        let way = Way { ray, span, leaving };
+        self.nearest_on(&Way::new(ray, span, leaving))
+    }
+
+    /// Whether a ray in the snapshot's frame meets anything on the stretch, found by the trees.
+    #[must_use]
+    pub fn occluded(&self, ray: &Ray, span: Span, leaving: Option<Place>) -> bool {
+        self.is_occluded_on(&Way::new(ray, span, leaving))
+    }
+
+    /// What a ray in the snapshot's frame meets first, found by trying every shape and every triangle.
+    #[must_use]
+    pub fn nearest_of_all(&self, ray: &Ray, span: Span, leaving: Option<Place>) -> Option<Hit> {
+        self.nearest_of_all_on(&Way::new(ray, span, leaving))
+    }
+
+    /// A ray of the world in the snapshot's frame, unless that rounds it.
+    pub(crate) fn exactly_own(&self, ray: &Ray) -> Option<Ray> {
+        is_exact(ray.origin, self.frame).then(|| self.own_ray(ray))
+    }
+
+    /// As [`nearest`](Self::nearest).
+    pub(crate) fn nearest_on(&self, way: &Way<'_>) -> Option<Hit> {
         let mut best = None;
         for &prim in &self.unbounded {
-            best = self.closer(&way, best, self.cross(prim, ray, within(span, best), leaving));
+            best = self.closer(way, best, self.cross(prim, &way.until(best)));
         }
-        self.tree.walk(ray, within(span, best), |item| {
-            let hit = self.cross(self.bounded[item as usize], ray, within(span, best), leaving);
-            best = self.closer(&way, best, hit);
-            within(span, best).max
+        self.tree.walk(&self.box_ray(way), way.until(best).span, |item| {
+            let hit = self.cross(self.bounded[item as usize], &way.until(best));
+            best = self.closer(way, best, hit);
+            way.until(best).span.max
         });
         best
     }
 
-    /// Whether a ray meets anything on the stretch, found by the trees.
-    #[must_use]
-    pub fn occluded(&self, ray: &Ray, span: Span, leaving: Option<Place>) -> bool {
-        if self.unbounded.iter().any(|&prim| self.cross(prim, ray, span, leaving).is_some()) {
+    /// As [`occluded`](Self::occluded).
+    pub(crate) fn is_occluded_on(&self, way: &Way<'_>) -> bool {
+        if self.unbounded.iter().any(|&prim| self.cross(prim, way).is_some()) {
             return true;
         }
         let mut found = false;
-        self.tree.walk(ray, span, |item| {
-            found = found || self.cross(self.bounded[item as usize], ray, span, leaving).is_some();
-            if found { f64::NEG_INFINITY } else { span.max }
+        self.tree.walk(&self.box_ray(way), way.span, |item| {
+            found = found || self.cross(self.bounded[item as usize], way).is_some();
+            if found { f64::NEG_INFINITY } else { way.span.max }
         });
         found
     }
 
-    /// What a ray meets first, found by trying every shape and every triangle.
-    #[must_use]
-    pub fn nearest_of_all(&self, ray: &Ray, span: Span, leaving: Option<Place>) -> Option<Hit> {
-        let way = Way { ray, span, leaving };
+    /// As [`nearest_of_all`](Self::nearest_of_all).
+    pub(crate) fn nearest_of_all_on(&self, way: &Way<'_>) -> Option<Hit> {
         (0..self.prims.len() as u32).fold(None, |best, prim| {
             let crossing =
-                self.prims[prim as usize].shape.cross(ray, within(span, best), facet_left(prim, leaving));
+                self.shape(way, prim).cross(way.ray, way.until(best).span, facet_left(prim, way.leaving));
             let hit = crossing.map(|crossing| Hit { place: Place { prim, facet: crossing.facet }, crossing });
-            self.closer(&way, best, hit)
+            self.closer(way, best, hit)
         })
+    }
+
+    /// The ray of a way relative to the origin, rounded: for boxes, which are wide enough for that.
+    fn box_ray(&self, way: &Way<'_>) -> Ray {
+        let zero = if way.in_world { self.origin } else { self.origin_in_frame() };
+        Ray::new(way.ray.origin - zero, way.ray.direction)
+    }
+
+    /// A shape where a way's ray is given.
+    fn shape(&self, way: &Way<'_>, prim: u32) -> Cow<'_, Shape> {
+        let shape = &self.prims[prim as usize].shape;
+        if way.in_world { relative(shape, -self.frame) } else { Cow::Borrowed(shape) }
     }
 
     /// The nearer of two hits of one ray; the lower shape where they tie.
@@ -89,11 +121,11 @@ impl Snapshot {
     }
 
     fn root(&self, way: &Way<'_>, place: Place) -> Option<Root<Dyadic>> {
-        let shape = &self.prims[place.prim as usize].shape;
-        shape.root(place.facet, way.ray, way.span, facet_left(place.prim, way.leaving))
+        let left = facet_left(place.prim, way.leaving);
+        self.shape(way, place.prim).root(place.facet, way.ray, way.span, left)
     }
 
-    /// Where a ray crosses one shape, or the facet of it alone where it is made of facets.
+    /// Where a ray in the snapshot's frame crosses one shape, or the facet of it alone where it is made of facets.
     pub(crate) fn cross_part(
         &self,
         prim: u32,
@@ -103,7 +135,7 @@ impl Snapshot {
         leaving: Option<Place>,
     ) -> Option<Hit> {
         let Some(facet) = facet else {
-            return self.cross(prim, ray, span, leaving);
+            return self.cross(prim, &Way::new(ray, span, leaving));
         };
         let shape = &self.prims[prim as usize].shape;
         let crossing = shape.cross_part(facet, ray, span, facet_left(prim, leaving))?;
@@ -119,26 +151,40 @@ impl Snapshot {
     }
 
     /// Where a ray crosses one shape; meshes by their tree.
-    pub(crate) fn cross(&self, prim: u32, ray: &Ray, span: Span, leaving: Option<Place>) -> Option<Hit> {
-        let row = &self.prims[prim as usize];
-        let left = facet_left(prim, leaving);
-        let crossing = match (&row.shape, row.mesh) {
+    fn cross(&self, prim: u32, way: &Way<'_>) -> Option<Hit> {
+        let left = facet_left(prim, way.leaving);
+        let crossing = match (&*self.shape(way, prim), self.prims[prim as usize].mesh) {
             (Shape::Mesh(mesh), Some(tree)) => {
                 let tree = &self.meshes[tree as usize].tree;
-                cross_mesh(mesh, tree, &mesh.own_ray(ray), span, left)
+                cross_mesh(mesh, tree, &mesh.own_ray(way.ray), way.span, left)
             }
-            (shape, _) => shape.cross(ray, span, left),
+            (shape, _) => shape.cross(way.ray, way.span, left),
         }?;
         Some(Hit { place: Place { prim, facet: crossing.facet }, crossing })
     }
 }
 
 /// What is asked of a ray.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Way<'a> {
     pub(crate) ray: &'a Ray,
     pub(crate) span: Span,
     pub(crate) leaving: Option<Place>,
+    /// Whether the ray is given in the world, and not in the snapshot's frame.
+    pub(crate) in_world: bool,
+}
+
+impl<'a> Way<'a> {
+    /// In the snapshot's frame.
+    pub(crate) fn new(ray: &'a Ray, span: Span, leaving: Option<Place>) -> Self {
+        Self { ray, span, leaving, in_world: false }
+    }
+
+    /// Up to the latest place at which what has been found may lie.
+    fn until(&self, best: Option<Hit>) -> Self {
+        let max = best.map_or(self.span.max, |hit| hit.crossing.latest().min(self.span.max));
+        Self { span: Span { max, ..self.span }, ..*self }
+    }
 }
 
 /// The nearest crossing of a ray in a mesh's own space with its triangles; of crossings in one place, that of the lowest.
@@ -164,9 +210,4 @@ fn cross_mesh(mesh: &Mesh, tree: &Tree, own: &Ray, span: Span, left: Option<u32>
 
 fn facet_left(prim: u32, leaving: Option<Place>) -> Option<u32> {
     leaving.filter(|place| place.prim == prim).map(|place| place.facet)
-}
-
-/// The stretch up to the latest place at which what has been found may lie.
-fn within(span: Span, best: Option<Hit>) -> Span {
-    Span { max: best.map_or(span.max, |hit| hit.crossing.latest().min(span.max)), ..span }
 }

@@ -6,7 +6,7 @@ use fearless_simd::{Level, Simd};
 
 use super::Tracer;
 use super::batch::Found;
-use super::packet::{Left, Packet, Precise, kernel_rays};
+use super::packet::{Left, Packet, Precise, drift, kernel_rays};
 use super::plan::Shapes;
 use super::queue::Queue;
 use super::search::Best;
@@ -20,15 +20,13 @@ use crate::{Place, Size, Snapshot, Stats, View};
 /// What is asked about some rays.
 pub(super) struct Asked<'a> {
     rays: RaySlice<'a>,
-    /// Where the snapshot's coordinates are zero.
-    origin: DVec3,
+    snapshot: &'a Snapshot,
 }
 
 impl Asked<'_> {
-    /// A ray, relative to the snapshot's origin.
+    /// A ray, in the snapshot's frame.
     pub(super) fn ray(&self, at: usize) -> Ray {
-        let ray = self.rays.ray(at);
-        Ray::new(ray.origin - self.origin, ray.direction)
+        self.snapshot.own_ray(&self.rays.ray(at))
     }
 
     /// The stretch it is asked about.
@@ -43,7 +41,10 @@ impl Asked<'_> {
         let load = |[x, y, z]: &[Vec<f64>; 3]| {
             D3::new(D::load(s, &x[at..]), D::load(s, &y[at..]), D::load(s, &z[at..]))
         };
-        (load(&self.rays.rays.origin) - splat_wide(s, self.origin), load(&self.rays.rays.direction))
+        (
+            load(&self.rays.rays.origin) - splat_wide(s, self.snapshot.origin()),
+            load(&self.rays.rays.direction),
+        )
     }
 
     /// At least the metres at which the stretches begin.
@@ -78,13 +79,30 @@ impl Asked<'_> {
         let there = M::from_bits(s, u64::MAX >> (64 - count));
         Packet {
             precise: Precise::Asked(self, at),
-            rays,
+            rays: rays.drifting(F::splat(s, drift(self.snapshot.origin_in_frame()))),
             inverse_length,
             weight: splat3(s, [1.0; 3]),
             pixel: U::splat(s, 0),
             left,
-            live: there & self.in_order(s, from) & is_ordinary(s, origin, direction),
+            live: there & self.in_order(s, from) & self.is_exact(s, from) & is_ordinary(s, origin, direction),
         }
+    }
+
+    /// Rays that are carried over into the snapshot's frame without rounding; the others are answered one by one.
+    #[inline(always)]
+    fn is_exact<S: Simd>(&self, s: S, from: usize) -> M<S> {
+        let frame = self.snapshot.frame();
+        let mut exact = M::splat(s, true);
+        if frame != DVec3::ZERO {
+            for (column, zero) in self.rays.rays.origin.iter().zip(frame.to_array()) {
+                let (given, zero) = (D::load(s, &column[from..]), D::splat(s, zero));
+                let own = given - zero;
+                let (back, other) = (own + zero, given - own);
+                exact = exact & back.at_most(given) & given.at_most(back);
+                exact = exact & other.at_most(zero) & zero.at_most(other);
+            }
+        }
+        exact
     }
 
     /// Stretches that are not empty.
@@ -147,7 +165,7 @@ fn answer_with<S: Simd>(
         between: &mut [],
         outside: false,
     };
-    let asked = Asked { rays, origin: snapshot.origin() };
+    let asked = Asked { rays, snapshot };
     s.vectorize(
         #[inline(always)]
         || tracer.answer(&asked, answers),
@@ -216,8 +234,7 @@ impl<S: Simd> Tracer<'_, S> {
     /// What a ray meets that `f32` cannot hold.
     #[cold]
     fn plainly(&self, asked: &Asked<'_>, at: usize) -> Option<(Place, f64)> {
-        let (ray, span) = asked.rays.own(self.frame.snapshot, at)?;
-        let hit = self.frame.snapshot.nearest(&ray, span, asked.rays.leaving(at))?;
+        let hit = asked.rays.follow(self.frame.snapshot, at, |way| self.frame.snapshot.nearest_on(way))?;
         Some((hit.place, hit.crossing.t))
     }
 }

@@ -5,7 +5,7 @@ use fearless_simd::Simd;
 
 use super::Tracer;
 use super::meet::Here;
-use super::packet::Left;
+use super::packet::{Left, drift};
 use super::settle::Groups;
 use super::shadow::Ways;
 use crate::kernel::{Rays, Target, magnitude};
@@ -113,12 +113,18 @@ impl<S: Simd> Tracer<'_, S> {
                 direction: arrival.towards,
                 reach: best.error.mul_add(
                     F::splat(self.s, 1.0 / POINT_ERROR),
-                    magnitude(meeting.point) + F::splat(self.s, row.reach),
+                    magnitude(meeting.point)
+                        + F::splat(self.s, row.reach + drift(self.frame.snapshot.origin_in_frame())),
                 ),
             },
             left: Left { prim: best.prim, facet: best.facet, any: true },
             live: facing,
-            target: Target { distance: arrival.distance, place: row.place, at_infinity: row.at_infinity },
+            target: Target {
+                distance: arrival.distance,
+                place: row.place,
+                in_frame: row.in_frame,
+                at_infinity: row.at_infinity,
+            },
         };
         self.blocked(packet, &ways, light)
     }

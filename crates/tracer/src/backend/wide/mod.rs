@@ -111,6 +111,9 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
 fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
     let grid = frame.view.grid;
     let Room { streams: [current, next], found, first, between } = room;
+    [&mut *current, &mut *next]
+        .into_iter()
+        .for_each(|queue| queue.start_from(frame.snapshot.origin_in_frame()));
     between.resize_with(frame.snapshot.lights().len(), Shapes::default);
     let mut tracer =
         Tracer { s, frame, stats: Stats::default(), next, found, between, outside: outside(frame) };
@@ -142,7 +145,7 @@ fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
 /// Whether the eye, and so every ray, stays outside all spheres.
 fn outside(frame: &Frame<'_>) -> bool {
     let spheres = &frame.snapshot.columns().spheres;
-    spheres.iter().all(|row| row.center.distance(frame.raster.eye) > row.radius * (1.0 + PLAN_MARGIN))
+    spheres.iter().all(|row| row.center.distance(frame.eye) > row.radius * (1.0 + PLAN_MARGIN))
 }
 
 /// What tracing a tile keeps at hand.

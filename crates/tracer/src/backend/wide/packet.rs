@@ -1,5 +1,6 @@
 //! A packet of rays, and how the camera's packets are made.
 
+use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, Raster, Ray, Span};
 use fearless_simd::Simd;
 
@@ -9,6 +10,7 @@ use crate::backend::Frame;
 use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING};
 use crate::kernel::{Rays, magnitude};
 use crate::lanes::{D, D3, F, F3, M, U, narrow3, splat_wide};
+use crate::numeric::WORLD_DRIFT;
 use crate::{Place, Tile};
 
 /// One ray in every lane.
@@ -31,7 +33,7 @@ pub(super) struct Packet<'a, S: Simd> {
 }
 
 impl<S: Simd> Packet<'_, S> {
-    /// The ray of a lane.
+    /// The ray of a lane, in the snapshot's frame.
     pub(super) fn ray(&self, lane: usize) -> Ray {
         match self.precise {
             Precise::Camera(primary, at) => primary.ray(at + lane),
@@ -124,9 +126,16 @@ pub(super) fn kernel_rays<S: Simd>(
     (rays, inverse_length)
 }
 
+/// What to add to a reach where coordinates are relative to an origin other than the frame's: there they are rounded more
+/// coarsely.
+pub(super) fn drift(origin: DVec3) -> f32 {
+    origin.abs().element_sum() as f32 * WORLD_DRIFT
+}
+
 /// What the camera's packets of one tile have in common.
 pub(super) struct Primary<S: Simd> {
     eye: D3<S>,
+    drift: F<S>,
     corner: D3<S>,
     across: D3<S>,
     down: D3<S>,
@@ -163,7 +172,8 @@ impl<S: Simd> Primary<S> {
         }
         let raster = &frame.raster;
         Self {
-            eye: splat_wide(s, raster.eye),
+            eye: splat_wide(s, frame.eye),
+            drift: F::splat(s, drift(frame.snapshot.origin_in_frame())),
             corner: splat_wide(s, raster.corner),
             across: splat_wide(s, raster.across),
             down: splat_wide(s, raster.down),
@@ -214,6 +224,7 @@ impl<S: Simd> Primary<S> {
     pub(super) fn packet_at(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S> {
         let (x, y, part) = self.corner_of(at);
         let (rays, inverse_length) = kernel_rays(s, self.eye, self.directions(s, at), inverse_length);
+        let rays = rays.drifting(self.drift);
         Packet {
             precise: Precise::Camera(self, at),
             rays,

@@ -117,7 +117,7 @@ impl Window {
             let side = corners[i].cross(corners[(i + 1) % 4]).normalize_or_zero();
             side * side.dot(middle).signum()
         });
-        Self { eye: raster.eye, corners, sides }
+        Self { eye: frame.eye, corners, sides }
     }
 
     /// 1 / t of a plane along the four corners.

@@ -5,13 +5,15 @@ use catoptra_core::{Ray, Triple};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::packet::{Left, Packet, Precise, kernel_rays};
+use super::packet::{Left, Packet, Precise, drift, kernel_rays};
 use crate::lanes::{D, D3, F, F3, M, U};
 
 /// Columns of rays; each has room for one more packet than there are rays.
 #[derive(Default)]
 pub(super) struct Queue {
     length: usize,
+    /// Where in the snapshot's frame coordinates are zero.
+    zero: DVec3,
     origin: [Vec<f64>; 3],
     direction: [Vec<f64>; 3],
     weight: [Vec<f32>; 3],
@@ -46,6 +48,11 @@ impl Queue {
     /// How many rays there are.
     pub(super) fn len(&self) -> usize {
         self.length
+    }
+
+    /// Says where in the snapshot's frame coordinates are zero.
+    pub(super) fn start_from(&mut self, zero: DVec3) {
+        self.zero = zero;
     }
 
     /// Forgets all rays and keeps the room.
@@ -83,10 +90,10 @@ impl Queue {
         (wide(s, &self.origin, at), wide(s, &self.direction, at))
     }
 
-    /// A ray.
+    /// A ray, in the snapshot's frame.
     pub(super) fn ray(&self, at: usize) -> Ray {
         let vector = |[x, y, z]: &[Vec<f64>; 3]| DVec3::new(x[at], y[at], z[at]);
-        Ray::new(vector(&self.origin), vector(&self.direction))
+        Ray::new(vector(&self.origin) + self.zero, vector(&self.direction))
     }
 
     /// The packet that starts with ray `at`.
@@ -94,6 +101,7 @@ impl Queue {
     pub(super) fn packet_at<S: Simd>(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S> {
         let (origin, direction) = self.precise(s, at);
         let (rays, inverse_length) = kernel_rays(s, origin, direction, inverse_length);
+        let rays = rays.drifting(F::splat(s, drift(self.zero)));
         let lanes = F::<S>::LANES;
         let left = self.length - at;
         let bits = if left >= lanes { u64::MAX >> (64 - lanes) } else { (1 << left) - 1 };

@@ -10,6 +10,7 @@ use super::plan::Shapes;
 use crate::film::NOTHING;
 use crate::kernel::Proposal;
 use crate::lanes::{Bits, F, M, U};
+use crate::numeric::SETTLED_ERROR;
 use crate::snapshot::{Row, Way};
 
 /// Shapes are tried one by one up to this many; more go by the tree.
@@ -244,7 +245,7 @@ impl<S: Simd> Tracer<'_, S> {
         for lane in Bits(lanes) {
             self.stats.settled += 1;
             let (ray, span, leaving) = (packet.ray(lane), packet.span(lane), packet.leaving(lane));
-            let way = Way { ray: &ray, span, leaving };
+            let way = Way::new(&ray, span, leaving);
             let Some(hit) = snapshot.cross_part(prim, facet, &ray, span, leaving) else { continue };
             let other = best.prim.lane(lane);
             let held = (other != NOTHING)
@@ -258,7 +259,10 @@ impl<S: Simd> Tracer<'_, S> {
             let known = doubtful.known.bits() >> lane & 1 == 1;
             let t = if known { doubtful.t.lane(lane) } else { metres.min(f32::MAX.next_down()) };
             best.t.set(lane, t);
-            best.error.set(lane, if known { doubtful.error.lane(lane) } else { metres * f32::EPSILON });
+            best.error.set(
+                lane,
+                if known { doubtful.error.lane(lane) } else { metres * SETTLED_ERROR + f32::MIN_POSITIVE },
+            );
             best.prim.set(lane, prim);
             best.facet.set(lane, hit.place.facet);
         }

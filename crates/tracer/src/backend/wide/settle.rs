@@ -163,10 +163,12 @@ impl<S: Simd> Tracer<'_, S> {
         let Some(shape) = self.frame.snapshot.mesh_at(instance.prim) else {
             return self.settle_general(packet, mask, instance.prim);
         };
+        let origin = self.frame.snapshot.origin_in_frame();
         if mesh.normals().is_none() {
             let mut corners = LaneTriples::default();
             for lane in mask.lanes() {
-                corners.set(lane, mesh.corners(best.facet.lane(lane)).map(|p| shape.placement().point(p)));
+                let corner = |p| shape.placement().point(p) - origin;
+                corners.set(lane, mesh.corners(best.facet.lane(lane)).map(corner));
             }
             return self.settle_triangles(packet, best, &corners);
         }
@@ -174,7 +176,7 @@ impl<S: Simd> Tracer<'_, S> {
         for lane in mask.lanes() {
             let ray = packet.ray(lane);
             if let Some(c) = shape.met(&shape.own_ray(&ray), best.facet.lane(lane)) {
-                lanes.set(lane, ray.at(c.t), c.normal, c.shading_normal);
+                lanes.set(lane, ray.at(c.t) - origin, c.normal, c.shading_normal);
             }
         }
         lanes.settled(self.s)
@@ -188,7 +190,12 @@ impl<S: Simd> Tracer<'_, S> {
             let (ray, leaving) = (packet.ray(lane), packet.leaving(lane));
             if let Some(hit) = self.frame.snapshot.cross_part(prim, None, &ray, Span::AHEAD, leaving) {
                 let c = hit.crossing;
-                lanes.set(lane, ray.at(c.t), c.normal, c.shading_normal);
+                lanes.set(
+                    lane,
+                    ray.at(c.t) - self.frame.snapshot.origin_in_frame(),
+                    c.normal,
+                    c.shading_normal,
+                );
             }
         }
         lanes.settled(self.s)

@@ -66,7 +66,8 @@ impl<S: Simd> Tracer<'_, S> {
             // Seen from outside, what faces the light is not shadowed by its own sphere.
             let (asked, leaving) =
                 if self.outside { (open & !own, M::splat(self.s, false)) } else { (open, own) };
-            let blocking = columns.spheres[row as usize].block(self.s, &ways.rays, &ways.target, leaving);
+            let blocking =
+                columns.spheres[row as usize].block(self.s, &ways.rays, &ways.target, leaving, self.outside);
             self.block((packet, ways), open, asked, (prim, Some(0)), blocking)
         } else {
             let (packet, ways) = (*packet, *ways);

@@ -1,0 +1,103 @@
+//! The reference for what a ray meets: whole numbers without end, and other formulas than the tracer's.
+//!
+//! All coordinates of a question are scaled to integers, so that nothing is rounded; a place on the ray is kept as
+//! `(p ± √s) / q`. Slow, exhaustive, and independent of `catoptra-core`'s own exact arithmetic: another crate of big
+//! integers, other tests for every shape, and roots compared by enclosing them ever more closely.
+
+mod integer;
+mod place;
+mod shape;
+
+use catoptra_core::geometry::{Mesh, Shape};
+use catoptra_core::{Geometry, Ray, Span};
+
+pub use place::Place;
+
+use crate::ulps_f32;
+
+/// What a ray meets.
+#[derive(Debug, Clone)]
+pub struct Met {
+    /// Which of the shapes.
+    pub shape: usize,
+    /// Which flat piece of it: a triangle of a mesh, a face of a solid; 0 for the others.
+    pub facet: u32,
+    /// Where on the ray.
+    pub place: Place,
+}
+
+/// Everything that a ray meets on a stretch, nearest first, then by shape and facet.
+///
+/// Placed meshes and boxes are met by the ray that their placement makes of the given one in `f64`: that ray is taken
+/// as it is.
+///
+/// # Panics
+/// For a kind of shape that the reference has no test for.
+#[must_use]
+pub fn meetings(shapes: &[Shape], ray: &Ray, span: Span) -> Vec<Met> {
+    let mut met: Vec<Met> = Vec::new();
+    for (shape, number) in shapes.iter().zip(0..) {
+        let own = own_ray(shape, ray);
+        if !own.is_valid() {
+            continue;
+        }
+        let places = shape::places(shape, &own).into_iter();
+        met.extend(places.filter(|(place, _)| place.lies_on(span)).map(|(place, facet)| Met {
+            shape: number,
+            facet,
+            place,
+        }));
+    }
+    met.sort_by(|a, b| a.place.compare(&b.place).then((a.shape, a.facet).cmp(&(b.shape, b.facet))));
+    met
+}
+
+/// Whether what a tracer says that a ray meets first is right: the same shape and facet (but for boxes, whose edges
+/// belong to two faces), at a `t` that rounds to the same `f32` or the one beside it. Ties go to the lower shape.
+///
+/// # Errors
+/// What is met, in words.
+///
+/// # Panics
+/// As [`meetings`].
+pub fn confirm(
+    shapes: &[Shape],
+    ray: &Ray,
+    span: Span,
+    said: Option<(catoptra_tracer::Place, f64)>,
+) -> Result<(), String> {
+    let met = meetings(shapes, ray, span).into_iter().next();
+    let right = match (&met, said) {
+        (None, None) => true,
+        (Some(met), Some((place, t))) => {
+            let same_facet = met.facet == place.facet || matches!(shapes[met.shape], Shape::Cuboid(_));
+            met.shape == place.prim as usize && same_facet && is_same_parameter(t, met.place.to_f64())
+        }
+        // Beyond the largest number.
+        (Some(met), None) => met.place.to_f64().is_infinite(),
+        (None, Some(_)) => false,
+    };
+    let met = met.map(|met| (met.shape, met.facet, met.place.to_f64()));
+    if right { Ok(()) } else { Err(format!("{said:?} rather than {met:?}: {ray:?}")) }
+}
+
+/// Whether `t`, rounded to `f32`, is the rounded exact one or its neighbour; where `f32` has no such number, whether it is
+/// as near as that.
+#[must_use]
+pub fn is_same_parameter(t: f64, exact: f64) -> bool {
+    let size = exact.abs();
+    if exact == 0.0 || (f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX)).contains(&size) {
+        ulps_f32(t as f32, exact as f32).is_some_and(|steps| steps <= 1)
+    } else {
+        (t - exact).abs() <= size * f64::from(f32::EPSILON)
+    }
+}
+
+/// The ray in the space that the numbers of a shape are given in.
+fn own_ray(shape: &Shape, ray: &Ray) -> Ray {
+    match shape {
+        Shape::Mesh(mesh) => Mesh::own_ray(mesh, ray),
+        Shape::Cuboid(cuboid) => cuboid.own_ray(ray),
+        _ => *ray,
+    }
+}
