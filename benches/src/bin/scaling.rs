@@ -4,6 +4,7 @@
 //! cargo run --release -p catoptra-benches --bin scaling -- benches
 //! ```
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
