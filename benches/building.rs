@@ -6,7 +6,7 @@ use catoptra_benches::{criterion, scene};
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Rgb, Scene, geometry::Sphere, material::Matte};
 use catoptra_lab::scenes::wavy_ball;
-use catoptra_tracer::{MeshTree, Snapshot};
+use catoptra_tracer::{MeshTree, Preset, Snapshot};
 use criterion::{BenchmarkId, Criterion, Throughput};
 
 fn trees(c: &mut Criterion) {
@@ -15,9 +15,11 @@ fn trees(c: &mut Criterion) {
         let mesh = wavy_ball(rings);
         let triangles = mesh.triangles().len() as u64;
         group.throughput(Throughput::Elements(triangles));
-        group.bench_with_input(BenchmarkId::from_parameter(triangles), &mesh, |b, mesh| {
-            b.iter(|| MeshTree::build(&Arc::clone(mesh)));
-        });
+        for preset in Preset::ALL {
+            group.bench_with_input(BenchmarkId::new(preset.name(), triangles), &mesh, |b, mesh| {
+                b.iter(|| MeshTree::build(&Arc::clone(mesh), *preset));
+            });
+        }
     }
     group.finish();
 }

@@ -42,7 +42,7 @@ mod snapshot;
 mod stats;
 mod view;
 
-pub use accel::MeshTree;
+pub use accel::{MeshTree, Preset};
 pub use backend::{Backend, Frame, backend_named, backends};
 pub use control::Control;
 pub use display::Display;

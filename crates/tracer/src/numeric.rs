@@ -85,3 +85,63 @@ pub(crate) const END_ERROR: f32 = 8.0 * U;
 /// Between which magnitudes a ray's numbers may be traced in `f32`: their squares, and products with a scene's
 /// coordinates of the same size, stay within its range (2⁻¹²⁶ … 2¹²⁸).
 pub(crate) const ORDINARY: [f64; 2] = [1.0 / (1_u64 << 60) as f64, (1_u64 << 60) as f64];
+
+/// Unit roundoff of `f64`, 2⁻⁵³.
+const W: f64 = catoptra_core::numeric::UNIT_ROUNDOFF_F64;
+
+/// Error of an edge value `(e × p) · d` in `f64`, relative to |d|₁ L P: L bounds the coordinates of the edges, P those of
+/// the corners as seen from the origin.
+///
+/// Edge and corner are differences, off by uL and uP. A component of their cross product is off by 2 (uL·P + L·uP) from
+/// those and by 3uLP from two products and a difference: 7uLP; the sum of three products adds γ₃·2LP: 13u, rounded up.
+pub(crate) const MEET_EDGE_ERROR: f64 = 16.0 * W;
+
+/// Error of a slope `(e × f) · d` in `f64`, relative to |d|₁ L²: 13u as above, rounded up.
+pub(crate) const MEET_SLOPE_ERROR: f64 = 16.0 * W;
+
+/// Error of `(e × f) · p` in `f64`, relative to L² P: 7u in each of three components, 2u for each of the corner's, and
+/// γ₃·6 for the sum of products: 45u, rounded up.
+pub(crate) const MEET_TOP_ERROR: f64 = 48.0 * W;
+
+/// How far a box is widened for one ray, per metre of the origin's largest coordinate: the origin is rounded once, and
+/// once more when it is widened.
+pub(crate) const LONE_PAD: f32 = 4.0 * U;
+
+/// Error of an edge value of sheared corners: X (a X + b H) + (c H)², X the largest sheared coordinate, H the largest
+/// coordinate of a corner plus that of the origin. These are a, b and c.
+///
+/// A corner is off by uH after its subtraction and by uH for the origin's rounding, along the ray's largest axis as well,
+/// where the shear takes at most all of it over; the shear is itself rounded, uH, and so is the sheared coordinate:
+/// η = u (X + 5H). Each of an edge value's two products is off by 2Xη + η², and they are rounded together by 3uX²:
+/// 4uX² + 20uXH + 3uX² + 2η². In η², X counts where it is below H u; above it 2η² adds less than u (X² + XH).
+pub(crate) const LONE_SPREAD: f32 = 9.0 * U;
+/// As [`LONE_SPREAD`].
+pub(crate) const LONE_SHARE: f32 = 24.0 * U;
+/// As [`LONE_SPREAD`].
+pub(crate) const LONE_FLOOR: f32 = 12.0 * U;
+
+/// Error of the slopes of rays through one point, relative to 1: computed in `f64` and rounded once; they are below 2.
+pub(crate) const FAN_SLOPE: f32 = 2.0 * U;
+
+/// How far a box is widened for rays through one point, per metre of the largest coordinates of mesh and point together:
+/// subtraction, point and slope are off by at most 2u, u and 2u of it, and the product with a slope below 2 by 2u more;
+/// doubled for the slope.
+pub(crate) const FAN_PAD: f32 = 16.0 * U;
+
+/// Error of an edge value n·(u, v, 1), n = e × p, of rays through one point, relative to L P S with S = 1 + |u| + |v|: as
+/// for [`MEET_EDGE_ERROR`] 7u in each component of n, and u·2·2LP S for two fused products; rounded up.
+pub(crate) const FAN_EDGE: f32 = 12.0 * U;
+
+/// Error of `(e × f) · p`, relative to L² P: as [`MEET_TOP_ERROR`].
+pub(crate) const FAN_TOP: f32 = 48.0 * U;
+
+/// How far lines may pass a point by to be taken for lines through it, per metre that they run: ends of rays that were
+/// given in `f32` lie within a few roundings of each other.
+pub(crate) const FAN_SPREAD: f32 = 64.0 * U;
+
+/// Most that the slopes of rays may differ by to be traced together; measured on three scanned and built meshes.
+pub(crate) const FAN_WIDTH: f32 = 0.25;
+
+/// Most that the `t` of a triangle may be off, relative to itself, for its plane to be taken at its word: far below what
+/// `f32` can hold, and what one Newton step from there leaves.
+pub(crate) const DEPTH_ERROR: f64 = 1.0 / (1_u64 << 40) as f64;

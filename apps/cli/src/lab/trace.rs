@@ -8,16 +8,17 @@ use std::time::Instant;
 use catoptra_core::geometry::Mesh;
 use catoptra_core::glam::DVec3;
 use catoptra_core::material::Matte;
-use catoptra_core::{Camera, MeshSource, Ray, Rgb, Scene};
+use catoptra_core::{Camera, MeshSource, Ray, Rgb, Scene, TriangleMesh};
 use catoptra_scene::mesh;
 use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
-use catoptra_tracer::{Backend, Pool, Size, Snapshot, View};
+use catoptra_tracer::{Backend, Pool, Preset, Size, Snapshot, View};
 use clap::Args;
 use miette::{IntoDiagnostic, Report, Result, miette};
 
 use crate::Outcome;
 use crate::job::{find_backend, milliseconds_since};
 use crate::output::print;
+use crate::suggest::unknown;
 
 #[derive(Args)]
 pub(crate) struct TraceArgs {
@@ -37,16 +38,20 @@ pub(crate) struct TraceArgs {
     /// Backend to trace with: wide (fast), scalar or oracle (exhaustive)
     #[arg(long, value_name = "NAME", default_value = "wide")]
     backend: String,
+    /// How carefully to build the tree: fast, balanced or best
+    #[arg(long, value_name = "NAME", default_value = "balanced")]
+    preset: String,
 }
 
 /// Traces and prints one line of figures.
 pub(crate) fn run(args: &TraceArgs) -> Result<Outcome> {
     let backend = find_backend(&args.backend)?;
+    let preset = find_preset(&args.preset)?;
     let rays = read_rays(&args.rays)?;
     let pool = Pool::new(args.threads.map_or(0, usize::from)).into_diagnostic()?;
     let scene = scene_of(&args.mesh)?;
     let started = Instant::now();
-    let snapshot = pool.run(|| Snapshot::extract(&scene));
+    let snapshot = pool.run(|| Snapshot::extract_with(&scene, None, preset));
     let build_ms = milliseconds_since(started);
     let mut traced = Traced::default();
     let mut times: Vec<f64> =
@@ -55,9 +60,10 @@ pub(crate) fn run(args: &TraceArgs) -> Result<Outcome> {
     let rate = |ms: f64| rays.len() as f64 / ms * 1e-3;
     let (hits, sum) = traced.sums(args.any);
     let triangles: usize = snapshot.meshes().iter().map(|m| m.mesh().triangles().len()).sum();
+    let bytes: usize = snapshot.meshes().iter().map(|m| m.bytes() + mesh_bytes(m.mesh())).sum();
     print(&format!(
         "{} {} {} {} {} threads {}: best {:.2} Mrays/s median {:.2} Mrays/s rays {} hits {hits} sum_t {sum:.9e} \
-         build {build_ms:.2} ms tree {:.1} bytes/triangle\n",
+         {} build {build_ms:.2} ms {:.1} bytes/triangle\n",
         args.mesh.display(),
         args.rays.display(),
         if args.any { "any" } else { "nearest" },
@@ -67,9 +73,15 @@ pub(crate) fn run(args: &TraceArgs) -> Result<Outcome> {
         rate(times[0]),
         rate(times[times.len() / 2]),
         rays.len(),
-        snapshot.needs().tree_bytes as f64 / triangles.max(1) as f64,
+        preset.name(),
+        bytes as f64 / triangles.max(1) as f64,
     ))?;
     Ok(Outcome::Done)
+}
+
+fn find_preset(name: &str) -> Result<Preset> {
+    let names: Vec<&str> = Preset::ALL.iter().map(|preset| preset.name()).collect();
+    Preset::named(name).ok_or_else(|| unknown("preset", name, &names))
 }
 
 /// What the rays of a file have met.
@@ -106,6 +118,11 @@ impl Traced {
         let hits = (0..self.hits.len()).filter_map(|at| self.hits.get(at));
         hits.fold((0, 0.0), |(count, sum), (_, t)| (count + 1, sum + t))
     }
+}
+
+/// Bytes of a mesh's corners and triangles.
+fn mesh_bytes(mesh: &TriangleMesh) -> usize {
+    size_of_val(mesh.positions()) + size_of_val(mesh.triangles())
 }
 
 /// A scene of one mesh.

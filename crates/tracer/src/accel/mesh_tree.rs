@@ -4,17 +4,15 @@ use std::sync::Arc;
 
 use catoptra_core::TriangleMesh;
 
-use super::Tree;
-use super::tree::Box32;
+use super::grow::grow;
+use super::{Preset, WideTree};
 use crate::kernel::magnitude_of;
 
 /// A triangle mesh and a tree of boxes over its triangles, in the mesh's own space.
 #[derive(Debug)]
 pub struct MeshTree {
     mesh: Arc<TriangleMesh>,
-    pub(crate) tree: Tree,
-    /// Corners of every triangle in the order of the tree's leaves.
-    pub(crate) corners: Vec<[[f32; 3]; 3]>,
+    pub(crate) tree: WideTree,
     /// At least the sum of any corner's coordinates' magnitudes.
     pub(crate) reach: f32,
 }
@@ -22,13 +20,9 @@ pub struct MeshTree {
 impl MeshTree {
     /// Builds the tree, on the threads of the pool it is called in.
     #[must_use]
-    pub fn build(mesh: &Arc<TriangleMesh>) -> Self {
-        let corners_of = |t: &[u32; 3]| t.map(|i| mesh.positions()[i as usize]);
-        let boxes: Vec<Box32> = mesh.triangles().iter().map(|t| Box32::of(corners_of(t))).collect();
-        let tree = Tree::build(&boxes);
-        let corners = tree.order.iter().map(|&i| corners_of(&mesh.triangles()[i as usize])).collect();
+    pub fn build(mesh: &Arc<TriangleMesh>, preset: Preset) -> Self {
         let reach = mesh.bounds().corners().map(magnitude_of).into_iter().fold(0.0, f32::max);
-        Self { mesh: Arc::clone(mesh), tree, corners, reach }
+        Self { mesh: Arc::clone(mesh), tree: grow(mesh, preset), reach }
     }
 
     /// The mesh.
@@ -37,9 +31,9 @@ impl MeshTree {
         &self.mesh
     }
 
-    /// Bytes of the tree, without the mesh.
+    /// Bytes of the tree with its copies of the triangles, without the mesh.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.tree.nodes[..]) + size_of_val(&self.tree.order[..]) + size_of_val(&self.corners[..])
+        self.tree.bytes()
     }
 }

@@ -1,8 +1,13 @@
 //! How few things a ray is tested against: trees of boxes.
 
 mod build;
+mod grow;
 mod mesh_tree;
+mod preset;
 mod tree;
+mod wide_tree;
 
 pub use mesh_tree::MeshTree;
+pub use preset::Preset;
 pub(crate) use tree::{Box32, MAX_DEPTH, Node, Tree};
+pub(crate) use wide_tree::{Block8, Node8, WIDTH, WideTree};

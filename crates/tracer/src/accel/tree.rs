@@ -16,11 +16,6 @@ pub(crate) struct Box32 {
 impl Box32 {
     pub(crate) const EMPTY: Self = Self { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
 
-    /// Round corners that are `f32` already.
-    pub(crate) fn of(points: [[f32; 3]; 3]) -> Self {
-        points.iter().fold(Self::EMPTY, |b, p| b.union(&Self { min: *p, max: *p }))
-    }
-
     pub(crate) fn union(&self, o: &Self) -> Self {
         Self {
             min: std::array::from_fn(|i| self.min[i].min(o.min[i])),

@@ -5,6 +5,7 @@
 
 #[cfg(test)]
 mod attack;
+pub(crate) mod mesh;
 mod plane;
 mod rectangle;
 mod sphere;
@@ -21,7 +22,7 @@ use crate::numeric::LEAST_REACH;
 pub(crate) use plane::PlaneRow;
 pub(crate) use rectangle::RectangleRow;
 pub(crate) use sphere::SphereRow;
-pub(crate) use triangle::{Edges, TriangleRow};
+pub(crate) use triangle::TriangleRow;
 
 /// Rays as kernels see them.
 #[derive(Clone, Copy)]

@@ -33,7 +33,7 @@ impl TriangleRow {
 
 /// What the test needs of a triangle.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Edges {
+struct Edges {
     corners: [[f32; 3]; 3],
     /// Edge `i` runs opposite corner `i`.
     edges: [[f32; 3]; 3],
@@ -46,8 +46,7 @@ pub(crate) struct Edges {
 
 impl Edges {
     /// Of corners whose coordinates sum up to at most `reach` in magnitude.
-    #[inline(always)]
-    pub(crate) fn new(corners: &[[f32; 3]; 3], reach: f32) -> Self {
+    fn new(corners: &[[f32; 3]; 3], reach: f32) -> Self {
         let [a, b, c] = *corners;
         let minus = |p: [f32; 3], q: [f32; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
         let edges = [minus(c, b), minus(a, c), minus(b, a)];
@@ -58,7 +57,7 @@ impl Edges {
     }
 
     #[inline(always)]
-    pub(crate) fn propose<S: Simd>(&self, s: S, rays: &Rays<S>) -> Proposal<S> {
+    fn propose<S: Simd>(&self, s: S, rays: &Rays<S>) -> Proposal<S> {
         let zero = F::splat(s, 0.0);
         let size = rays.reach + F::splat(s, self.reach);
         let spread = magnitude(rays.direction) * F::splat(s, self.length);

@@ -11,7 +11,7 @@ use catoptra_core::{
 
 use super::origin::{frame_for, origin_for, relative};
 use super::{Columns, LightRow, MaterialRow, Prim, Snapshot};
-use crate::accel::{Box32, MeshTree, Tree};
+use crate::accel::{Box32, MeshTree, Preset, Tree};
 use crate::numeric::BOUNDS_ERROR;
 
 impl Snapshot {
@@ -24,6 +24,12 @@ impl Snapshot {
     /// Freezes a scene, taking over from an earlier snapshot the trees of meshes that are still there.
     #[must_use]
     pub fn extract_after(scene: &Scene, earlier: Option<&Self>) -> Self {
+        Self::extract_with(scene, earlier, Preset::default())
+    }
+
+    /// As [`extract_after`](Self::extract_after); trees of meshes that were not there before are built as `preset` says.
+    #[must_use]
+    pub fn extract_with(scene: &Scene, earlier: Option<&Self>, preset: Preset) -> Self {
         let placed: Vec<(EntityId, Shape, MaterialId)> = scene
             .entities_of(Role::Shape)
             .filter_map(|id| Some((id, scene.world_shape(id)?, scene.material_of(id)?)))
@@ -32,7 +38,7 @@ impl Snapshot {
         let origin = origin_for(placed.iter().filter_map(|(_, shape, _)| shape.bounds()), eye);
         let frame = frame_for(placed.iter().map(|(_, shape, _)| shape), origin);
         let rows: HashMap<MaterialId, u32> = scene.materials().map(|(id, ..)| id).zip(0..).collect();
-        let mut trees = MeshTrees::after(earlier);
+        let mut trees = MeshTrees::after(earlier, preset);
         let prims: Vec<Prim> = placed
             .iter()
             .map(|(_, shape, material)| Prim {
@@ -99,22 +105,23 @@ fn around(bounds: Aabb, origin: DVec3) -> Box32 {
 /// The trees over the meshes of a scene, each built once.
 struct MeshTrees<'a> {
     earlier: &'a [Arc<MeshTree>],
+    preset: Preset,
     meshes: Vec<Arc<MeshTree>>,
     places: HashMap<*const TriangleMesh, u32>,
 }
 
 impl<'a> MeshTrees<'a> {
-    fn after(earlier: Option<&'a Snapshot>) -> Self {
+    fn after(earlier: Option<&'a Snapshot>, preset: Preset) -> Self {
         let earlier = earlier.map_or(&[][..], |snapshot| &snapshot.meshes);
-        Self { earlier, meshes: Vec::new(), places: HashMap::new() }
+        Self { earlier, preset, meshes: Vec::new(), places: HashMap::new() }
     }
 
     fn of(&mut self, shape: &Shape) -> Option<u32> {
         let Shape::Mesh(mesh) = shape else { return None };
-        let mesh = &mesh.source().mesh;
+        let (mesh, preset) = (&mesh.source().mesh, self.preset);
         Some(*self.places.entry(Arc::as_ptr(mesh)).or_insert_with(|| {
             let known = self.earlier.iter().find(|tree| Arc::ptr_eq(tree.mesh(), mesh));
-            self.meshes.push(known.map_or_else(|| Arc::new(MeshTree::build(mesh)), Arc::clone));
+            self.meshes.push(known.map_or_else(|| Arc::new(MeshTree::build(mesh, preset)), Arc::clone));
             self.meshes.len() as u32 - 1
         }))
     }

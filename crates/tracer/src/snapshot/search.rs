@@ -9,7 +9,7 @@ use catoptra_core::{Crossing, Geometry, Ray, Shape, Span};
 
 use super::Snapshot;
 use super::origin::{is_exact, relative};
-use crate::accel::Tree;
+use crate::accel::WideTree;
 
 /// A place on a surface that a ray leaves from: that meeting is not found again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -188,7 +188,7 @@ impl<'a> Way<'a> {
 }
 
 /// The nearest crossing of a ray in a mesh's own space with its triangles; of crossings in one place, that of the lowest.
-fn cross_mesh(mesh: &Mesh, tree: &Tree, own: &Ray, span: Span, left: Option<u32>) -> Option<Crossing> {
+fn cross_mesh(mesh: &Mesh, tree: &WideTree, own: &Ray, span: Span, left: Option<u32>) -> Option<Crossing> {
     let mut best: Option<Crossing> = None;
     tree.walk(own, span, |triangle| {
         let far = |best: Option<Crossing>| best.map_or(span.max, |b| b.latest().min(span.max));

@@ -1,7 +1,7 @@
 //! Questions about rays of anyone's choice, answered by the code that finds what pictures show.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, Camera, Lane, Ray, Span};
+use catoptra_core::{Camera, Lane, Ray, Span};
 use fearless_simd::{Level, Simd};
 
 use super::Tracer;
@@ -12,6 +12,7 @@ use super::queue::Queue;
 use super::search::Best;
 use crate::backend::Frame;
 use crate::film::NOTHING;
+use crate::kernel::mesh::Visits;
 use crate::lanes::{D, D3, F, M, U, splat_wide, splat3};
 use crate::numeric::{END_ERROR, ORDINARY};
 use crate::query::{HitSlice, RaySlice};
@@ -20,6 +21,8 @@ use crate::{Place, Size, Snapshot, Stats, View};
 /// What is asked about some rays.
 pub(super) struct Asked<'a> {
     rays: RaySlice<'a>,
+    /// Whether anything they meet will do.
+    pub(super) any: bool,
     snapshot: &'a Snapshot,
 }
 
@@ -38,20 +41,27 @@ impl Asked<'_> {
     #[inline(always)]
     pub(super) fn precise<S: Simd>(&self, s: S, at: usize) -> (D3<S>, D3<S>) {
         let at = self.rays.first + at;
-        let load = |[x, y, z]: &[Vec<f64>; 3]| {
-            D3::new(D::load(s, &x[at..]), D::load(s, &y[at..]), D::load(s, &z[at..]))
-        };
-        (
-            load(&self.rays.rays.origin) - splat_wide(s, self.snapshot.origin()),
-            load(&self.rays.rays.direction),
-        )
+        let rays = self.rays.rays;
+        let origin = splat_wide(s, self.snapshot.origin());
+        (load3(s, &rays.origin, at) - origin, load3(s, &rays.direction, at))
     }
 
-    /// At least the metres at which the stretches begin.
+    /// Where the stretches of the packet at ray `at` begin and end; not finite for those without an end.
     #[inline(always)]
-    pub(super) fn begin<S: Simd>(&self, s: S, at: usize) -> F<S> {
-        let min = self.end(s, &self.rays.rays.min, at);
-        min.abs().mul_add(F::splat(s, END_ERROR), min)
+    pub(super) fn ends<S: Simd>(&self, s: S, at: usize) -> [D3<S>; 2] {
+        let (origin, direction) = self.precise(s, at);
+        let from = self.rays.first + at;
+        let min = D::load(s, &self.rays.rays.min[from..]).max(D::splat(s, 0.0));
+        let max = D::load(s, &self.rays.rays.max[from..]);
+        [direction.scale_add(min, origin), direction.scale_add(max, origin)]
+    }
+
+    /// Metres between which the stretches begin.
+    #[inline(always)]
+    pub(super) fn begins<S: Simd>(&self, s: S, at: usize) -> [F<S>; 2] {
+        let min = self.end(s, &self.rays.rays.min, at).max(F::splat(s, 0.0));
+        let error = min * F::splat(s, END_ERROR);
+        [min - error, min + error]
     }
 
     /// Ends of the stretches in metres, within [`END_ERROR`] of themselves.
@@ -70,8 +80,8 @@ impl Asked<'_> {
         let from = self.rays.first + at;
         let any = !self.rays.rays.prim.is_empty();
         let left = if any {
-            let place = |column: &[u32]| U::load(s, &column[from..]);
-            Left { prim: place(&self.rays.rays.prim), facet: place(&self.rays.rays.facet), any }
+            let rays = self.rays.rays;
+            Left { prim: U::load(s, &rays.prim[from..]), facet: U::load(s, &rays.facet[from..]), any }
         } else {
             Left::nothing(s)
         };
@@ -118,11 +128,20 @@ impl Asked<'_> {
 /// Rays whose numbers are so ordinary that `f32` can hold them and their squares; false for NaN.
 #[inline(always)]
 fn is_ordinary<S: Simd>(s: S, origin: D3<S>, direction: D3<S>) -> M<S> {
-    let largest = |v: D3<S>| v.x.abs().max(v.y.abs()).max(v.z.abs());
-    // A sum is NaN where any of its summands is; the largest need not be.
-    let sum = |v: D3<S>| v.x.abs() + v.y.abs() + v.z.abs();
-    let [least, most] = ORDINARY.map(|v| D::splat(s, v));
-    sum(origin).at_most(most) & least.at_most(largest(direction)) & sum(direction).at_most(most)
+    let (least, most) = (D::splat(s, ORDINARY[0]), D::splat(s, ORDINARY[1]));
+    let largest = direction.x.abs().max(direction.y.abs()).max(direction.z.abs());
+    sum(origin).at_most(most) & least.at_most(largest) & sum(direction).at_most(most)
+}
+
+/// Sum of magnitudes; NaN where any of them is, which the largest need not be.
+#[inline(always)]
+fn sum<S: Simd>(v: D3<S>) -> D<S> {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
+
+#[inline(always)]
+fn load3<S: Simd>(s: S, [x, y, z]: &[Vec<f64>; 3], at: usize) -> D3<S> {
+    D3::new(D::load(s, &x[at..]), D::load(s, &y[at..]), D::load(s, &z[at..]))
 }
 
 /// Answers with the best of the instructions there are, as [`super::trace_natively`] traces.
@@ -155,7 +174,7 @@ fn answer_with<S: Simd>(
 ) -> Stats {
     let view = View::new(Camera::default(), Size::new(1, 1));
     let frame = Frame::new(snapshot, &view);
-    let (mut next, mut found) = (Queue::default(), Found::default());
+    let (mut next, mut found, mut visits) = (Queue::default(), Found::default(), Visits::default());
     let mut tracer = Tracer {
         s,
         frame: &frame,
@@ -163,9 +182,10 @@ fn answer_with<S: Simd>(
         next: &mut next,
         found: &mut found,
         between: &mut [],
+        visits: &mut visits,
         outside: false,
     };
-    let asked = Asked { rays, snapshot };
+    let asked = Asked { rays, any: matches!(answers, Answers::Occluded(_)), snapshot };
     s.vectorize(
         #[inline(always)]
         || tracer.answer(&asked, answers),
@@ -205,7 +225,10 @@ impl<S: Simd> Tracer<'_, S> {
             self.look(&packet, &mut best, &shapes);
             for lane in 0..(asked.rays.len() - at).min(F::<S>::LANES) {
                 let live = packet.live.bits() >> lane & 1 == 1;
-                let hit = if live {
+                let hit = if asked.any && live {
+                    let prim = best.prim.lane(lane);
+                    (prim != NOTHING).then_some((Place { prim, facet: 0 }, 0.0))
+                } else if live {
                     self.settled_hit(&packet, &best, lane)
                 } else {
                     self.plainly(asked, at + lane)
@@ -220,6 +243,10 @@ impl<S: Simd> Tracer<'_, S> {
         let place = Place { prim: best.prim.lane(lane), facet: best.facet.lane(lane) };
         if place.prim == NOTHING {
             return None;
+        }
+        if let Some(mesh) = self.frame.snapshot.mesh_at(place.prim) {
+            let asked = || (packet.span(lane), packet.leaving(lane));
+            return Some((place, self.settled_t(mesh, &packet.ray(lane), (place.prim, place.facet), asked)));
         }
         let (ray, span, leaving) = (packet.ray(lane), packet.span(lane), packet.leaving(lane));
         let hit = self.frame.snapshot.cross_part(place.prim, Some(place.facet), &ray, span, leaving);

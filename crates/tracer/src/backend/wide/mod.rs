@@ -10,6 +10,7 @@ mod ask;
 mod batch;
 mod light;
 mod meet;
+mod mesh;
 mod packet;
 mod plan;
 mod queue;
@@ -26,6 +27,7 @@ use fearless_simd::{Level, Simd};
 
 use super::{Backend, Frame};
 use crate::film::NOTHING;
+use crate::kernel::mesh::Visits;
 use crate::lanes::{F, F3, U, splat3};
 use crate::numeric::PLAN_MARGIN;
 use crate::query::{HitSlice, RaySlice};
@@ -79,6 +81,7 @@ struct Room {
     found: Found,
     first: Shapes,
     between: Vec<Shapes>,
+    visits: Visits,
 }
 
 /// Traces one tile with the instructions of a level.
@@ -110,13 +113,13 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
 #[inline(always)]
 fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
     let grid = frame.view.grid;
-    let Room { streams: [current, next], found, first, between } = room;
+    let Room { streams: [current, next], found, first, between, visits } = room;
     [&mut *current, &mut *next]
         .into_iter()
         .for_each(|queue| queue.start_from(frame.snapshot.origin_in_frame()));
     between.resize_with(frame.snapshot.lights().len(), Shapes::default);
     let mut tracer =
-        Tracer { s, frame, stats: Stats::default(), next, found, between, outside: outside(frame) };
+        Tracer { s, frame, stats: Stats::default(), next, found, between, visits, outside: outside(frame) };
     for sample in 0..grid * grid {
         let (column, row) = (sample % grid, sample / grid);
         if frame.view.skip.hidden {
@@ -159,6 +162,8 @@ struct Tracer<'a, S: Simd> {
     found: &'a mut Found,
     /// For every light, what may stand between it and what the batch under way shows.
     between: &'a mut [Shapes],
+    /// Room for walks through trees of meshes.
+    visits: &'a mut Visits,
     /// Whether every ray stays outside all spheres.
     outside: bool,
 }

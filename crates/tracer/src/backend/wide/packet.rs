@@ -102,6 +102,12 @@ impl<S: Simd> Left<S> {
         (prim != NOTHING).then(|| Place { prim, facet: self.facet.lane(lane) })
     }
 
+    /// The facet of a shape that each ray leaves from; [`NOTHING`] where it leaves from none of them.
+    #[inline(always)]
+    pub(super) fn facets_of(&self, s: S, prim: u32) -> U<S> {
+        U::pick(self.prim.is(prim), self.facet, U::splat(s, NOTHING))
+    }
+
     /// Lanes whose rays leave from a facet of a shape.
     #[inline(always)]
     pub(super) fn from(&self, s: S, prim: u32, facet: u32) -> M<S> {

@@ -189,7 +189,7 @@ impl<S: Simd> Tracer<'_, S> {
         let mut undecided = (allowed & proposal.undecided) | maybe;
         if let Precise::Asked(asked, at) = packet.precise {
             // What is met before the stretch begins may hide what is met on it.
-            undecided = undecided | (hit & !asked.begin(self.s, at).less(proposal.t - proposal.error));
+            undecided = undecided | (hit & !asked.begins(self.s, at)[1].less(proposal.t - proposal.error));
         }
         let take = nearer & !undecided;
         best.t = F::pick(take, proposal.t, best.t);

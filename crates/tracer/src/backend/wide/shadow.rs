@@ -1,10 +1,11 @@
 //! Which ways from points to a light are blocked.
 
-use catoptra_core::{LaneMask, Span};
+use catoptra_core::{LaneMask, Ray, Span};
 use fearless_simd::Simd;
 
 use super::Tracer;
 use super::packet::{Left, Packet};
+use crate::Snapshot;
 use crate::kernel::{Blocking, Rays, Target};
 use crate::lanes::{Bits, F, M};
 use crate::snapshot::Row;
@@ -20,6 +21,26 @@ pub(super) struct Ways<S: Simd> {
     pub(super) live: M<S>,
     /// Where they end.
     pub(super) target: Target<S>,
+}
+
+impl<S: Simd> Ways<S> {
+    /// The way of a lane, from where its ray meets its surface in `f64`, whatever `f32` made of that point.
+    pub(super) fn from_lane(
+        &self,
+        snapshot: &Snapshot,
+        packet: &Packet<'_, S>,
+        lane: usize,
+    ) -> Option<(Ray, Span)> {
+        let (ray, from) = (packet.ray(lane), self.left.lane(lane)?);
+        let met = snapshot.cross_part(
+            from.prim,
+            Some(from.facet),
+            &ray,
+            packet.span(lane),
+            packet.leaving(lane),
+        )?;
+        Some(self.target.way_from(ray.at(met.crossing.t)))
+    }
 }
 
 impl<S: Simd> Tracer<'_, S> {
@@ -137,7 +158,6 @@ impl<S: Simd> Tracer<'_, S> {
         open & !M::from_bits(self.s, closed)
     }
 
-    /// The way starts where the ray meets its surface in `f64`, whatever `f32` made of that point.
     #[cold]
     #[inline(never)]
     fn block_each_lane(
@@ -151,12 +171,8 @@ impl<S: Simd> Tracer<'_, S> {
         let mut closed = 0;
         for lane in Bits(lanes) {
             self.stats.settled += 1;
-            let (ray, Some(from)) = (packet.ray(lane), ways.left.lane(lane)) else { continue };
-            let met =
-                snapshot.cross_part(from.prim, Some(from.facet), &ray, Span::AHEAD, packet.leaving(lane));
-            let Some(met) = met else { continue };
-            let (way, span) = ways.target.way_from(ray.at(met.crossing.t));
-            if snapshot.cross_part(prim, facet, &way, span, Some(from)).is_some() {
+            let Some((way, span)) = ways.from_lane(snapshot, packet, lane) else { continue };
+            if snapshot.cross_part(prim, facet, &way, span, ways.left.lane(lane)).is_some() {
                 closed |= 1 << lane;
             }
         }

@@ -10,10 +10,9 @@ use super::packet::Packet;
 use super::search::Best;
 use super::shadow::Ways;
 use crate::accel::{Box32, MAX_DEPTH, Node, Tree};
-use crate::kernel::{Edges, Rays, magnitude};
-use crate::lanes::{D3, F, F3, M, narrow3, splat_wide, splat3, widen3};
+use crate::kernel::Rays;
+use crate::lanes::{F, F3, M, splat3};
 use crate::numeric::{BOX_PAD, BOX_STRETCH};
-use crate::snapshot::{Affine, Instance};
 
 /// Rays as boxes see them.
 struct Slabs<S: Simd> {
@@ -119,75 +118,6 @@ impl<S: Simd> Tracer<'_, S> {
             }
         }
         open
-    }
-
-    /// Finds the nearest triangle of a mesh.
-    #[inline(always)]
-    pub(super) fn walk_mesh(&mut self, packet: &Packet<'_, S>, best: &mut Best<S>, instance: &Instance) {
-        let rays = instance.own_rays(self.s, &packet.rays);
-        let slabs = Slabs::new(self.s, &rays, packet.live);
-        let mesh = &instance.tree;
-        let mut walk = Walk::default();
-        while let Some(node) = walk.visit(&mesh.tree) {
-            self.stats.tests.boxes += F::<S>::LANES as u64;
-            let far = best.t + best.error;
-            if (slabs.meet(self.s, &node.bounds, far) & packet.live).any() {
-                for at in walk.enter(node, slabs.backwards) {
-                    let proposal = Edges::new(&mesh.corners[at], mesh.reach).propose(self.s, &rays);
-                    let place = (instance.prim, mesh.tree.order[at]);
-                    self.consider(packet, best, packet.live, place, proposal);
-                }
-            }
-        }
-    }
-
-    /// The ways still open once a mesh stands there.
-    #[inline(always)]
-    pub(super) fn walk_mesh_to_light(
-        &mut self,
-        packet: &Packet<'_, S>,
-        ways: &Ways<S>,
-        mut open: M<S>,
-        instance: &Instance,
-    ) -> M<S> {
-        let rays = instance.own_rays(self.s, &ways.rays);
-        let slabs = Slabs::new(self.s, &rays, ways.live);
-        let mesh = &instance.tree;
-        let mut walk = Walk::default();
-        while let Some(node) = walk.visit(&mesh.tree) {
-            self.stats.tests.boxes += F::<S>::LANES as u64;
-            if (slabs.meet(self.s, &node.bounds, ways.target.distance) & open).any() {
-                for at in walk.enter(node, slabs.backwards) {
-                    let facet = mesh.tree.order[at];
-                    let proposal = Edges::new(&mesh.corners[at], mesh.reach).propose(self.s, &rays);
-                    let allowed = open & !ways.left.from(self.s, instance.prim, facet);
-                    let place = (instance.prim, Some(facet));
-                    open = self.block((packet, ways), open, allowed, place, proposal.blocking(&ways.target));
-                }
-            }
-        }
-        open
-    }
-}
-
-impl Instance {
-    /// Rays in the mesh's own space, from those of the world. `t` stays metres of the world, so directions are as long
-    /// as one metre of the world is there; so are the errors that the rays bring along.
-    #[inline(always)]
-    fn own_rays<S: Simd>(&self, s: S, rays: &Rays<S>) -> Rays<S> {
-        let Some(affine) = &self.to_object else { return *rays };
-        let origin = narrow3(affine.turn(s, widen3(rays.origin)) + splat_wide(s, affine.shift));
-        let direction = narrow3(affine.turn(s, widen3(rays.direction)));
-        let scale = affine.matrix[0].length() as f32;
-        Rays { origin, direction, reach: rays.reach.mul_add(F::splat(s, scale), magnitude(origin)) }
-    }
-}
-
-impl Affine {
-    #[inline(always)]
-    fn turn<S: Simd>(&self, s: S, v: D3<S>) -> D3<S> {
-        let [x, y, z] = self.matrix;
-        D3::new(splat_wide(s, x).dot(v), splat_wide(s, y).dot(v), splat_wide(s, z).dot(v))
     }
 }
 

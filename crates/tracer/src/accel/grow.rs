@@ -1,0 +1,405 @@
+//! How the tree over a mesh is built: top down, eight children at once, by the binned surface area heuristic.
+//!
+//! Wald, "On fast construction of SAH-based bounding volume hierarchies", IEEE RT 2007; Wald, Benthin and Boulos,
+//! "Getting rid of packets", IEEE RT 2008, for the eight children: the largest is split until there are eight.
+
+use catoptra_core::TriangleMesh;
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f32x4};
+use rayon::prelude::*;
+
+use super::wide_tree::{Block8, Node8, WIDTH, WideTree};
+use super::{Box32, MAX_DEPTH, Preset};
+
+/// Most bins along an axis that any preset has.
+const MOST_BINS: usize = 32;
+/// Most triangles of a leaf of a node that has no room for two: a node of two leaves costs more to visit than two blocks.
+const FULL_LEAF: usize = 12;
+/// Stretches longer than this are shared out among threads.
+const PARALLEL: usize = 8192;
+/// A leaf has at most this many triangles, and never fewer than could be split: a block is tested in one go, so two
+/// smaller leaves would cost more.
+const LEAF: usize = 8;
+/// Depth from which on stretches are halved, which takes at most 32 levels.
+const HALVE: usize = MAX_DEPTH - 32;
+
+/// Builds the tree on the threads of the pool it is called in.
+pub(super) fn grow(mesh: &TriangleMesh, preset: Preset) -> WideTree {
+    dispatch!(Level::baseline(), s => Grower { s, preset }.grow(mesh))
+}
+
+/// A triangle's box; the last number of the lower corner is the bits of the triangle's own.
+#[derive(Clone, Copy)]
+struct Item {
+    low: [f32; 4],
+    high: [f32; 4],
+}
+
+impl Item {
+    fn new(mesh: &TriangleMesh, id: u32) -> Self {
+        let [a, b, c] = mesh.triangles()[id as usize].map(|i| mesh.positions()[i as usize]);
+        let (mut low, mut high) = ([f32::from_bits(id); 4], [0.0; 4]);
+        for axis in 0..3 {
+            low[axis] = a[axis].min(b[axis]).min(c[axis]);
+            high[axis] = a[axis].max(b[axis]).max(c[axis]);
+        }
+        Self { low, high }
+    }
+}
+
+/// A box in registers; the fourth numbers mean nothing.
+#[derive(Clone, Copy)]
+struct Extent<S: Simd> {
+    low: f32x4<S>,
+    high: f32x4<S>,
+}
+
+impl<S: Simd> Extent<S> {
+    #[inline(always)]
+    fn empty(s: S) -> Self {
+        Self { low: f32x4::splat(s, f32::INFINITY), high: f32x4::splat(s, f32::NEG_INFINITY) }
+    }
+
+    #[inline(always)]
+    fn of(s: S, item: &Item) -> Self {
+        Self { low: f32x4::load_array_ref(s, &item.low), high: f32x4::load_array_ref(s, &item.high) }
+    }
+
+    #[inline(always)]
+    fn union(self, o: Self) -> Self {
+        Self { low: self.low.min(o.low), high: self.high.max(o.high) }
+    }
+
+    /// Twice the centre; the order of centres is all that counts.
+    #[inline(always)]
+    fn centre2(self) -> f32x4<S> {
+        self.low + self.high
+    }
+
+    /// The box of one point.
+    #[inline(always)]
+    fn point(at: f32x4<S>) -> Self {
+        Self { low: at, high: at }
+    }
+
+    /// Half the surface area; 0 when empty.
+    #[inline(always)]
+    fn half_area(self) -> f32 {
+        let [x, y, z, _] = (self.high - self.low).to_array();
+        if x < 0.0 { 0.0 } else { x * y + y * z + z * x }
+    }
+
+    fn bounds(self) -> Box32 {
+        let corner = |[x, y, z, _]: [f32; 4]| [x, y, z];
+        Box32 { min: corner(self.low.to_array()), max: corner(self.high.to_array()) }
+    }
+}
+
+/// Triangles that stand side by side, with the boxes round them and round their centres.
+#[derive(Clone, Copy)]
+struct Set<S: Simd> {
+    first: usize,
+    count: usize,
+    around: Extent<S>,
+    centres: Extent<S>,
+    leaf: bool,
+}
+
+impl<S: Simd> Set<S> {
+    fn empty(s: S, first: usize) -> Self {
+        Self { first, count: 0, around: Extent::empty(s), centres: Extent::empty(s), leaf: false }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, extent: Extent<S>) {
+        self.count += 1;
+        self.around = self.around.union(extent);
+        self.centres = self.centres.union(Extent::point(extent.centre2()));
+    }
+}
+
+/// Where a set is split: before a bin along an axis.
+#[derive(Clone, Copy)]
+struct Plane {
+    axis: usize,
+    bin: i32,
+    cost: f32,
+}
+
+/// How centres fall into bins.
+#[derive(Clone, Copy)]
+struct Scale<S: Simd> {
+    low: f32x4<S>,
+    scale: f32x4<S>,
+    bins: usize,
+}
+
+impl<S: Simd> Scale<S> {
+    #[inline(always)]
+    fn new(s: S, centres: Extent<S>, bins: usize) -> Self {
+        let extent = centres.high - centres.low;
+        let most = f32x4::splat(s, bins as f32 * 0.999);
+        let some = extent.simd_gt(f32x4::splat(s, f32::MIN_POSITIVE));
+        let scale = some.select(most / extent, f32x4::splat(s, 0.0));
+        Self { low: centres.low, scale, bins }
+    }
+
+    #[inline(always)]
+    fn bins_of(&self, extent: Extent<S>) -> [i32; 4] {
+        let place = (extent.centre2() - self.low) * self.scale;
+        place.to_int::<fearless_simd::i32x4<S>>().to_array()
+    }
+}
+
+/// What falls into a bin.
+#[derive(Clone, Copy)]
+struct Bin {
+    around: Item,
+    count: u32,
+}
+
+impl Default for Bin {
+    #[inline(always)]
+    fn default() -> Self {
+        Self { around: Item { low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4] }, count: 0 }
+    }
+}
+
+struct Grower<S: Simd> {
+    s: S,
+    preset: Preset,
+}
+
+impl<S: Simd> Clone for Grower<S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Simd> Copy for Grower<S> {}
+
+impl<S: Simd> Grower<S> {
+    fn grow(self, mesh: &TriangleMesh) -> WideTree {
+        let count = mesh.triangles().len();
+        let mut items: Vec<Item> =
+            (0..count as u32).into_par_iter().with_min_len(PARALLEL).map(|id| Item::new(mesh, id)).collect();
+        let mut root = Set::empty(self.s, 0);
+        for item in &items {
+            root.add(Extent::of(self.s, item));
+        }
+        let mut nodes = Vec::with_capacity(count / 8 + 1);
+        self.node(&mut items, 0, root, 0, &mut nodes);
+        let blocks =
+            items.par_chunks(WIDTH).with_min_len(PARALLEL / WIDTH).map(|items| block(mesh, items)).collect();
+        WideTree { nodes, blocks }
+    }
+
+    /// Appends the node over `items`, which stand from `base` on in the order of all, and those below it.
+    fn node(self, items: &mut [Item], base: usize, set: Set<S>, depth: usize, nodes: &mut Vec<Node8>) {
+        let mut sets = [set; WIDTH];
+        let children = self.children(items, &mut sets, depth);
+        let sets = &mut sets[..children];
+        sets.sort_unstable_by_key(|set| set.first);
+        let parallel = items.len() > PARALLEL;
+        let mut subtrees = if parallel { self.subtrees(items, base, sets, depth) } else { Vec::new() };
+        let at = nodes.len();
+        let mut node = Node8::EMPTY;
+        nodes.push(Node8::EMPTY);
+        for (child, set) in sets.iter().enumerate() {
+            let bounds = set.around.bounds();
+            if set.leaf {
+                node.push(&bounds, (base + set.first) as u32, set.count as u8);
+                continue;
+            }
+            node.push(&bounds, nodes.len() as u32, 0);
+            if parallel {
+                append(nodes, std::mem::take(&mut subtrees[child]));
+            } else {
+                let part = &mut items[set.first..set.first + set.count];
+                self.node(part, base + set.first, Set { first: 0, ..*set }, depth + 1, nodes);
+            }
+        }
+        nodes[at] = node;
+    }
+
+    /// The trees over all sets, each with links that count from its own start; empty for leaves.
+    fn subtrees(self, items: &mut [Item], base: usize, sets: &[Set<S>], depth: usize) -> Vec<Vec<Node8>> {
+        let mut rest = items;
+        let mut parts = Vec::with_capacity(sets.len());
+        for set in sets {
+            let (part, after) = rest.split_at_mut(set.count);
+            rest = after;
+            parts.push((part, *set));
+        }
+        let grown = |(part, set): (&mut [Item], Set<S>)| {
+            let mut nodes = Vec::new();
+            if !set.leaf {
+                self.node(part, base + set.first, Set { first: 0, ..set }, depth + 1, &mut nodes);
+            }
+            nodes
+        };
+        parts.into_par_iter().with_max_len(1).map(grown).collect()
+    }
+
+    /// Splits the largest of the sets until there are eight or none is worth it; how many there are. The first is
+    /// given.
+    fn children(self, items: &mut [Item], sets: &mut [Set<S>; WIDTH], depth: usize) -> usize {
+        let mut count = 1;
+        while count < WIDTH {
+            let areas = sets[..count].iter().map(|set| if set.leaf { -1.0 } else { set.around.half_area() });
+            let largest = areas.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |largest| largest.0);
+            if sets[largest].leaf {
+                break;
+            }
+            match self.split(items, &sets[largest], depth) {
+                Some([a, b]) => {
+                    (sets[largest], sets[count]) = (a, b);
+                    count += 1;
+                }
+                None => sets[largest].leaf = true,
+            }
+        }
+        for set in &mut sets[..count] {
+            set.leaf = set.count <= LEAF || (count == WIDTH && set.count <= FULL_LEAF);
+        }
+        count
+    }
+
+    /// Sorts the triangles of a set into two; `None` where a leaf is better.
+    fn split(self, items: &mut [Item], set: &Set<S>, depth: usize) -> Option<[Set<S>; 2]> {
+        if set.count <= LEAF {
+            return None;
+        }
+        let items = &mut items[set.first..set.first + set.count];
+        let scale = Scale::new(self.s, set.centres, self.preset.bins(set.count));
+        let plane = if depth < HALVE { self.best_plane(items, &scale) } else { None };
+        let Some(plane) = plane else {
+            // Centres in one place, or too deep for anything else: any halves do.
+            return Some(self.halves(items, set.first));
+        };
+        let [a, b] = self.partition(items, set.first, &scale, plane);
+        if a.count == 0 || b.count == 0 {
+            return Some(self.halves(items, set.first));
+        }
+        Some([a, b])
+    }
+
+    /// The cheapest of the planes between bins.
+    fn best_plane(self, items: &[Item], scale: &Scale<S>) -> Option<Plane> {
+        let mut best = None;
+        self.s.vectorize(
+            #[inline(always)]
+            || {
+                let mut bins = [[Bin::default(); MOST_BINS]; 3];
+                self.fill(items, scale, &mut bins);
+                for (axis, bins) in bins.iter().enumerate() {
+                    self.sweep(axis, &bins[..scale.bins], &mut best);
+                }
+            },
+        );
+        best
+    }
+
+    /// Gathers what falls into each bin, along each axis.
+    #[inline(always)]
+    fn fill(self, items: &[Item], scale: &Scale<S>, bins: &mut [[Bin; MOST_BINS]; 3]) {
+        for item in items {
+            let extent = Extent::of(self.s, item);
+            let places = scale.bins_of(extent);
+            for (axis, bins) in bins.iter_mut().enumerate() {
+                let bin = &mut bins[places[axis] as usize % MOST_BINS];
+                let around = Extent::of(self.s, &bin.around).union(extent);
+                around.low.store_array(&mut bin.around.low);
+                around.high.store_array(&mut bin.around.high);
+                bin.count += 1;
+            }
+        }
+    }
+
+    /// Sweeps the bins of an axis from both ends.
+    #[inline(always)]
+    fn sweep(self, axis: usize, bins: &[Bin], best: &mut Option<Plane>) {
+        let mut above = [0.0; MOST_BINS];
+        let (mut around, mut count) = (Extent::empty(self.s), 0);
+        for at in (1..bins.len()).rev() {
+            (around, count) = (around.union(Extent::of(self.s, &bins[at].around)), count + bins[at].count);
+            above[at] = around.half_area() * count as f32;
+        }
+        let all = count + bins[0].count;
+        (around, count) = (Extent::empty(self.s), 0);
+        for at in 1..bins.len() {
+            let bin = &bins[at - 1];
+            (around, count) = (around.union(Extent::of(self.s, &bin.around)), count + bin.count);
+            if count == 0 || count == all {
+                continue;
+            }
+            let cost = around.half_area() * count as f32 + above[at];
+            if best.is_none_or(|best| cost < best.cost) {
+                *best = Some(Plane { axis, bin: at as i32, cost });
+            }
+        }
+    }
+
+    /// Brings what lies before the plane to the front, and measures both parts.
+    fn partition(self, items: &mut [Item], first: usize, scale: &Scale<S>, plane: Plane) -> [Set<S>; 2] {
+        self.s.vectorize(
+            #[inline(always)]
+            || {
+                let (mut below, mut above) = (Set::empty(self.s, first), Set::empty(self.s, 0));
+                let (mut at, mut end) = (0, items.len());
+                while at < end {
+                    let extent = Extent::of(self.s, &items[at]);
+                    if scale.bins_of(extent)[plane.axis] < plane.bin {
+                        below.add(extent);
+                        at += 1;
+                    } else {
+                        above.add(extent);
+                        end -= 1;
+                        items.swap(at, end);
+                    }
+                }
+                above.first = first + below.count;
+                [below, above]
+            },
+        )
+    }
+
+    /// The first and the second half of the triangles.
+    fn halves(self, items: &[Item], first: usize) -> [Set<S>; 2] {
+        let middle = items.len() / 2;
+        let measured = |items: &[Item], first: usize| {
+            let mut set = Set::empty(self.s, first);
+            items.iter().for_each(|item| set.add(Extent::of(self.s, item)));
+            set
+        };
+        [measured(&items[..middle], first), measured(&items[middle..], first + middle)]
+    }
+}
+
+/// Appends a subtree whose inner links count from its own start.
+fn append(nodes: &mut Vec<Node8>, subtree: Vec<Node8>) {
+    let start = nodes.len() as u32;
+    nodes.extend(subtree.into_iter().map(|mut node| {
+        for child in 0..usize::from(node.children) {
+            if node.count[child] == 0 {
+                node.link[child] += start;
+            }
+        }
+        node
+    }));
+}
+
+/// A block of the triangles, the last repeated where there are fewer than eight.
+fn block(mesh: &TriangleMesh, items: &[Item]) -> Block8 {
+    let mut block = Block8 { corners: [[[0.0; WIDTH]; 3]; 3], facet: [0; WIDTH] };
+    for lane in 0..WIDTH {
+        let id = items[lane.min(items.len() - 1)].low[3].to_bits();
+        block.facet[lane] = id;
+        for (corner, place) in mesh.triangles()[id as usize].iter().enumerate() {
+            for axis in 0..3 {
+                block.corners[corner][axis][lane] = mesh.positions()[*place as usize][axis];
+            }
+        }
+    }
+    block
+}

@@ -1,0 +1,120 @@
+//! The tree over a mesh's triangles: eight boxes a node, triangles in blocks of eight, and how one `f64` ray walks it.
+
+use catoptra_core::{Ray, Span};
+
+use super::{Box32, MAX_DEPTH};
+
+/// Children of a node, and triangles of a block: as many as one register of AVX2 or half a register of AVX-512 holds.
+pub(crate) const WIDTH: usize = 8;
+
+/// Eight boxes side by side.
+#[derive(Debug, Clone)]
+#[repr(align(64))]
+pub(crate) struct Node8 {
+    /// Lower x, y and z of every child's box, then upper x, y and z.
+    pub(crate) bounds: [[f32; WIDTH]; 6],
+    /// Which node an inner child is, or where the triangles of a leaf begin.
+    pub(crate) link: [u32; WIDTH],
+    /// How many triangles a leaf has; 0 for an inner child.
+    pub(crate) count: [u8; WIDTH],
+    /// How many children there are; they come first.
+    pub(crate) children: u8,
+}
+
+impl Node8 {
+    pub(crate) const EMPTY: Self =
+        Self { bounds: [[0.0; WIDTH]; 6], link: [0; WIDTH], count: [0; WIDTH], children: 0 };
+
+    /// Adds a child.
+    pub(crate) fn push(&mut self, bounds: &Box32, link: u32, count: u8) {
+        let at = usize::from(self.children);
+        for axis in 0..3 {
+            self.bounds[axis][at] = bounds.min[axis];
+            self.bounds[axis + 3][at] = bounds.max[axis];
+        }
+        (self.link[at], self.count[at]) = (link, count);
+        self.children += 1;
+    }
+
+    /// The box of a child.
+    pub(crate) fn bounds_of(&self, child: usize) -> Box32 {
+        let rows = &self.bounds;
+        Box32 {
+            min: [rows[0][child], rows[1][child], rows[2][child]],
+            max: [rows[3][child], rows[4][child], rows[5][child]],
+        }
+    }
+}
+
+/// Eight triangles side by side. A leaf's triangles may begin and end within a block.
+#[derive(Debug, Clone)]
+#[repr(align(64))]
+pub(crate) struct Block8 {
+    /// Corner by corner: x, y and z of every triangle.
+    pub(crate) corners: [[[f32; WIDTH]; 3]; 3],
+    /// Numbers of the triangles in their mesh.
+    pub(crate) facet: [u32; WIDTH],
+}
+
+impl Block8 {
+    /// The corners of a triangle.
+    #[inline(always)]
+    pub(crate) fn triangle(&self, at: usize) -> [[f32; 3]; 3] {
+        let (at, [a, b, c]) = (at % WIDTH, &self.corners);
+        [[a[0][at], a[1][at], a[2][at]], [b[0][at], b[1][at], b[2][at]], [c[0][at], c[1][at], c[2][at]]]
+    }
+}
+
+/// Nodes and blocks. The triangles past the last leaf repeat one of the mesh's, so that all of a block may be tested.
+#[derive(Debug, Clone)]
+pub(crate) struct WideTree {
+    pub(crate) nodes: Vec<Node8>,
+    pub(crate) blocks: Vec<Block8>,
+}
+
+impl WideTree {
+    /// The number in its mesh of the triangle at a place in the blocks.
+    #[inline(always)]
+    pub(crate) fn facet(&self, slot: u32) -> u32 {
+        self.blocks[slot as usize / WIDTH].facet[slot as usize % WIDTH]
+    }
+
+    /// The corners of the triangle at a place in the blocks.
+    #[inline(always)]
+    pub(crate) fn triangle(&self, slot: u32) -> [[f32; 3]; 3] {
+        self.blocks[slot as usize / WIDTH].triangle(slot as usize)
+    }
+
+    /// Bytes of nodes and blocks.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.blocks[..])
+    }
+
+    /// Calls `visit` with the triangles whose boxes the ray may meet on the stretch that is left; `visit` answers how
+    /// far it is still worth looking.
+    pub(crate) fn walk(&self, ray: &Ray, span: Span, mut visit: impl FnMut(u32) -> f64) {
+        let mut far = span.max;
+        let mut stack: Vec<(f64, u32)> = Vec::with_capacity(MAX_DEPTH);
+        stack.push((0.0, 0));
+        while let Some((enter, at)) = stack.pop() {
+            if enter > far {
+                continue;
+            }
+            let node = &self.nodes[at as usize];
+            let first = stack.len();
+            for child in 0..usize::from(node.children) {
+                let Some(enter) = node.bounds_of(child).entered_by(ray, far) else { continue };
+                if node.count[child] == 0 {
+                    stack.push((enter, node.link[child]));
+                    continue;
+                }
+                let triangles =
+                    node.link[child] as usize..node.link[child] as usize + usize::from(node.count[child]);
+                for at in triangles {
+                    far = far.min(visit(self.blocks[at / WIDTH].facet[at % WIDTH]));
+                }
+            }
+            stack[first..].sort_by(|a, b| b.0.total_cmp(&a.0));
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! One ray through a mesh's tree: against eight boxes, then against eight triangles, at a time.
+//!
+//! Boxes after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013; triangles after Woop, Benthin and Wald, "Watertight
+//! Ray/Triangle Intersection", JCGT 2(1), 2013, with bounds.
+
+use catoptra_core::Ray;
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x8};
+
+use super::{Umpire, Verdict, Visit, Visits, meet};
+use crate::accel::{Block8, Node8, WIDTH, WideTree};
+use crate::lanes::Bits;
+use crate::numeric::{BOX_STRETCH, LONE_FLOOR, LONE_PAD, LONE_SHARE, LONE_SPREAD};
+
+/// A ray in a mesh's own space.
+pub(crate) struct Lone {
+    ray: Ray,
+    lane: usize,
+    /// The triangle that the ray leaves from.
+    left: u32,
+    /// Where it begins and how the slabs' `t` grow, per axis; for the lower and the upper rows of a node, whichever is
+    /// met first.
+    rows: [[usize; 3]; 2],
+    origins: [[f32; 3]; 2],
+    inverses: [[f32; 3]; 2],
+    /// Axes with the largest direction last.
+    axes: [usize; 3],
+    origin: [f32; 3],
+    /// Directions along the first two axes over the last.
+    shear: [f32; 2],
+    /// Error of an edge value per unit of the sheared corners, and where there are none.
+    slack: f32,
+    floor: f32,
+}
+
+/// The nearest crossing of a ray so far.
+#[derive(Clone, Copy)]
+pub(crate) struct LoneBest {
+    /// Where it is, in lengths of the ray's direction, and within which bound.
+    pub(crate) t: f64,
+    pub(crate) error: f64,
+    /// Which triangle of the tree's blocks, if it is one of this mesh.
+    pub(crate) slot: Option<u32>,
+    /// Whether any crossing will do.
+    pub(crate) any: bool,
+    /// Where the stretch begins.
+    pub(crate) min: f64,
+}
+
+impl LoneBest {
+    /// At least how far it is still worth looking, as the near sides of boxes are rounded.
+    #[inline(always)]
+    fn far(&self) -> f32 {
+        ((self.t + self.error) as f32) * BOX_STRETCH
+    }
+}
+
+impl Lone {
+    /// For a mesh whose corners' coordinates stay within `reach`.
+    #[inline(always)]
+    pub(crate) fn new(ray: Ray, lane: usize, left: u32, reach: f32) -> Self {
+        let (direction, size) = (ray.direction, ray.direction.abs());
+        let last = if size.x > size.y.max(size.z) {
+            0
+        } else if size.y > size.z {
+            1
+        } else {
+            2
+        };
+        let axes = [(last + 1) % 3, (last + 2) % 3, last];
+        let origin = ray.origin.as_vec3();
+        let largest = origin.abs().max_element();
+        let pad = largest * LONE_PAD + f32::MIN_POSITIVE;
+        let reach = reach + largest;
+        let shear = [direction[axes[0]] / direction[last], direction[axes[1]] / direction[last]];
+        let mut lone = Self {
+            ray,
+            lane,
+            left,
+            rows: [[0; 3]; 2],
+            origins: [[0.0; 3]; 2],
+            inverses: [[0.0; 3]; 2],
+            axes,
+            origin: origin.to_array(),
+            shear: [shear[0] as f32, shear[1] as f32],
+            slack: LONE_SHARE * reach,
+            floor: (LONE_FLOOR * reach) * (LONE_FLOOR * reach) + f32::MIN_POSITIVE,
+        };
+        for axis in 0..3 {
+            let inverse = 1.0 / direction[axis] as f32;
+            // A lower row is padded downwards, an upper one upwards.
+            let (lower, upper) = (origin[axis] + pad, origin[axis] - pad);
+            let backwards = inverse.is_sign_negative();
+            let (near, away) = if backwards { (axis + 3, axis) } else { (axis, axis + 3) };
+            let (first, second) = if backwards { (upper, lower) } else { (lower, upper) };
+            (lone.rows[0][axis], lone.rows[1][axis]) = (near, away);
+            (lone.origins[0][axis], lone.origins[1][axis]) = (first, second);
+            (lone.inverses[0][axis], lone.inverses[1][axis]) = (inverse, inverse * BOX_STRETCH);
+        }
+        lone
+    }
+
+    /// Finds the nearest triangle, or any. Compiled apart.
+    pub(crate) fn search<S: Simd>(
+        &self,
+        s: S,
+        tree: &WideTree,
+        visits: &mut Visits,
+        best: &mut LoneBest,
+        umpire: &mut dyn Umpire,
+    ) {
+        s.vectorize(
+            #[inline(always)]
+            || self.walk(s, tree, visits, best, umpire),
+        );
+    }
+
+    #[inline(always)]
+    fn walk<S: Simd>(
+        &self,
+        s: S,
+        tree: &WideTree,
+        visits: &mut Visits,
+        best: &mut LoneBest,
+        umpire: &mut dyn Umpire,
+    ) {
+        let mut far = best.far();
+        visits.start();
+        while let Some(visit) = visits.next() {
+            if visit.near > far {
+                continue;
+            }
+            if visit.count == 0 {
+                visits.nodes += 1;
+                let node = &tree.nodes[visit.link as usize];
+                self.enter(s, node, far, visits);
+                continue;
+            }
+            let (first, count) = (visit.link as usize, visit.count as usize);
+            for block in first / WIDTH..=(first + count - 1) / WIDTH {
+                visits.blocks += 1;
+                let block_first = (block * WIDTH) as u32;
+                let maybe = self.pass(s, &tree.blocks[block]);
+                for at in Bits(maybe) {
+                    self.weigh(&tree.blocks[block], at, block_first, best, tree, umpire);
+                }
+                if maybe != 0 {
+                    far = best.far();
+                    if best.any && best.slot.is_some() {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Where the ray crosses the nearer (side 0) or farther sides of the boxes along an axis.
+    #[inline(always)]
+    fn plane<S: Simd>(&self, s: S, node: &Node8, side: usize, axis: usize) -> f32x8<S> {
+        let row = f32x8::load_array_ref(s, &node.bounds[self.rows[side][axis] % 6]);
+        (row - f32x8::splat(s, self.origins[side][axis])) * f32x8::splat(s, self.inverses[side][axis])
+    }
+
+    /// Adds the children that the ray may enter up to `far`, the nearest last.
+    #[inline(always)]
+    fn enter<S: Simd>(&self, s: S, node: &Node8, far: f32, visits: &mut Visits) {
+        let mut enter = f32x8::splat(s, 0.0);
+        let mut leave = f32x8::splat(s, far);
+        for axis in 0..3 {
+            // NaN, from a ray within a face, counts as inside.
+            enter = self.plane(s, node, 0, axis).max_precise(enter);
+            leave = self.plane(s, node, 1, axis).min_precise(leave);
+        }
+        let there = (1_u64 << node.children) - 1;
+        let met = enter.simd_le(leave).to_bitmask() & there;
+        let near = enter.to_array();
+        let first = visits.stack.len();
+        for child in Bits(met) {
+            visits.add(
+                first,
+                Visit {
+                    near: near[child % WIDTH],
+                    link: node.link[child % WIDTH],
+                    count: u32::from(node.count[child % WIDTH]),
+                },
+            );
+        }
+    }
+
+    /// Corners across the ray, sheared so that it becomes an axis; `most` grows to their largest coordinate.
+    #[inline(always)]
+    fn corner<S: Simd>(&self, s: S, rows: &[[f32; WIDTH]; 3], most: &mut f32x8<S>) -> (f32x8<S>, f32x8<S>) {
+        let [x, y, z] = self.axes;
+        let z = self.from_origin(s, rows, z);
+        let (x, y) = (self.from_origin(s, rows, x), self.from_origin(s, rows, y));
+        let x = z.mul_add_precise(f32x8::splat(s, -self.shear[0]), x);
+        let y = z.mul_add_precise(f32x8::splat(s, -self.shear[1]), y);
+        *most = most.max(x.abs()).max(y.abs());
+        (x, y)
+    }
+
+    #[inline(always)]
+    fn from_origin<S: Simd>(&self, s: S, rows: &[[f32; WIDTH]; 3], axis: usize) -> f32x8<S> {
+        f32x8::load_array_ref(s, &rows[axis % 3]) - f32x8::splat(s, self.origin[axis % 3])
+    }
+
+    /// Triangles of a block that the ray is not certain to miss.
+    #[inline(always)]
+    fn pass<S: Simd>(&self, s: S, block: &Block8) -> u64 {
+        let mut most = f32x8::splat(s, 0.0);
+        let a = self.corner(s, &block.corners[0], &mut most);
+        let b = self.corner(s, &block.corners[1], &mut most);
+        let c = self.corner(s, &block.corners[2], &mut most);
+        let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
+        let spread = most.mul_add_precise(f32x8::splat(s, LONE_SPREAD), f32x8::splat(s, self.slack));
+        let error = most.mul_add_precise(spread, f32x8::splat(s, self.floor));
+        let (low, high) = (u.min(v).min(w), u.max(v).max(w));
+        !(low.simd_lt(-error) & high.simd_gt(error)).to_bitmask() & 0xff
+    }
+
+    /// Takes over a triangle where it is nearer.
+    #[inline(always)]
+    fn weigh(
+        &self,
+        block: &Block8,
+        at: usize,
+        first: u32,
+        best: &mut LoneBest,
+        tree: &WideTree,
+        umpire: &mut dyn Umpire,
+    ) {
+        let facet = block.facet[at % WIDTH];
+        if facet == self.left {
+            return;
+        }
+        let slot = first + at as u32;
+        match meet(&block.triangle(at), &self.ray) {
+            Verdict::Miss => return,
+            Verdict::Hit(t, error) => {
+                if t + error < best.min || t - error > best.t + best.error {
+                    return;
+                }
+                if t - error > best.min && t + error < best.t - best.error {
+                    (best.t, best.error, best.slot) = (t, error, Some(slot));
+                    return;
+                }
+            }
+            Verdict::Open => {}
+        }
+        let held = best.slot.map(|slot| tree.facet(slot));
+        if held != Some(facet)
+            && let Some(t) = umpire.decide(self.lane, facet, held)
+        {
+            (best.t, best.error, best.slot) = (t, t.abs() * f64::EPSILON, Some(slot));
+        }
+    }
+}
+
+/// Which side of the line through two points of a plane its origin lies on.
+#[inline(always)]
+fn edge<S: Simd>(v: (f32x8<S>, f32x8<S>), w: (f32x8<S>, f32x8<S>)) -> f32x8<S> {
+    v.0.mul_sub_precise(w.1, v.1 * w.0)
+}
