@@ -19,8 +19,10 @@ const FRAMES: u64 = 4;
 /// The word before a kernel's name and a number of frames, with which the program runs as its own subject.
 const SUBJECT: &str = "--subject";
 
-/// What is counted.
-const KERNELS: [(&str, fn() -> Scene); 6] = [
+/// What is counted: a name, and the scene that shows it.
+type Kernel = (&'static str, fn() -> Scene);
+
+const KERNELS: [Kernel; 6] = [
     ("planes", || scene("seed/planes.kdl")),
     ("sphere and shadows", || scene("seed/point.kdl")),
     ("reflections", || scene("seed/material.kdl")),

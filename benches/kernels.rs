@@ -15,7 +15,7 @@ const RAYS: usize = 1 << 14;
 /// One of each kind, about as large as seen from the rays' origins.
 const SHAPES: &str = r#"
 matte "grey" { color 0.5 0.5 0.5 }
-sphere "sphere" material="grey"
+sphere "sphere" material="grey" { radius 1 }
 plane "plane" material="grey"
 triangle "triangle" material="grey" { a -1 -1 0; b 1 -1 0; c 0 1 0 }
 tetrahedron "tetrahedron" material="grey" { a -1 -1 0; b 1 -1 0; c 0 1 0; d 0 0 1 }

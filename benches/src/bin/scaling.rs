@@ -32,34 +32,34 @@ fn main() -> Result<(), Failure> {
         &folder,
         "scaling-lights",
         "lights",
-        vec![
+        &[
             growing("lights everywhere", &lights, |n| many_lights(n, Reach::Everywhere))?,
             growing("lights nearby", &lights, |n| many_lights(n, Reach::Nearby))?,
         ],
     )?;
-    write(&folder, "scaling-spheres", "spheres", vec![growing("spheres", &powers(10, 7), many_spheres)?])?;
+    write(&folder, "scaling-spheres", "spheres", &[growing("spheres", &powers(10, 7), many_spheres)?])?;
     let (name, rings) = ("triangles of two meshes", [4, 16, 64, 256, 512]);
     let (_, times) = growing(name, &rings, placed_mesh)?;
     let triangles = times.into_iter().map(|(rings, time)| (4.0 * rings * rings, time)).collect();
-    write(&folder, "scaling-triangles", "triangles", vec![(name.to_owned(), triangles)])?;
+    write(&folder, "scaling-triangles", "triangles", &[(name.to_owned(), triangles)])?;
     let instances = growing("instances of 5000 triangles", &powers(10, 4), |n| many_instances(n, 50))?;
-    write(&folder, "scaling-instances", "instances", vec![instances])?;
-    write(&folder, "scaling-pixels", "pixels", vec![pixels("point")?, pixels("material")?])?;
-    write(&folder, "scaling-threads", "threads", vec![threads("point")?, threads("many")?])
+    write(&folder, "scaling-instances", "instances", &[instances])?;
+    write(&folder, "scaling-pixels", "pixels", &[pixels("point")?, pixels("material")?])?;
+    write(&folder, "scaling-threads", "threads", &[threads("point")?, threads("many")?])
 }
 
 fn powers(base: u32, count: u32) -> Vec<u32> {
     (0..count).map(|power| base.pow(power)).collect()
 }
 
-fn write(folder: &Path, name: &str, what: &str, lines: Vec<Line>) -> Result<(), Failure> {
-    for (line, points) in &lines {
+fn write(folder: &Path, name: &str, what: &str, lines: &[Line]) -> Result<(), Failure> {
+    for (line, points) in lines {
         for (number, milliseconds) in points {
             println!("{line:32} {number:>12} {milliseconds:>12.3} ms a frame");
         }
     }
     let title = format!("Frame time against {what}");
-    let plot = Plot { title: &title, x: what, y: "ms a frame", lines: &lines };
+    let plot = Plot { title: &title, x: what, y: "ms a frame", lines };
     catoptra_scene::atomic::write(&folder.join(format!("{name}.svg")), |out| {
         out.write_all(plot.svg().map_err(std::io::Error::other)?.as_bytes())
     })?;

@@ -29,6 +29,11 @@ pub(crate) struct ParetoArgs {
     threads: u16,
 }
 
+/// Answers some questions that have much in common.
+type Ask = fn(&Lab) -> Result<Vec<Question>>;
+
+const QUESTIONS: [Ask; 4] = [visibility::ask, pictures::ask, cutoffs::ask, closed_forms::ask];
+
 /// A question with all ways to answer it that were tried.
 pub(super) struct Question {
     /// The name of its picture and its rows in the CSV.
@@ -72,10 +77,8 @@ pub(super) struct Way {
 pub(crate) fn run(args: &ParetoArgs) -> Result<Outcome> {
     let pool = Pool::new(usize::from(args.threads)).into_diagnostic()?;
     let lab = Lab { pool, wide: find_backend("wide")? };
-    let ask: [fn(&Lab) -> Result<Vec<Question>>; 4] =
-        [visibility::ask, pictures::ask, cutoffs::ask, closed_forms::ask];
     let mut questions = Vec::new();
-    for ask in ask {
+    for ask in QUESTIONS {
         let started = Instant::now();
         let answered = ask(&lab)?;
         let names: Vec<&str> = answered.iter().map(|question| question.name).collect();
