@@ -136,8 +136,12 @@ fn a_second_render_gives_the_same_bits() {
 
 #[test]
 fn work_left_out_changes_no_bit() {
-    let skips =
-        [Skip::NOTHING, Skip { hidden: true, ..Skip::NOTHING }, Skip { shafts: true, ..Skip::NOTHING }];
+    let skips = [
+        Skip::NOTHING,
+        Skip { hidden: true, ..Skip::NOTHING },
+        Skip { shafts: true, ..Skip::NOTHING },
+        Skip { beams: true, ..Skip::NOTHING },
+    ];
     for (name, scene) in scenes() {
         let view = view(&scene);
         let usual = traced(&scene, "wide", &view, Film::new(ODD), 2);

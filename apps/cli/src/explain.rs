@@ -32,6 +32,10 @@ fn ambient_lights(job: &Job) -> usize {
 /// A reason for which rays were not traced: its words, and how many rays.
 type Reason = (&'static str, fn(&Skipped) -> u64);
 
+/// Why a camera ray was not traced.
+const NO_PRIMARY_RAY: &[Reason] =
+    &[("no shape can be seen through their part of the picture", |skipped| skipped.nothing_seen)];
+
 /// Reasons against shadow rays.
 const NO_SHADOW_RAY: &[Reason] = &[
     ("the surface faces away from the light", |skipped| skipped.facing_away),
@@ -43,6 +47,7 @@ const NO_SHADOW_RAY: &[Reason] = &[
 
 /// Reasons against reflection rays.
 const NO_REFLECTION_RAY: &[Reason] = &[
+    ("nothing but darkness lies ahead", |skipped| skipped.nothing_ahead),
     ("the surface does not reflect", |skipped| skipped.not_reflective),
     ("enough reflections one after another", |skipped| skipped.depth_limit),
     ("too faint to change the picture", |skipped| skipped.weight_cutoff),
@@ -172,7 +177,8 @@ impl Found<'_> {
 
     fn skipped(&self) -> Vec<String> {
         let rays = &self.stats.rays;
-        let mut lines = self.skipped_of("shadow ray", rays.shadow, NO_SHADOW_RAY);
+        let mut lines = self.skipped_of("primary ray", rays.primary, NO_PRIMARY_RAY);
+        lines.extend(self.skipped_of("shadow ray", rays.shadow, NO_SHADOW_RAY));
         lines.extend(self.skipped_of("reflection ray", rays.reflection, NO_REFLECTION_RAY));
         lines
     }

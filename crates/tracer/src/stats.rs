@@ -26,6 +26,8 @@ pub struct Tests {
 /// Rays not traced, by reason.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Skipped {
+    /// Camera rays: no shape can be seen through their part of the picture.
+    pub nothing_seen: u64,
     /// Shadow rays: the surface faces away from the light.
     pub facing_away: u64,
     /// Shadow rays: the point lies outside the light's cone.
@@ -36,6 +38,8 @@ pub struct Skipped {
     pub unlit_material: u64,
     /// Shadow rays answered without tracing: nothing stands between the tile's surfaces and the light.
     pub nothing_between: u64,
+    /// Reflection rays: nothing but darkness lies where the rays of their stream go.
+    pub nothing_ahead: u64,
     /// Reflection rays: the surface reflects nothing.
     pub not_reflective: u64,
     /// Reflection rays: deep enough already.
@@ -74,7 +78,8 @@ macro_rules! add_fields {
 add_fields!(Rays: primary, shadow, reflection);
 add_fields!(Tests: shapes, boxes);
 add_fields!(Skipped:
-    facing_away, out_of_cone, shadow_off, unlit_material, nothing_between, not_reflective, depth_limit, weight_cutoff);
+    nothing_seen, facing_away, out_of_cone, shadow_off, unlit_material, nothing_between, nothing_ahead, not_reflective,
+    depth_limit, weight_cutoff);
 add_fields!(Stats: rays, tests, skipped, settled, exact, not_finite);
 
 impl Stats {

@@ -95,13 +95,15 @@ pub struct Skip {
     pub hidden: bool,
     /// Shapes that cannot stand between what a tile shows and a light are not tested for its shadows.
     pub shafts: bool,
+    /// Shapes that no ray of a stream of reflected rays can meet are not tested for it.
+    pub beams: bool,
 }
 
 impl Skip {
     /// Everything that can be left out is.
-    pub const ALL: Self = Self { hidden: true, shafts: true };
+    pub const ALL: Self = Self { hidden: true, shafts: true, beams: true };
     /// Nothing is left out.
-    pub const NOTHING: Self = Self { hidden: false, shafts: false };
+    pub const NOTHING: Self = Self { hidden: false, shafts: false, beams: false };
 }
 
 impl View {

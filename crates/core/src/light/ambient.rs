@@ -2,12 +2,12 @@
 
 use super::{Arrival, Emitter};
 use crate::part::Given;
-use crate::{Field, FieldKind, InvalidPart, Lane, Part, Placement, Rgb, Triple, Value, Values};
+use crate::{Constant3, Field, FieldKind, InvalidPart, Lane, Part, Placement, Rgb, Triple, Value, Values};
 
 /// The same radiance from every direction; a matte surface shows it times its albedo. Never shadowed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AmbientLight {
-    radiance: Rgb,
+    radiance: Constant3,
 }
 
 impl AmbientLight {
@@ -31,11 +31,11 @@ impl Part for AmbientLight {
     )];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
-        Ok(Self { radiance: given.quantity("radiance")? })
+        Ok(Self { radiance: given.quantity("radiance")?.into() })
     }
 
     fn values(&self) -> Values {
-        Values::new().with("radiance", Value::Color(self.radiance))
+        Values::new().with("radiance", Value::Color(self.radiance.rgb()))
     }
 }
 
@@ -44,7 +44,11 @@ impl Emitter for AmbientLight {
     #[inline(always)]
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
         let zero = Triple::splat(point.x.number(0.0));
-        Arrival { towards: zero, distance: zero.x, irradiance: zero, lit: zero.x.less(zero.x) }
+        Arrival { towards: zero, distance: zero.x, strength: zero.x, lit: zero.x.less(zero.x) }
+    }
+
+    fn color(&self) -> &Constant3 {
+        &self.radiance
     }
 
     fn placed(&self, _: &Placement) -> Self {
@@ -52,7 +56,7 @@ impl Emitter for AmbientLight {
     }
 
     fn ambient(&self) -> Rgb {
-        self.radiance
+        self.radiance.rgb()
     }
 
     fn shadow(&self) -> bool {

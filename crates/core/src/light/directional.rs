@@ -69,9 +69,13 @@ impl Emitter for DirectionalLight {
         Arrival {
             towards: Triple::of(like, &self.towards),
             distance: like.number(f64::INFINITY),
-            irradiance: Triple::of(like, &self.irradiance),
+            strength: like.number(1.0),
             lit: like.number(0.0).less(like.number(1.0)),
         }
+    }
+
+    fn color(&self) -> &Constant3 {
+        &self.irradiance
     }
 
     fn placed(&self, placement: &Placement) -> Self {

@@ -15,7 +15,7 @@ pub use spot::SpotLight;
 
 use glam::DVec3;
 
-use crate::{Field, FieldKind, Lane, Placement, Rgb, Triple, Value};
+use crate::{Constant3, Field, FieldKind, Lane, Placement, Rgb, Triple, Value};
 
 /// What would arrive from a light at a point.
 #[derive(Debug, Clone, Copy)]
@@ -24,8 +24,8 @@ pub struct Arrival<L: Lane> {
     pub towards: Triple<L>,
     /// Metres to the light; infinite for a light at infinity.
     pub distance: L,
-    /// Irradiance on a surface that faces the light, W/m² per channel.
-    pub irradiance: Triple<L>,
+    /// Irradiance on a surface that faces the light, in parts of the light's [colour](Emitter::color).
+    pub strength: L,
     /// Where anything arrives at all; the other members mean nothing elsewhere.
     pub lit: L::Mask,
 }
@@ -34,6 +34,9 @@ pub struct Arrival<L: Lane> {
 pub trait Emitter {
     /// What would arrive at `point`.
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L>;
+
+    /// What [`Arrival::strength`] is given in: W/m² per channel for a light at infinity, W/sr for others.
+    fn color(&self) -> &Constant3;
 
     /// The same light standing elsewhere.
     #[must_use]
@@ -60,6 +63,12 @@ pub trait Emitter {
     fn shadow(&self) -> bool;
 }
 
+/// What wants to know a light's kind before it asks many questions.
+pub trait LightVisitor {
+    /// Asks a light of some kind.
+    fn visit<E: Emitter>(self, light: &E);
+}
+
 crate::part::parts! {
     $ each_light
     /// A light, in its own space until it is [placed](Light::placed).
@@ -76,10 +85,29 @@ crate::part::parts! {
 }
 
 impl Light {
+    /// Shows a visitor what kind of light it is.
+    #[inline(always)]
+    pub fn visit(&self, visitor: impl LightVisitor) {
+        each_light!(self, light => visitor.visit(light));
+    }
+
     /// See [`Emitter::arriving`].
     #[inline(always)]
     pub fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
         each_light!(self, light => light.arriving(point))
+    }
+
+    /// Irradiance on a surface that faces the light, W/m² per channel, where something arrives.
+    #[inline(always)]
+    pub fn irradiance<L: Lane>(&self, arrival: &Arrival<L>) -> Triple<L> {
+        Triple::of(arrival.strength, self.color()).scale(arrival.strength)
+    }
+
+    /// See [`Emitter::color`].
+    #[inline(always)]
+    #[must_use]
+    pub fn color(&self) -> &Constant3 {
+        each_light!(self, light => light.color())
     }
 
     /// See [`Emitter::placed`].
@@ -120,9 +148,9 @@ const SHADOW: Field =
     Field::required("shadow", FieldKind::Flag, "", "Whether things throw shadows in this light.")
         .or(|| Value::Flag(true));
 
-/// What arrives from a point that shines with `intensity` (W/sr) in all directions: the inverse square law.
+/// What arrives from a point that shines alike in all directions: the inverse square law.
 #[inline(always)]
-fn from_point<L: Lane>(position: Triple<L>, intensity: Triple<L>, point: Triple<L>) -> Arrival<L> {
+fn from_point<L: Lane>(position: Triple<L>, point: Triple<L>) -> Arrival<L> {
     let way = position - point;
     let distance2 = way.dot(way);
     let distance = distance2.sqrt();
@@ -130,7 +158,7 @@ fn from_point<L: Lane>(position: Triple<L>, intensity: Triple<L>, point: Triple<
     Arrival {
         towards: way.scale(inverse),
         distance,
-        irradiance: intensity.scale(inverse * inverse),
-        lit: distance.number(0.0).less(distance2),
+        strength: inverse * inverse,
+        lit: distance2.number(0.0).less(distance2),
     }
 }

@@ -58,7 +58,11 @@ impl Part for PointLight {
 impl Emitter for PointLight {
     #[inline(always)]
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
-        from_point(Triple::of(point.x, &self.position), Triple::of(point.x, &self.intensity), point)
+        from_point(Triple::of(point.x, &self.position), point)
+    }
+
+    fn color(&self) -> &Constant3 {
+        &self.intensity
     }
 
     fn placed(&self, placement: &Placement) -> Self {

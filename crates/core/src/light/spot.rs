@@ -134,17 +134,17 @@ impl Emitter for SpotLight {
     #[inline(always)]
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
         let like = point.x;
-        let arrival = from_point(Triple::of(like, &self.position), Triple::of(like, &self.intensity), point);
+        let arrival = from_point(Triple::of(like, &self.position), point);
         // 1 − cos α is half the square of the difference of the two unit vectors, which keeps its digits near the axis.
         let aside = arrival.towards + Triple::of(like, &self.axis);
         let above_outer = like.of(self.outer_depth) - aside.dot(aside) * like.number(0.5);
         let (zero, one) = (like.number(0.0), like.number(1.0));
         let share = (above_outer * like.of(self.slope)).max(zero).min(one).power(self.falloff);
-        Arrival {
-            irradiance: arrival.irradiance.scale(share),
-            lit: arrival.lit & zero.less(above_outer),
-            ..arrival
-        }
+        Arrival { strength: arrival.strength * share, lit: arrival.lit & zero.less(above_outer), ..arrival }
+    }
+
+    fn color(&self) -> &Constant3 {
+        &self.intensity
     }
 
     fn placed(&self, placement: &Placement) -> Self {

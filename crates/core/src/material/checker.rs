@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{LAMBERT, REFLECTIVENESS, ShadingPoint, Surface};
+use super::{REFLECTIVENESS, ShadingPoint, Surface};
 use crate::lane::Constant3;
 use crate::numeric::{PATTERN_ERROR, PATTERN_SHIFT};
 use crate::part::Given;
@@ -40,15 +40,6 @@ impl Checker {
         let [x, z] = self.phase;
         [at.position.x.mul_add(scale, at.distance.of(x)), at.position.z.mul_add(scale, at.distance.of(z))]
     }
-
-    #[inline(always)]
-    fn albedo<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
-        let [x, z] = self.cells(at);
-        let cell = x.floor() + z.floor();
-        let half = cell * cell.number(0.5);
-        let odd = cell.number(0.25).less(half - half.floor());
-        Triple::select(odd, Triple::of(cell, &self.color), Triple::of(cell, &self.other))
-    }
 }
 
 impl Part for Checker {
@@ -84,13 +75,12 @@ impl Part for Checker {
 
 impl Surface for Checker {
     #[inline(always)]
-    fn under_ambient<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
-        self.albedo(at)
-    }
-
-    #[inline(always)]
-    fn under_light<L: Lane>(&self, at: &ShadingPoint<L>, _towards: Triple<L>, cosine: L) -> Triple<L> {
-        self.albedo(at).scale(cosine * cosine.of(LAMBERT))
+    fn albedo<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
+        let [x, z] = self.cells(at);
+        let cell = x.floor() + z.floor();
+        let half = cell * cell.number(0.5);
+        let odd = cell.number(0.25).less(half - half.floor());
+        Triple::select(odd, Triple::of(cell, &self.color), Triple::of(cell, &self.other))
     }
 
     fn reflectiveness(&self) -> Coefficient {
@@ -111,16 +101,9 @@ impl Surface for Checker {
 
     #[inline(always)]
     fn undecided<L: Lane>(&self, at: &ShadingPoint<L>, error: L) -> L::Mask {
-        let (half, one) = (at.distance.number(0.5), at.distance.number(1.0));
-        let own_error = at.distance.number(PATTERN_ERROR);
-        let near_edge = |cell: L| {
-            let from_edge = half - (cell - cell.floor() - half).abs();
-            let least = (cell.abs() + one + one).mul_add(own_error, error * at.distance.of(self.scale));
-            // NaN is near an edge.
-            !least.less(from_edge)
-        };
+        let error = error * at.distance.of(self.scale);
         let [x, z] = self.cells(at);
-        near_edge(x) | near_edge(z)
+        is_near_edge(x, error) | is_near_edge(z, error)
     }
 
     fn reduced(&self, position: DVec3) -> DVec3 {
@@ -131,4 +114,14 @@ impl Surface for Checker {
         let [x, z] = self.phase;
         DVec3::new(middle(position.x, x), position.y, middle(position.z, z))
     }
+}
+
+/// Where a place in cells may lie on the other side of a cell's edge, if it is off by `error`.
+#[inline(always)]
+fn is_near_edge<L: Lane>(cell: L, error: L) -> L::Mask {
+    let (half, one) = (cell.number(0.5), cell.number(1.0));
+    let from_edge = half - (cell - cell.floor() - half).abs();
+    let least = (cell.abs() + one + one).mul_add(cell.number(PATTERN_ERROR), error);
+    // NaN is near an edge.
+    !least.less(from_edge)
 }

@@ -1,6 +1,6 @@
 //! The matte surface: light leaves alike in all directions (Lambert 1760).
 
-use super::{LAMBERT, REFLECTIVENESS, ShadingPoint, Surface};
+use super::{REFLECTIVENESS, ShadingPoint, Surface};
 use crate::lane::Constant3;
 use crate::part::Given;
 use crate::{Coefficient, Field, FieldKind, InvalidPart, Lane, Part, Rgb, Triple, Value, Values};
@@ -44,13 +44,8 @@ impl Part for Matte {
 
 impl Surface for Matte {
     #[inline(always)]
-    fn under_ambient<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
+    fn albedo<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
         Triple::of(at.distance, &self.color)
-    }
-
-    #[inline(always)]
-    fn under_light<L: Lane>(&self, at: &ShadingPoint<L>, _towards: Triple<L>, cosine: L) -> Triple<L> {
-        Triple::of(at.distance, &self.color).scale(cosine * cosine.of(LAMBERT))
     }
 
     fn reflectiveness(&self) -> Coefficient {

@@ -41,16 +41,27 @@ pub trait Surface {
         Triple::splat(at.distance.number(0.0))
     }
 
-    /// Radiance shown for each unit of ambient radiance.
+    /// Radiance shown for each unit of ambient radiance: as a rule, the [albedo](Self::albedo).
     #[inline(always)]
     fn under_ambient<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
+        self.albedo(at)
+    }
+
+    /// Share of arriving light that is sent on alike in all directions (albedo): radiance over irradiance, times π.
+    #[inline(always)]
+    fn albedo<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
         Triple::splat(at.distance.number(0.0))
     }
 
-    /// Radiance shown for each unit of irradiance (at normal incidence) from the direction `towards`, a unit vector
-    /// whose `cosine` to the normal is positive: the BRDF times the cosine.
+    /// Whether it sends on more in some directions than in others.
+    fn is_glossy(&self) -> bool {
+        false
+    }
+
+    /// What it sends on more than [`albedo`](Self::albedo) says: radiance for each unit of irradiance (at normal
+    /// incidence) from the direction `towards`, a unit vector whose `cosine` to the normal is positive.
     #[inline(always)]
-    fn under_light<L: Lane>(&self, at: &ShadingPoint<L>, _towards: Triple<L>, _cosine: L) -> Triple<L> {
+    fn gloss<L: Lane>(&self, at: &ShadingPoint<L>, _towards: Triple<L>, _cosine: L) -> Triple<L> {
         Triple::splat(at.distance.number(0.0))
     }
 
@@ -125,10 +136,46 @@ impl Material {
         each_material!(self, material => material.under_ambient(at))
     }
 
-    /// See [`Surface::under_light`].
+    /// See [`Surface::albedo`].
+    #[inline(always)]
+    pub fn albedo<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
+        each_material!(self, material => material.albedo(at))
+    }
+
+    /// See [`Surface::is_glossy`].
+    #[inline]
+    #[must_use]
+    pub fn is_glossy(&self) -> bool {
+        each_material!(self, material => material.is_glossy())
+    }
+
+    /// See [`Surface::gloss`].
+    #[inline(always)]
+    pub fn gloss<L: Lane>(&self, at: &ShadingPoint<L>, towards: Triple<L>, cosine: L) -> Triple<L> {
+        each_material!(self, material => material.gloss(at, towards, cosine))
+    }
+
+    /// Radiance shown of itself, under ambient radiance, and of light that gives so much irradiance in all: all but the
+    /// [gloss](Self::gloss). Only what the kind of material needs is asked of `at`.
+    #[inline(always)]
+    pub fn shown<L: Lane>(
+        &self,
+        at: impl Fn() -> ShadingPoint<L>,
+        ambient: Triple<L>,
+        irradiance: Triple<L>,
+    ) -> Triple<L> {
+        each_material!(self, material => {
+            let at = &at();
+            let own = material.under_ambient(at).times_add(ambient, material.own(at));
+            material.albedo(at).scale(ambient.x.of(LAMBERT)).times_add(irradiance, own)
+        })
+    }
+
+    /// Radiance shown for each unit of irradiance (at normal incidence) from the direction `towards`, a unit vector
+    /// whose `cosine` to the normal is positive: the BRDF times the cosine.
     #[inline(always)]
     pub fn under_light<L: Lane>(&self, at: &ShadingPoint<L>, towards: Triple<L>, cosine: L) -> Triple<L> {
-        each_material!(self, material => material.under_light(at, towards, cosine))
+        self.albedo(at).scale(cosine * cosine.of(LAMBERT)) + self.gloss(at, towards, cosine)
     }
 
     /// See [`Surface::answers_light`].

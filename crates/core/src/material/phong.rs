@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use super::{LAMBERT, REFLECTIVENESS, ShadingPoint, Surface};
+use super::{REFLECTIVENESS, ShadingPoint, Surface};
 use crate::lane::Constant3;
 use crate::part::Given;
 use crate::{Coefficient, Field, FieldKind, InvalidPart, Lane, Part, Rgb, Triple, Value, Values};
@@ -84,15 +84,22 @@ impl Surface for Phong {
     }
 
     #[inline(always)]
-    fn under_light<L: Lane>(&self, at: &ShadingPoint<L>, towards: Triple<L>, cosine: L) -> Triple<L> {
+    fn albedo<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
+        Triple::of(at.distance, &self.diffuse)
+    }
+
+    fn is_glossy(&self) -> bool {
+        self.specular.rgb() != Rgb::BLACK
+    }
+
+    #[inline(always)]
+    fn gloss<L: Lane>(&self, at: &ShadingPoint<L>, towards: Triple<L>, cosine: L) -> Triple<L> {
         let half = towards + at.to_viewer;
         // Zero only for light from straight behind, where the cosine is not positive.
         let along = half.dot(at.normal) / half.dot(half).sqrt();
         let lobe = along.max(cosine.number(0.0)).power(self.shininess) * cosine.of(self.lobe);
         let specular = if self.normalised { lobe * cosine } else { lobe };
-        let diffuse = cosine * cosine.of(LAMBERT);
-        let scattered = Triple::of(cosine, &self.diffuse).scale(diffuse);
-        Triple::of(cosine, &self.specular).scale_add(specular, scattered)
+        Triple::of(cosine, &self.specular).scale(specular)
     }
 
     fn reflectiveness(&self) -> Coefficient {

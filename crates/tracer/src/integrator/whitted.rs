@@ -167,8 +167,8 @@ impl<'a, S: Search> Path<'a, S> {
         for lamp in snapshot.lights() {
             let arrival = lamp.arriving::<f64>(meeting.point.into());
             if let Some(cosine) = self.arrives(meeting, lamp, &arrival) {
-                light +=
-                    rgb(meeting.material.under_light(at, arrival.towards, cosine)) * rgb(arrival.irradiance);
+                light += rgb(meeting.material.under_light(at, arrival.towards, cosine))
+                    * rgb(lamp.irradiance(&arrival));
             }
         }
         light

@@ -47,6 +47,18 @@ impl<S: Simd> F<S> {
         self.0.as_slice()[lane]
     }
 
+    /// The least of all lanes.
+    #[inline(always)]
+    pub(crate) fn least(self) -> f64 {
+        f64::from(self.0.reduce_min())
+    }
+
+    /// The greatest of all lanes.
+    #[inline(always)]
+    pub(crate) fn greatest(self) -> f64 {
+        f64::from(self.0.reduce_max())
+    }
+
     #[inline(always)]
     pub(crate) fn set(&mut self, lane: usize, v: f32) {
         self.0.as_mut_slice()[lane] = v;

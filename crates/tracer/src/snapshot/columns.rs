@@ -61,6 +61,12 @@ impl Ball {
         Self { center: bounds.centre(), radius: bounds.size().length() / 2.0 }
     }
 
+    /// The box round it.
+    pub(crate) fn bounds(&self) -> Aabb {
+        let reach = DVec3::splat(self.radius);
+        Aabb { min: self.center - reach, max: self.center + reach }
+    }
+
     fn of(shape: &Shape) -> Option<Self> {
         match shape {
             Shape::Sphere(sphere) => Some(Self { center: sphere.center(), radius: sphere.radius() }),

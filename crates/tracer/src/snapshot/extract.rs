@@ -65,7 +65,6 @@ impl Snapshot {
             origin,
             frame,
             constants: [ambient.into(), scene.settings().background().into()],
-            has_patterns: materials.iter().any(Material::is_pattern),
             material_rows: materials.iter().map(MaterialRow::new).collect(),
             light_rows: lights.iter().map(|light| LightRow::new(light, origin - frame, &planes)).collect(),
             columns,

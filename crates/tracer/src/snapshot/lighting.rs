@@ -15,6 +15,8 @@ pub(crate) struct MaterialRow {
     /// Share that is not reflected.
     pub(crate) kept: Coefficient,
     pub(crate) answers_light: bool,
+    /// Whether it reflects anything.
+    pub(crate) reflects: bool,
     /// Whether its look jumps from one position to the next.
     pub(crate) is_pattern: bool,
 }
@@ -27,13 +29,9 @@ impl MaterialRow {
             tint: (material.reflection_color().rgb() * reflected).into(),
             kept: Coefficient::new(1.0 - reflected),
             answers_light: material.answers_light() && reflected < 1.0,
+            reflects: reflected > 0.0 && material.reflection_color().rgb() != Rgb::BLACK,
             is_pattern: material.is_pattern() && reflected < 1.0,
         }
-    }
-
-    /// Whether it reflects anything.
-    pub(crate) fn reflects(&self) -> bool {
-        self.tint.rgb() != Rgb::BLACK
     }
 }
 
@@ -41,7 +39,6 @@ impl MaterialRow {
 #[derive(Debug, Clone)]
 pub(crate) struct LightRow {
     pub(crate) light: Light,
-    pub(crate) shadow: bool,
     /// Its position, or the unit vector towards it when `at_infinity`.
     pub(crate) place: DVec3,
     /// The same in the snapshot's frame.
@@ -64,7 +61,6 @@ impl LightRow {
             if at_infinity { plane.side_of_direction(place(light)) } else { plane.side_of(place(light)) }
         };
         Self {
-            shadow: light.shadow(),
             place: place(&own),
             in_frame: place(light),
             at_infinity,

@@ -50,7 +50,6 @@ pub struct Snapshot {
     /// Ambient light and background.
     constants: [Constant3; 2],
     material_rows: Vec<MaterialRow>,
-    has_patterns: bool,
     light_rows: Vec<LightRow>,
 }
 
@@ -137,12 +136,6 @@ impl Snapshot {
     #[inline]
     pub(crate) fn background_light(&self) -> &Constant3 {
         &self.constants[1]
-    }
-
-    /// Whether any material's look jumps from one position to the next.
-    #[inline]
-    pub(crate) fn has_patterns(&self) -> bool {
-        self.has_patterns
     }
 
     /// The materials as the SIMD backend reads them.

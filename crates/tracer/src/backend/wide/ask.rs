@@ -6,6 +6,7 @@ use fearless_simd::{Level, Simd};
 
 use super::Tracer;
 use super::batch::Found;
+use super::chunk::Chunk;
 use super::packet::{Left, Packet, Precise, drift, kernel_rays};
 use super::plan::Shapes;
 use super::queue::Queue;
@@ -13,7 +14,7 @@ use super::search::Best;
 use crate::backend::Frame;
 use crate::film::NOTHING;
 use crate::kernel::mesh::Visits;
-use crate::lanes::{D, D3, F, M, U, splat_wide, splat3};
+use crate::lanes::{D, D3, F, M, U, narrow3, splat_wide, splat3};
 use crate::numeric::{END_ERROR, ORDINARY};
 use crate::query::{HitSlice, RaySlice};
 use crate::{Place, Size, Snapshot, Stats, View};
@@ -68,7 +69,7 @@ impl Asked<'_> {
     #[inline(always)]
     fn end<S: Simd>(&self, s: S, ends: &[f64], at: usize) -> F<S> {
         let (_, direction) = self.precise(s, at);
-        let (_, inverse_length) = kernel_rays(s, direction, direction, None);
+        let (_, inverse_length) = kernel_rays(s, narrow3(direction), narrow3(direction));
         D::load(s, &ends[self.rays.first + at..]).narrow() / inverse_length
     }
 
@@ -76,7 +77,7 @@ impl Asked<'_> {
     #[inline(always)]
     fn packet<S: Simd>(&self, s: S, at: usize) -> Packet<'_, S> {
         let (origin, direction) = self.precise(s, at);
-        let (rays, inverse_length) = kernel_rays(s, origin, direction, None);
+        let (rays, inverse_length) = kernel_rays(s, narrow3(origin), narrow3(direction));
         let from = self.rays.first + at;
         let any = !self.rays.rays.prim.is_empty();
         let left = if any {
@@ -180,9 +181,11 @@ fn answer_with<S: Simd>(
         frame: &frame,
         stats: Stats::default(),
         next: &mut next,
+        bounce: None,
         found: &mut found,
         between: &mut [],
         visits: &mut visits,
+        chunk: &mut Chunk::new(s),
         outside: false,
     };
     let asked = Asked { rays, any: matches!(answers, Answers::Occluded(_)), snapshot };

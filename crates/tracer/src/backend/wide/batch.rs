@@ -1,58 +1,130 @@
 //! Where packets come from: the camera, pixel block by pixel block, or the stream of rays that surfaces sent on.
 
-use catoptra_core::Lane;
+use std::ops::Range;
+
+use catoptra_core::{Constant3, Lane};
 use fearless_simd::Simd;
 
 use super::packet::{Packet, Primary};
 use super::queue::Queue;
-use crate::Tile;
-use crate::lanes::{F, F3, U};
+use super::search::Best;
+use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING};
+use crate::lanes::{F, F3, M, U};
+use crate::{Region, Tile};
 
 /// Packets that are traced together.
 pub(super) trait Batch<S: Simd> {
-    /// How many rays there are, in whole packets.
-    fn rays(&self) -> usize;
+    /// How many stretches of rays there are.
+    fn stretches(&self) -> u32;
 
-    /// How many of them are rays at all.
+    /// Places of the rays of a stretch, in whole packets.
+    fn stretch(&self, stretch: u32) -> Range<usize>;
+
+    /// How many rays there are.
     fn live(&self) -> u64;
 
-    /// The packet that starts with ray `at`; its inverse lengths, if they are known from before.
-    fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S>;
+    /// The packet that starts with ray `at`.
+    fn packet(&self, s: S, at: usize) -> Packet<'_, S>;
 
-    /// Adds the light of the packet that starts with ray `at` to its pixels.
-    fn add(&self, s: S, at: usize, packet: &Packet<'_, S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]);
+    /// Which lanes of the packet that starts with ray `at` are rays at all.
+    fn live_lanes(&self, s: S, at: usize) -> M<S>;
+
+    /// Adds the light that arrives along the packet that starts with ray `at` to its pixels, and keeps what camera
+    /// rays have met. Answers how many sums were not finite, and so were put to black.
+    fn add(&self, s: S, at: usize, best: &Best<S>, light: F3<S>, tile: &mut Tile) -> u64;
 }
 
-impl<S: Simd> Batch<S> for Primary<S> {
+/// The camera rays of a part of a tile.
+pub(super) struct Part<'a, S: Simd> {
+    pub(super) camera: &'a Primary<'a, S>,
+    /// Which part, from the tile's corner, in whole blocks.
+    pub(super) region: Region,
+}
+
+impl<S: Simd> Part<'_, S> {
+    /// Fills the part with what rays show that meet nothing.
     #[inline(always)]
-    fn rays(&self) -> usize {
-        self.pixels
+    pub(super) fn fill(&self, s: S, background: &Constant3, tile: &mut Tile) {
+        let (far, nothing) = (F::splat(s, f32::INFINITY), U::splat(s, NOTHING));
+        let light = F3::of(far, background);
+        for stretch in 0..self.stretches() {
+            for at in self.stretch(stretch).step_by(F::<S>::LANES) {
+                self.store(s, at, light, (far, nothing), tile);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn store(&self, s: S, at: usize, light: F3<S>, (depth, prim): (F<S>, U<S>), tile: &mut Tile) -> u64 {
+        let mut not_finite = 0;
+        for (pixels, light) in tile.radiance.iter_mut().zip([light.x, light.y, light.z]) {
+            let pixels = &mut pixels[at..];
+            let light = if self.camera.fresh { light } else { F::load(s, pixels) + light };
+            not_finite += store_finite(s, light, pixels);
+        }
+        if self.camera.kept {
+            depth.store(&mut tile.depth[at..]);
+            prim.store(&mut tile.surface[at..]);
+        }
+        not_finite
+    }
+}
+
+/// Stores the lanes that are finite; others, which are counted, become the largest number where they are past every
+/// number, and 0 where they are none.
+#[inline(always)]
+fn store_finite<S: Simd>(s: S, light: F<S>, pixels: &mut [f32]) -> u64 {
+    let (zero, most) = (F::splat(s, 0.0), F::splat(s, f32::MAX));
+    let finite = light.abs().less(F::splat(s, f32::INFINITY));
+    F::pick(finite, light, F::pick(zero.less(light), most, zero)).store(pixels);
+    (!finite).count()
+}
+
+impl<S: Simd> Batch<S> for Part<'_, S> {
+    #[inline(always)]
+    fn stretches(&self) -> u32 {
+        self.region.size.height.div_ceil(BLOCK)
+    }
+
+    #[inline(always)]
+    fn stretch(&self, stretch: u32) -> Range<usize> {
+        let first =
+            (self.region.y / BLOCK + stretch) * self.camera.width.div_ceil(BLOCK) + self.region.x / BLOCK;
+        let blocks = first as usize..(first + self.region.size.width.div_ceil(BLOCK)) as usize;
+        blocks.start * BLOCK_PIXELS..blocks.end * BLOCK_PIXELS
     }
 
     #[inline(always)]
     fn live(&self) -> u64 {
-        u64::from(self.width) * u64::from(self.height)
+        u64::from(self.region.size.width) * u64::from(self.region.size.height)
     }
 
     #[inline(always)]
-    fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S> {
-        self.packet_at(s, at, inverse_length)
+    fn packet(&self, s: S, at: usize) -> Packet<'_, S> {
+        self.camera.packet_at(s, at)
     }
 
     #[inline(always)]
-    fn add(&self, s: S, at: usize, _: &Packet<'_, S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]) {
-        for (pixels, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
-            let pixels = &mut pixels[at..];
-            let light = if self.fresh { light } else { F::load(s, pixels) + light };
-            light.store(pixels);
-        }
+    fn live_lanes(&self, s: S, at: usize) -> M<S> {
+        self.camera.live_lanes(s, at)
+    }
+
+    #[inline(always)]
+    fn add(&self, s: S, at: usize, best: &Best<S>, light: F3<S>, tile: &mut Tile) -> u64 {
+        let (most, infinite) = (F::splat(s, f32::MAX), F::splat(s, f32::INFINITY));
+        self.store(s, at, light, (F::pick(best.t.less(most), best.t, infinite), best.prim), tile)
     }
 }
 
 impl<S: Simd> Batch<S> for Queue {
     #[inline(always)]
-    fn rays(&self) -> usize {
-        self.len().next_multiple_of(F::<S>::LANES)
+    fn stretches(&self) -> u32 {
+        1
+    }
+
+    #[inline(always)]
+    fn stretch(&self, _: u32) -> Range<usize> {
+        0..self.len().next_multiple_of(F::<S>::LANES)
     }
 
     #[inline(always)]
@@ -61,27 +133,39 @@ impl<S: Simd> Batch<S> for Queue {
     }
 
     #[inline(always)]
-    fn packet(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S> {
-        self.packet_at(s, at, inverse_length)
+    fn packet(&self, s: S, at: usize) -> Packet<'_, S> {
+        self.packet_at(s, at)
+    }
+
+    #[inline(always)]
+    fn live_lanes(&self, s: S, at: usize) -> M<S> {
+        Queue::live_lanes(self, s, at)
     }
 
     /// No pixel has two rays in a stream.
     #[inline(always)]
-    fn add(&self, s: S, _: usize, packet: &Packet<'_, S>, light: F3<S>, radiance: &mut [Vec<f32>; 3]) {
-        let first = packet.pixel.lane(0);
-        if (packet.pixel.counts_from(s, first) & packet.live).count() as usize == F::<S>::LANES {
-            for (pixels, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
+    fn add(&self, s: S, at: usize, _: &Best<S>, light: F3<S>, tile: &mut Tile) -> u64 {
+        let (pixel, live, light) =
+            (self.pixels(s, at), self.live_lanes(s, at), light.times(self.weights(s, at)));
+        let first = pixel.lane(0);
+        let mut not_finite = 0;
+        if (pixel.counts_from(s, first) & live).count() as usize == F::<S>::LANES {
+            for (pixels, light) in tile.radiance.iter_mut().zip([light.x, light.y, light.z]) {
                 let pixels = &mut pixels[first as usize..];
-                (F::load(s, pixels) + light).store(pixels);
+                not_finite += store_finite(s, F::load(s, pixels) + light, pixels);
             }
-            return;
+            return not_finite;
         }
-        for lane in packet.live.lanes() {
-            let pixel = packet.pixel.lane(lane) as usize;
-            for (pixels, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
-                pixels[pixel] += light.lane(lane);
+        for lane in live.lanes() {
+            let pixel = pixel.lane(lane) as usize;
+            for (pixels, light) in tile.radiance.iter_mut().zip([light.x, light.y, light.z]) {
+                let sum = pixels[pixel] + light.lane(lane);
+                let nearest = if sum > 0.0 { f32::MAX } else { 0.0 };
+                pixels[pixel] = if sum.is_finite() { sum } else { nearest };
+                not_finite += u64::from(!sum.is_finite());
             }
         }
+        not_finite
     }
 }
 
@@ -91,8 +175,6 @@ pub(super) struct Found {
     pub(super) t: Vec<f32>,
     /// Bound on the error of `t`.
     pub(super) error: Vec<f32>,
-    /// 1 over the length of each ray's direction.
-    pub(super) inverse_length: Vec<f32>,
     pub(super) prim: Vec<u32>,
     pub(super) facet: Vec<u32>,
 }
@@ -103,20 +185,8 @@ impl Found {
         if self.t.len() < rays {
             self.t.resize(rays, 0.0);
             self.error.resize(rays, 0.0);
-            self.inverse_length.resize(rays, 0.0);
             self.prim.resize(rays, 0);
             self.facet.resize(rays, 0);
         }
-    }
-}
-
-/// Copies what the camera's rays have met into a tile.
-#[inline(always)]
-pub(super) fn keep<S: Simd>(s: S, tile: &mut Tile, found: &Found) {
-    let (most, infinite) = (F::splat(s, f32::MAX), F::splat(s, f32::INFINITY));
-    for at in (0..tile.depth.len()).step_by(F::<S>::LANES) {
-        let t = F::load(s, &found.t[at..]);
-        F::pick(t.less(most), t, infinite).store(&mut tile.depth[at..]);
-        U::<S>::load(s, &found.prim[at..]).store(&mut tile.surface[at..]);
     }
 }

@@ -1,124 +1,207 @@
-//! What lights make the lanes of a packet show, and which ways to them are asked about.
+//! What light arrives at the packets of a chunk, and which ways to lights are asked about.
 
-use catoptra_core::{Arithmetic, Arrival, Lane, LaneMask, Triple};
+use catoptra_core::light::LightVisitor;
+use catoptra_core::{Arithmetic, Arrival, Emitter, Lane, LaneMask};
 use fearless_simd::Simd;
 
 use super::Tracer;
-use super::meet::Here;
+use super::batch::Batch;
+use super::chunk::{CHUNK, Chunk};
 use super::packet::{Left, drift};
-use super::settle::Groups;
 use super::shadow::Ways;
 use crate::kernel::{Rays, Target, magnitude};
 use crate::lanes::{F, F3, M};
 use crate::numeric::POINT_ERROR;
 
-impl<S: Simd> Tracer<'_, S> {
-    /// The surfaces' own look, in the share that is not reflected.
-    #[inline(always)]
-    pub(super) fn local(&mut self, here: &Here<'_, S>) -> F3<S> {
-        let Here { meeting, groups, .. } = here;
-        let snapshot = self.frame.snapshot;
-        let mut shown = super::dark(self.s);
-        let mut lit = M::splat(self.s, false);
-        let ambient = Triple::of(shown.x, snapshot.ambient_light());
-        for group in 0..groups.len() {
-            let (mask, material) = groups.get(self.s, group);
-            let row = &snapshot.material_rows()[material];
-            if row.kept.narrow > 0.0 {
-                let own = row.material.own(&meeting.shading);
-                let own = row.material.under_ambient(&meeting.shading).times_add(ambient, own);
-                shown = F3::select(mask, own, shown);
-            }
-            if row.answers_light {
-                lit = lit | mask;
-            }
-        }
-        let lights = snapshot.light_rows();
-        self.stats.skipped.unlit_material += (meeting.hits & !lit).count() * lights.len() as u64;
-        if lit.any() {
-            for light in 0..lights.len() {
-                shown = self.add_light(here, lit, light, shown);
-            }
-        }
-        self.keep_unreflected(groups, shown)
-    }
+/// Adds to the first packets of the chunk what a light makes of them.
+struct AddLight<'t, 'a, S: Simd, B> {
+    tracer: &'t mut Tracer<'a, S>,
+    batch: &'t B,
+    count: usize,
+    /// Which light.
+    light: usize,
+}
 
-    /// Multiplies by the share that is not reflected.
+impl<S: Simd, B: Batch<S>> LightVisitor for AddLight<'_, '_, S, B> {
     #[inline(always)]
-    fn keep_unreflected(&self, groups: &Groups, shown: F3<S>) -> F3<S> {
-        let mut kept = shown;
-        for group in 0..groups.len() {
-            let (mask, material) = groups.get(self.s, group);
-            let row = &self.frame.snapshot.material_rows()[material];
-            if row.reflects() {
-                kept = F3::select(mask, shown.scale(shown.x.of(row.kept)), kept);
-            }
-        }
-        kept
-    }
-
-    /// Adds what one light makes the lanes of `lit` show.
-    #[inline(always)]
-    fn add_light(&mut self, here: &Here<'_, S>, lit: M<S>, light: usize, shown: F3<S>) -> F3<S> {
-        let Here { meeting, groups, .. } = here;
-        let zero = F::splat(self.s, 0.0);
-        let row = &self.frame.snapshot.light_rows()[light];
-        let arrival = row.light.arriving(meeting.point);
-        let in_cone = lit & arrival.lit;
-        self.stats.skipped.out_of_cone += (lit & !arrival.lit).count();
-        let cosine = arrival.towards.dot(meeting.shading.normal);
-        let mut facing = in_cone & zero.less(cosine);
-        if self.frame.snapshot.columns().smooth {
-            facing = facing & zero.less(arrival.towards.dot(meeting.normal));
-        }
-        self.stats.skipped.facing_away += (in_cone & !facing).count();
-        if !facing.any() {
-            return shown;
-        }
-        let reached = if !row.shadow {
-            self.stats.skipped.shadow_off += facing.count();
-            facing
-        } else if self.between[light].is_empty() && self.frame.snapshot.columns().general_unbounded.is_empty()
-        {
-            self.stats.skipped.nothing_between += facing.count();
-            facing
-        } else {
-            self.stats.rays.shadow += facing.count();
-            facing & !self.shadowed(here, facing, light, &arrival)
+    fn visit<E: Emitter>(mut self, light: &E) {
+        let blockers = Blockers::of(self.tracer, self.light, light.shadow());
+        let faced = match blockers {
+            Blockers::None if !self.tracer.frame.snapshot.columns().smooth => self.add_open(light),
+            _ => self.add(light, blockers),
         };
-        if !reached.any() {
-            return shown;
+        let stats = &mut self.tracer.stats;
+        stats.skipped.out_of_cone += faced.lit - faced.in_cone;
+        stats.skipped.facing_away += faced.in_cone - faced.facing;
+        *match (light.shadow(), blockers) {
+            (false, _) => &mut stats.skipped.shadow_off,
+            (true, Blockers::None) => &mut stats.skipped.nothing_between,
+            (true, Blockers::Some) => &mut stats.rays.shadow,
+        } += faced.facing;
+    }
+}
+
+/// How many lanes answer lights, how many of them lie in a light's cone, and how many of those face it.
+#[derive(Default)]
+struct Faced {
+    lit: u64,
+    in_cone: u64,
+    facing: u64,
+}
+
+/// Lanes that face a light, and what arrives at them.
+struct Facing<S: Simd> {
+    arrival: Arrival<F<S>>,
+    cosine: F<S>,
+    lanes: M<S>,
+}
+
+impl<S: Simd, B: Batch<S>> AddLight<'_, '_, S, B> {
+    /// Adds a light that nothing stands in the way of, where all normals are geometric.
+    #[inline(always)]
+    fn add_open<E: Emitter>(&mut self, light: &E) -> Faced {
+        let zero = F::splat(self.tracer.s, 0.0);
+        let color = F3::of(zero, light.color());
+        let chunk = &mut *self.tracer.chunk;
+        let mut faced = Faced::default();
+        for packet in 0..self.count.min(CHUNK) {
+            let facing = face(chunk, light, packet, false, &mut faced);
+            let arriving = F::pick(facing.lanes, facing.cosine * facing.arrival.strength, zero);
+            chunk.irradiance[packet] = color.scale_add(arriving, chunk.irradiance[packet]);
         }
-        let mut sum = shown;
-        for group in 0..groups.len() {
-            let (mask, material) = groups.get(self.s, group);
-            let lanes = mask & reached;
-            if lanes.any() {
-                let material = &self.frame.snapshot.material_rows()[material].material;
-                let response = material.under_light(&meeting.shading, arrival.towards, cosine);
-                sum = F3::select(lanes, response.times_add(arrival.irradiance, sum), sum);
+        for packet in 0..self.count.min(CHUNK) {
+            if self.tracer.chunk.glossy[packet] {
+                let facing = face(self.tracer.chunk, light, packet, false, &mut Faced::default());
+                self.tracer.add_gloss(packet, &facing, facing.lanes, color);
             }
         }
-        sum
+        faced
+    }
+
+    /// Adds any light.
+    #[inline(always)]
+    fn add<E: Emitter>(&mut self, light: &E, blockers: Blockers) -> Faced {
+        let zero = F::splat(self.tracer.s, 0.0);
+        let color = F3::of(zero, light.color());
+        let smooth = self.tracer.frame.snapshot.columns().smooth;
+        let mut faced = Faced::default();
+        for packet in 0..self.count.min(CHUNK) {
+            let facing = face(self.tracer.chunk, light, packet, smooth, &mut faced);
+            let reached = match blockers {
+                Blockers::None => facing.lanes,
+                Blockers::Some => {
+                    facing.lanes & !self.tracer.shadowed(self.batch, packet, self.light, &facing)
+                }
+            };
+            let arriving = F::pick(reached, facing.cosine * facing.arrival.strength, zero);
+            let irradiance = &mut self.tracer.chunk.irradiance[packet];
+            *irradiance = color.scale_add(arriving, *irradiance);
+            if self.tracer.chunk.glossy[packet] {
+                self.tracer.add_gloss(packet, &facing, reached, color);
+            }
+        }
+        faced
+    }
+}
+
+/// What arrives at a packet of the chunk from a light, if nothing stands in its way.
+#[inline(always)]
+fn face<S: Simd, E: Emitter>(
+    chunk: &Chunk<S>,
+    light: &E,
+    packet: usize,
+    smooth: bool,
+    faced: &mut Faced,
+) -> Facing<S> {
+    let lit = chunk.lit[packet];
+    let arrival = light.arriving(chunk.point[packet]);
+    let zero = arrival.strength.number(0.0);
+    let in_cone = lit & arrival.lit;
+    let mut cosine = arrival.towards.dot(chunk.normal[packet]);
+    let mut lanes = in_cone & zero.less(cosine);
+    if smooth {
+        cosine = arrival.towards.dot(chunk.smooth[packet]);
+        lanes = lanes & zero.less(cosine);
+    }
+    faced.lit += lit.count();
+    faced.in_cone += in_cone.count();
+    faced.facing += lanes.count();
+    Facing { arrival, cosine, lanes }
+}
+
+/// What may stand between the chunk's points and a light.
+#[derive(Clone, Copy)]
+enum Blockers {
+    /// Nothing, or the light throws no shadows.
+    None,
+    /// Something.
+    Some,
+}
+
+impl Blockers {
+    #[inline(always)]
+    fn of<S: Simd>(tracer: &Tracer<'_, S>, light: usize, shadow: bool) -> Self {
+        let general = &tracer.frame.snapshot.columns().general_unbounded;
+        if !shadow || (tracer.between[light].is_empty() && general.is_empty()) {
+            Self::None
+        } else {
+            Self::Some
+        }
+    }
+}
+
+impl<S: Simd> Tracer<'_, S> {
+    /// Adds what every light makes of the first `count` packets of the chunk. Compiled apart for each kind of light.
+    #[inline(always)]
+    pub(super) fn add_lights(&mut self, batch: &impl Batch<S>, count: usize) {
+        for (light, row) in self.frame.snapshot.light_rows().iter().enumerate() {
+            self.s.vectorize(
+                #[inline(always)]
+                || row.light.visit(AddLight { tracer: self, batch, count, light }),
+            );
+        }
+    }
+
+    /// Adds the gloss of the lanes that a light reaches.
+    #[inline(always)]
+    fn add_gloss(&mut self, packet: usize, facing: &Facing<S>, reached: M<S>, color: F3<S>) {
+        let zero = F::splat(self.s, 0.0);
+        let light = color.scale(F::pick(reached, facing.arrival.strength, zero));
+        let materials = self.frame.snapshot.material_rows();
+        let (at, groups) = (self.shading_point(packet), &self.chunk.groups[packet]);
+        let mut sum = self.chunk.gloss[packet];
+        for group in 0..groups.len() {
+            let (mask, material) = groups.get(self.s, group);
+            let material = &materials[material].material;
+            if material.is_glossy() {
+                let gloss = material.gloss(&at, facing.arrival.towards, facing.cosine);
+                sum = F3::select(mask, gloss.times_add(light, sum), sum);
+            }
+        }
+        self.chunk.gloss[packet] = sum;
     }
 
     /// Lanes whose way to a light is blocked.
     #[inline(always)]
-    fn shadowed(&mut self, here: &Here<'_, S>, facing: M<S>, light: usize, arrival: &Arrival<F<S>>) -> M<S> {
-        let Here { packet, best, meeting, .. } = here;
+    fn shadowed(&mut self, batch: &impl Batch<S>, packet: usize, light: usize, facing: &Facing<S>) -> M<S> {
+        let Facing { arrival, lanes, .. } = facing;
+        if !lanes.any() {
+            return *lanes;
+        }
+        let (best, point) = (self.chunk.best[packet], self.chunk.point[packet]);
         let row = &self.frame.snapshot.light_rows()[light];
         let ways = Ways {
             rays: Rays {
-                origin: meeting.point,
+                origin: point,
                 direction: arrival.towards,
                 reach: best.error.mul_add(
                     F::splat(self.s, 1.0 / POINT_ERROR),
-                    magnitude(meeting.point)
+                    magnitude(point)
                         + F::splat(self.s, row.reach + drift(self.frame.snapshot.origin_in_frame())),
                 ),
             },
             left: Left { prim: best.prim, facet: best.facet, any: true },
-            live: facing,
+            live: *lanes,
             target: Target {
                 distance: arrival.distance,
                 place: row.place,
@@ -126,6 +209,15 @@ impl<S: Simd> Tracer<'_, S> {
                 at_infinity: row.at_infinity,
             },
         };
-        self.blocked(packet, &ways, light)
+        if let Some(blocked) = self.blocked_for_certain(&ways, light) {
+            return blocked;
+        }
+        self.s.vectorize(
+            #[inline(always)]
+            || {
+                let packet = self.packet_of(batch, packet);
+                self.blocked(&packet, &ways, light)
+            },
+        )
     }
 }

@@ -1,135 +1,267 @@
 //! What the lanes of a packet show: their surfaces' own look, and where they send their rays on.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, Lane, LaneMask, Material, ShadingPoint};
+use catoptra_core::{Arithmetic, Lane, LaneMask, Material, Rgb, ShadingPoint};
 use fearless_simd::Simd;
 
+use super::batch::Batch;
+use super::chunk::CHUNK;
 use super::packet::Packet;
+use super::plan::Shapes;
 use super::queue::Leaving;
 use super::search::Best;
-use super::settle::{Groups, Settled};
+use super::settle::Settled;
+use super::surface::Surface;
 use super::{Tracer, dark};
+use crate::Tile;
+use crate::kernel::magnitude;
 use crate::lanes::{D3, F, F3, M, narrow3, pick3};
 use crate::numeric::POSITION_ERROR;
 
-/// The lanes that have met something.
-pub(super) struct Meeting<S: Simd> {
-    /// Which lanes.
-    pub(super) hits: M<S>,
-    /// Geometric unit normal on the viewer's side.
-    pub(super) normal: F3<S>,
-    /// Points relative to the snapshot's origin.
-    pub(super) point: F3<S>,
-    pub(super) shading: ShadingPoint<F<S>>,
+/// How packets find what they meet.
+pub(super) trait Finder<S: Simd> {
+    /// Puts what the packet at a place of its batch meets at a place of the chunk.
+    fn meet(&self, tracer: &mut Tracer<'_, S>, batch: &impl Batch<S>, at: usize, place: usize);
 }
 
-/// What is known of a packet once it has met something.
-pub(super) struct Here<'a, S: Simd> {
-    pub(super) packet: &'a Packet<'a, S>,
-    pub(super) best: &'a Best<S>,
-    pub(super) meeting: &'a Meeting<S>,
-    pub(super) groups: &'a Groups,
+/// Among some shapes.
+impl<S: Simd> Finder<S> for &Shapes {
+    #[inline(always)]
+    fn meet(&self, tracer: &mut Tracer<'_, S>, batch: &impl Batch<S>, at: usize, place: usize) {
+        let packet = batch.packet(tracer.s, at);
+        let best = tracer.nearest(&packet, self);
+        tracer.meet(&packet, &best, place, at);
+    }
+}
+
+/// As found before.
+pub(super) struct Before;
+
+impl<S: Simd> Finder<S> for Before {
+    #[inline(always)]
+    fn meet(&self, tracer: &mut Tracer<'_, S>, batch: &impl Batch<S>, at: usize, place: usize) {
+        let packet = batch.packet(tracer.s, at);
+        let best = Best::found(tracer.s, tracer.found, at);
+        tracer.meet(&packet, &best, place, at);
+    }
 }
 
 impl<S: Simd> Tracer<'_, S> {
-    /// The weighted light of every lane; rays that go on are queued.
+    /// Finds what the packets of a batch meet, and adds the light that arrives along them.
     #[inline(always)]
-    pub(super) fn gather(&mut self, packet: &Packet<'_, S>, best: &Best<S>, depth: u32) -> F3<S> {
-        let hits = best.hits() & packet.live;
-        let sky = F3::of(best.t, self.frame.snapshot.background_light()).times(packet.weight);
-        if !hits.any() {
-            return F3::select(packet.live, sky, dark(self.s));
+    pub(super) fn shade(
+        &mut self,
+        batch: &impl Batch<S>,
+        finder: &impl Finder<S>,
+        tile: &mut Tile,
+        depth: u32,
+    ) {
+        let mut count = 0;
+        for stretch in 0..batch.stretches() {
+            for at in batch.stretch(stretch).step_by(F::<S>::LANES) {
+                finder.meet(self, batch, at, count);
+                count += 1;
+                if count == CHUNK {
+                    self.show_chunk(batch, CHUNK, tile, depth);
+                    count = 0;
+                }
+            }
         }
-        // Apart from the meeting, so that the compiler may keep that in registers.
-        let mut groups = Groups::new();
-        let meeting = self.meet(packet, best, hits, &mut groups);
-        let here = Here { packet, best, meeting: &meeting, groups: &groups };
-        let local = self.local(&here);
-        self.send_on(&here, depth);
-        let shown = local.times(packet.weight);
-        F3::select(hits, shown, F3::select(packet.live, sky, dark(self.s)))
+        if count > 0 {
+            self.show_chunk(batch, count, tile, depth);
+        }
     }
 
-    /// The surfaces that the lanes have met, shape by shape.
+    /// Adds the light of the first packets of the chunk. Compiled apart.
     #[inline(always)]
-    fn meet(
-        &mut self,
-        packet: &Packet<'_, S>,
-        best: &Best<S>,
-        hits: M<S>,
-        groups: &mut Groups,
-    ) -> Meeting<S> {
-        let snapshot = self.frame.snapshot;
-        let mut left = hits.bits();
-        let prim = best.prim.lane(left.trailing_zeros() as usize);
-        let mut mask = hits & best.prim.is(prim);
-        groups.add(mask.bits(), snapshot.prims()[prim as usize].material);
-        let mut surface = self.surface(packet, best, mask, prim);
-        left &= !mask.bits();
-        while left != 0 {
+    fn show_chunk(&mut self, batch: &impl Batch<S>, count: usize, tile: &mut Tile, depth: u32) {
+        self.s.vectorize(
+            #[inline(always)]
+            || {
+                self.add_lights(batch, count);
+                for packet in 0..count {
+                    self.show(batch, packet, tile, depth);
+                }
+            },
+        );
+    }
+
+    /// Puts what a packet has met at a place of the chunk.
+    #[inline(always)]
+    pub(super) fn meet(&mut self, packet: &Packet<'_, S>, best: &Best<S>, place: usize, at: usize) {
+        self.occupy(best, place, at);
+        let hits = best.hits() & packet.live;
+        let mut lit = M::splat(self.s, false);
+        if hits.any() {
+            let mut left = hits.bits();
             let prim = best.prim.lane(left.trailing_zeros() as usize);
-            mask = hits & best.prim.is(prim);
-            groups.add(mask.bits(), snapshot.prims()[prim as usize].material);
-            surface = self.surface_too(packet, best, mask, prim, surface);
+            let mask = hits & best.prim.is(prim);
+            let mut surface = self.surface(packet, best, mask, prim);
+            lit = lit | self.wears(mask, prim, place);
             left &= !mask.bits();
+            while left != 0 {
+                let prim = best.prim.lane(left.trailing_zeros() as usize);
+                let mask = hits & best.prim.is(prim);
+                surface = self.surface_too(packet, best, mask, prim, surface);
+                lit = lit | self.wears(mask, prim, place);
+                left &= !mask.bits();
+            }
+            self.put(packet, place, surface);
         }
+        self.chunk.lit[place] = lit;
+    }
+
+    /// Gives a place of the chunk to a packet.
+    #[inline(always)]
+    pub(super) fn occupy(&mut self, best: &Best<S>, place: usize, at: usize) {
+        let dark = dark(self.s);
+        self.chunk.at[place] = at;
+        self.chunk.best[place] = *best;
+        self.chunk.irradiance[place] = dark;
+        self.chunk.gloss[place] = dark;
+        self.chunk.glossy[place] = false;
+        self.chunk.groups[place].clear();
+    }
+
+    /// Adds lanes by their material; answers those that answer lights.
+    #[inline(always)]
+    fn wears(&mut self, mask: M<S>, prim: u32, place: usize) -> M<S> {
+        let snapshot = self.frame.snapshot;
+        let material = snapshot.prims()[prim as usize].material;
+        self.chunk.groups[place].add(mask.bits(), material);
+        let row = &snapshot.material_rows()[material as usize];
+        if row.answers_light {
+            self.chunk.glossy[place] |= row.material.is_glossy();
+            mask
+        } else {
+            self.count_unlit(mask);
+            M::splat(self.s, false)
+        }
+    }
+
+    /// Counts lights that lanes do not answer.
+    #[inline(always)]
+    pub(super) fn count_unlit(&mut self, mask: M<S>) {
+        self.stats.skipped.unlit_material += mask.count() * self.frame.snapshot.light_rows().len() as u64;
+    }
+
+    /// Puts the lanes' surfaces, turned to the viewer, at a place of the chunk.
+    #[inline(always)]
+    pub(super) fn put(&mut self, packet: &Packet<'_, S>, place: usize, surface: Surface<S>) {
         let d = packet.rays.direction;
         let away = F::splat(self.s, 0.0).less(surface.normal.dot(d));
-        let normal = turned(away, surface.normal);
-        let mut shading = ShadingPoint {
-            position: surface.point,
-            normal: turned(away, surface.shading),
-            to_viewer: F3::new(-d.x, -d.y, -d.z),
-            distance: best.t,
-        };
-        if snapshot.has_patterns() {
-            shading.position = self.place_in_patterns(packet, best, &shading, groups);
+        self.chunk.point[place] = surface.point;
+        self.chunk.normal[place] = turned(away, surface.normal);
+        if self.frame.snapshot.columns().smooth {
+            self.chunk.smooth[place] = turned(away, surface.shading);
         }
-        Meeting { hits, normal, point: surface.point, shading }
+        if self.chunk.glossy[place] {
+            self.chunk.to_viewer[place] = F3::new(-d.x, -d.y, -d.z);
+        }
     }
 
-    /// Positions for materials to judge by: where `f32` cannot tell on which side of a pattern's edge a point lies,
-    /// one that `f64` has found to look the same.
+    /// Where the lanes' surfaces are seen, and from where.
     #[inline(always)]
-    fn place_in_patterns(
-        &mut self,
-        packet: &Packet<'_, S>,
-        best: &Best<S>,
-        shading: &ShadingPoint<F<S>>,
-        groups: &Groups,
-    ) -> F3<S> {
-        let mut position = shading.position;
-        for group in 0..groups.len() {
-            let (mask, material) = groups.get(self.s, group);
-            let row = &self.frame.snapshot.material_rows()[material];
-            if !row.is_pattern {
-                continue;
-            }
-            let size = packet.rays.reach + best.t;
-            let error = size.mul_add(F::splat(self.s, POSITION_ERROR), best.error);
-            let lanes = mask & row.material.undecided(shading, error);
-            if lanes.any() {
-                position = self.settle_pattern(packet, best, lanes, &row.material, position);
-            }
+    pub(super) fn shading_point(&self, place: usize) -> ShadingPoint<F<S>> {
+        let chunk = &self.chunk;
+        let smooth = self.frame.snapshot.columns().smooth;
+        ShadingPoint {
+            position: chunk.point[place],
+            normal: if smooth { chunk.smooth[place] } else { chunk.normal[place] },
+            to_viewer: chunk.to_viewer[place],
+            distance: chunk.best[place].t,
         }
-        position
     }
 
-    /// As [`place_in_patterns`](Self::place_in_patterns), of lanes that wear one material. Compiled apart, on copies.
+    /// Adds the light of a packet of the chunk to its pixels and queues its reflected rays.
     #[inline(always)]
-    fn settle_pattern(
+    fn show(&mut self, batch: &impl Batch<S>, place: usize, tile: &mut Tile, depth: u32) {
+        let (at, best, groups) =
+            (self.chunk.at[place], self.chunk.best[place], self.chunk.groups[place].len());
+        if groups == 0 && depth > 0 && self.frame.snapshot.background() == Rgb::BLACK {
+            return;
+        }
+        let sky = F3::of(best.t, self.frame.snapshot.background_light());
+        let mut shown = F3::select(batch.live_lanes(self.s, at), sky, dark(self.s));
+        if groups > 0 {
+            shown = self.show_group(batch, place, 0, shown, depth);
+        }
+        if groups > 1 {
+            shown = self.show_others(batch, place, shown, depth);
+        }
+        self.stats.not_finite += batch.add(self.s, at, &best, shown, tile);
+    }
+
+    /// What the lanes of one material show; their reflected rays are queued.
+    #[inline(always)]
+    fn show_group(
         &mut self,
-        packet: &Packet<'_, S>,
-        best: &Best<S>,
-        lanes: M<S>,
-        material: &Material,
-        mut position: F3<S>,
+        batch: &impl Batch<S>,
+        place: usize,
+        group: usize,
+        shown: F3<S>,
+        depth: u32,
     ) -> F3<S> {
-        let (packet, best) = (*packet, *best);
-        let point = self.s.vectorize(
+        let (mask, material) = self.chunk.groups[place].get(self.s, group);
+        if self.frame.snapshot.material_rows()[material].reflects {
+            self.send_on(batch, place, (mask, material), depth);
+        } else {
+            self.stats.skipped.not_reflective += mask.count();
+        }
+        F3::select(mask, self.own_look(batch, place, (mask, material)), shown)
+    }
+
+    /// What the lanes of further materials show. Compiled apart: most packets meet one material.
+    #[inline(always)]
+    fn show_others(&mut self, batch: &impl Batch<S>, place: usize, shown: F3<S>, depth: u32) -> F3<S> {
+        let mut shown = shown;
+        self.s.vectorize(
             #[inline(always)]
-            || self.settle_every(&packet, &best, lanes).point,
-        );
+            || {
+                for group in 1..self.chunk.groups[place].len() {
+                    shown = self.show_group(batch, place, group, shown, depth);
+                }
+                shown
+            },
+        )
+    }
+
+    /// The own look of the lanes of `mask`, which wear one material, in the share that is not reflected.
+    #[inline(always)]
+    fn own_look(&mut self, batch: &impl Batch<S>, place: usize, (mask, material): (M<S>, usize)) -> F3<S> {
+        let snapshot = self.frame.snapshot;
+        let row = &snapshot.material_rows()[material];
+        if row.is_pattern {
+            // Compiled apart, as it is seldom asked for.
+            self.s.vectorize(
+                #[inline(always)]
+                || self.move_off_edges(batch, place, mask, &row.material),
+            );
+        }
+        let ambient = F3::of(F::splat(self.s, 0.0), snapshot.ambient_light());
+        let irradiance = self.chunk.irradiance[place];
+        let mut shown = row.material.shown(|| self.shading_point(place), ambient, irradiance);
+        if self.chunk.glossy[place] {
+            shown = shown + self.chunk.gloss[place];
+        }
+        if row.reflects { shown.scale(ambient.x.of(row.kept)) } else { shown }
+    }
+
+    /// Where `f32` cannot tell on which side of a pattern's edge a point lies, takes one for it that `f64` has found to
+    /// look the same.
+    #[inline(always)]
+    fn move_off_edges(&mut self, batch: &impl Batch<S>, place: usize, mask: M<S>, material: &Material) {
+        let at = self.shading_point(place);
+        // A ray's origin is no farther out than its end and three times its length.
+        let size = at.distance.mul_add(F::splat(self.s, 4.0), magnitude(at.position));
+        let error = size.mul_add(F::splat(self.s, POSITION_ERROR), self.chunk.best[place].error);
+        let lanes = mask & material.undecided(&at, error);
+        if !lanes.any() {
+            return;
+        }
+        let (packet, best) = (self.packet_of(batch, place), self.chunk.best[place]);
+        let point = self.settle_every(&packet, &best, lanes).point;
+        let position = &mut self.chunk.point[place];
         for lane in lanes.lanes() {
             self.stats.settled += 1;
             let near =
@@ -138,52 +270,62 @@ impl<S: Simd> Tracer<'_, S> {
             position.y.set(lane, near.y as f32);
             position.z.set(lane, near.z as f32);
         }
-        position
     }
 
-    /// Queues the rays of lanes whose surfaces reflect.
+    /// The packet in a place of the chunk.
     #[inline(always)]
-    fn send_on(&mut self, here: &Here<'_, S>, depth: u32) {
-        let Here { packet, best, groups, .. } = here;
-        let materials = self.frame.snapshot.material_rows();
+    pub(super) fn packet_of<'b, B: Batch<S>>(&self, batch: &'b B, place: usize) -> Packet<'b, S> {
+        batch.packet(self.s, self.chunk.at[place])
+    }
+
+    /// Queues the rays of the lanes of `mask`, whose material reflects. Compiled apart.
+    #[inline(always)]
+    fn send_on(&mut self, batch: &impl Batch<S>, place: usize, (mask, material): (M<S>, usize), depth: u32) {
+        self.s.vectorize(
+            #[inline(always)]
+            || {
+                let packet = self.packet_of(batch, place);
+                self.reflect_lanes(&packet, place, (mask, material), depth);
+            },
+        );
+    }
+
+    #[inline(always)]
+    fn reflect_lanes(
+        &mut self,
+        packet: &Packet<'_, S>,
+        place: usize,
+        (mask, material): (M<S>, usize),
+        depth: u32,
+    ) {
+        let row = &self.frame.snapshot.material_rows()[material];
         let view = self.frame.view;
-        for group in 0..groups.len() {
-            let (mask, material) = groups.get(self.s, group);
-            let row = &materials[material];
-            if !row.reflects() {
-                self.stats.skipped.not_reflective += mask.count();
-                continue;
-            }
-            let weight = packet.weight.times(F3::of(best.t, &row.tint));
-            let largest = weight.x.max(weight.y).max(weight.z);
-            let positive = mask & F::splat(self.s, 0.0).less(largest);
-            self.stats.skipped.not_reflective += (mask & !positive).count();
-            if !positive.any() {
-                continue;
-            }
-            if depth >= view.max_depth {
-                self.stats.skipped.depth_limit += positive.count();
-                continue;
-            }
-            let faint = positive & largest.less(F::splat(self.s, view.weight_cutoff));
-            self.stats.skipped.weight_cutoff += faint.count();
-            let on = positive & !faint;
-            if on.any() {
-                self.reflect(here, on, weight);
-            }
+        let weight = packet.weight.times(F3::of(packet.weight.x, &row.tint));
+        let largest = weight.x.max(weight.y).max(weight.z);
+        let positive = mask & F::splat(self.s, 0.0).less(largest);
+        self.stats.skipped.not_reflective += (mask & !positive).count();
+        if depth >= view.max_depth {
+            self.stats.skipped.depth_limit += positive.count();
+            return;
+        }
+        let faint = positive & largest.less(F::splat(self.s, view.weight_cutoff));
+        self.stats.skipped.weight_cutoff += faint.count();
+        let on = positive & !faint;
+        if on.any() {
+            self.reflect(packet, place, on, weight);
         }
     }
 
     /// Queues the mirrored rays of the lanes of `on`, from their points in `f64`.
     #[inline(always)]
-    fn reflect(&mut self, here: &Here<'_, S>, on: M<S>, weight: F3<S>) {
-        let Here { packet, best, meeting, .. } = here;
-        let settled = self.settle_every(packet, best, on);
+    fn reflect(&mut self, packet: &Packet<'_, S>, place: usize, on: M<S>, weight: F3<S>) {
+        let (best, normal) = (self.chunk.best[place], self.chunk.normal[place]);
+        let settled = self.settle_every(packet, &best, on);
         let (_, d) = packet.precise(self.s);
         let geometric = mirrored(d, settled.normal);
         let direction = if self.frame.snapshot.columns().smooth {
             let smooth = mirrored(d, settled.shading);
-            let above = F::splat(self.s, 0.0).less(narrow3(smooth).dot(meeting.normal));
+            let above = F::splat(self.s, 0.0).less(narrow3(smooth).dot(normal));
             pick3(above, smooth, geometric)
         } else {
             geometric

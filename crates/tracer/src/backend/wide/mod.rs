@@ -8,6 +8,9 @@
 
 mod ask;
 mod batch;
+mod beam;
+mod chunk;
+mod filled;
 mod light;
 mod meet;
 mod mesh;
@@ -17,27 +20,31 @@ mod queue;
 mod search;
 mod settle;
 mod shadow;
+mod spread;
 mod surface;
 mod walk;
+mod window;
 
 use std::cell::RefCell;
 
-use catoptra_core::{Lane, LaneMask, Rgb};
+use catoptra_core::Rgb;
 use fearless_simd::{Level, Simd};
 
 use super::{Backend, Frame};
-use crate::film::NOTHING;
 use crate::kernel::mesh::Visits;
-use crate::lanes::{F, F3, U, splat3};
+use crate::lanes::{F, F3, splat3};
 use crate::numeric::PLAN_MARGIN;
 use crate::query::{HitSlice, RaySlice};
-use crate::{Instructions, Snapshot, Stats, Tile, View};
+use crate::{Instructions, Region, Size, Snapshot, Stats, Tile, View};
 use ask::Answers;
-use batch::{Batch, Found};
-use packet::Primary;
+use batch::{Batch, Found, Part};
+use beam::Beam;
+use chunk::Chunk;
+use meet::Before;
+use packet::{CameraRays, Primary};
 use plan::{Place, Seen, Shapes};
 use queue::Queue;
-use search::Best;
+use window::{Window, quarters};
 
 /// The default backend.
 pub(super) struct Wide;
@@ -77,12 +84,27 @@ thread_local! {
 /// Columns and lists that are filled anew for every tile.
 #[derive(Default)]
 struct Room {
-    streams: [Queue; 2],
+    next: Queue,
+    bounce: Bounce,
     found: Found,
-    first: Shapes,
+    /// Every shape, those that may be seen through a tile, and those through parts of it.
+    seen: [Shapes; LEVELS],
     between: Vec<Shapes>,
     visits: Visits,
+    rays: CameraRays,
 }
+
+/// A stream of reflected rays under way.
+#[derive(Default)]
+struct Bounce {
+    stream: Queue,
+    beams: Vec<Beam>,
+    /// Shapes that its rays may meet.
+    met: Shapes,
+}
+
+/// How often what is looked at is narrowed down: all shapes, a tile's, a quarter's.
+const LEVELS: usize = 3;
 
 /// Traces one tile with the instructions of a level.
 fn trace_at(level: Level, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
@@ -113,32 +135,31 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
 #[inline(always)]
 fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
     let grid = frame.view.grid;
-    let Room { streams: [current, next], found, first, between, visits } = room;
-    [&mut *current, &mut *next]
-        .into_iter()
-        .for_each(|queue| queue.start_from(frame.snapshot.origin_in_frame()));
+    let Room { next, bounce, found, seen, between, visits, rays } = room;
+    for queue in [&mut *next, &mut bounce.stream] {
+        queue.start_from(frame.snapshot.origin_in_frame());
+    }
     between.resize_with(frame.snapshot.lights().len(), Shapes::default);
-    let mut tracer =
-        Tracer { s, frame, stats: Stats::default(), next, found, between, visits, outside: outside(frame) };
+    let mut tracer = Tracer {
+        s,
+        frame,
+        stats: Stats::default(),
+        next,
+        bounce: Some(bounce),
+        found,
+        between,
+        visits,
+        chunk: &mut Chunk::new(s),
+        outside: outside(frame),
+    };
+    seen[0].all(frame.snapshot.columns());
     for sample in 0..grid * grid {
-        let (column, row) = (sample % grid, sample / grid);
+        let mut camera = Primary::new(s, frame, tile, (sample % grid, sample / grid), rays);
+        let region = Region::from(Size::new(tile.width, tile.height));
         if frame.view.skip.hidden {
-            first.seen_through(frame, tile);
+            tracer.survey(&mut camera, region, seen, tile);
         } else {
-            first.all(frame.snapshot.columns());
-        }
-        tracer.trace_camera(&Primary::new(s, frame, tile, column, row), first, &mut tile.radiance);
-        if (column, row) == (grid / 2, grid / 2) {
-            batch::keep(s, tile, tracer.found);
-        }
-        first.all(frame.snapshot.columns());
-        for depth in 1.. {
-            std::mem::swap(current, tracer.next);
-            tracer.next.clear();
-            if current.len() == 0 {
-                break;
-            }
-            tracer.trace(&*current, first, &mut tile.radiance, depth);
+            tracer.trace_camera(&mut camera, region, &seen[0], tile);
         }
     }
     tracer.finish(tile, grid);
@@ -158,95 +179,149 @@ struct Tracer<'a, S: Simd> {
     stats: Stats,
     /// Rays of the next stream.
     next: &'a mut Queue,
+    /// The stream under way; taken while it is followed.
+    bounce: Option<&'a mut Bounce>,
     /// What the rays of the batch under way have met.
     found: &'a mut Found,
     /// For every light, what may stand between it and what the batch under way shows.
     between: &'a mut [Shapes],
     /// Room for walks through trees of meshes.
     visits: &'a mut Visits,
+    chunk: &'a mut Chunk<S>,
     /// Whether every ray stays outside all spheres.
     outside: bool,
 }
 
 impl<S: Simd> Tracer<'_, S> {
-    /// Adds the light that arrives along the camera rays of a tile.
+    /// Adds the light that arrives along the camera rays of a part of a tile, of which the first of `seen` may be seen.
+    /// What is seen is narrowed down, part by part, until one shape fills a part.
     #[inline(always)]
-    fn trace_camera(&mut self, camera: &Primary<S>, shapes: &Shapes, radiance: &mut [Vec<f32>; 3]) {
-        match shapes.filled {
-            None => self.trace(camera, shapes, radiance, 0),
-            Some(place) => {
-                self.stats.rays.primary += camera.live();
-                self.found.make_room(camera.rays());
-                self.plan_shadows(&[place]);
+    fn survey(&mut self, camera: &mut Primary<'_, S>, region: Region, seen: &mut [Shapes], tile: &mut Tile) {
+        let [candidates, rest @ ..] = seen else { return };
+        let [mine, further @ ..] = rest else { return };
+        let window = Window::new(self.frame, &Region::new(tile.x + region.x, tile.y + region.y, region.size));
+        let columns = self.frame.snapshot.columns();
+        mine.seen_through(&window, columns, candidates);
+        if mine.is_empty() && columns.general_unbounded.is_empty() {
+            let part = Part { camera, region };
+            self.stats.skipped.nothing_seen += part.live();
+            self.s.vectorize(
+                #[inline(always)]
+                || part.fill(self.s, self.frame.snapshot.background_light(), tile),
+            );
+        } else if mine.tree || further.is_empty() || (mine.filled && !self.reflects(mine)) {
+            self.trace_camera(camera, region, mine, tile);
+        } else {
+            for quarter in quarters(region) {
+                self.survey(camera, quarter, rest, tile);
+            }
+        }
+    }
+
+    /// Adds the light that arrives along the camera rays of a part of a tile.
+    #[inline(always)]
+    fn trace_camera(
+        &mut self,
+        camera: &mut Primary<'_, S>,
+        region: Region,
+        shapes: &Shapes,
+        tile: &mut Tile,
+    ) {
+        self.s.vectorize(
+            #[inline(always)]
+            || camera.make_rays(self.s, &region),
+        );
+        let part = &Part { camera, region };
+        if shapes.places.is_empty() {
+            self.trace(part, shapes, tile, 0);
+        } else {
+            self.stats.rays.primary += part.live();
+            self.plan_shadows(&shapes.places);
+            if shapes.filled {
+                self.trace_filled(part, shapes, tile);
+            } else {
                 // Compiled apart, as are the other loops: what is one function takes long to compile.
                 self.s.vectorize(
                     #[inline(always)]
-                    || self.find_and_shade(camera, shapes, radiance),
+                    || self.shade(part, &shapes, tile, 0),
                 );
             }
+        }
+        if self.next.len() > 0 {
+            self.follow(tile);
+        }
+    }
+
+    /// Whether the shape that fills a part reflects: its rays are followed in streams that a first-level cache holds.
+    fn reflects(&self, shapes: &Shapes) -> bool {
+        let snapshot = self.frame.snapshot;
+        let prims = shapes.places.iter().map(|place| &snapshot.prims()[place.prim as usize]);
+        prims.map(|prim| &snapshot.material_rows()[prim.material as usize]).any(|row| row.reflects)
+    }
+
+    /// Adds the light that arrives along reflected rays, and along those that are reflected again.
+    fn follow(&mut self, tile: &mut Tile) {
+        let Some(bounce) = self.bounce.take() else { return };
+        for depth in 1.. {
+            std::mem::swap(&mut bounce.stream, self.next);
+            self.next.clear();
+            if bounce.stream.len() == 0 {
+                break;
+            }
+            self.trace_stream(bounce, tile, depth);
+        }
+        self.bounce = Some(bounce);
+    }
+
+    /// Adds the light that arrives along the rays of a stream.
+    #[inline(always)]
+    fn trace_stream(&mut self, bounce: &mut Bounce, tile: &mut Tile, depth: u32) {
+        let Bounce { stream, beams, met } = bounce;
+        self.s.vectorize(
+            #[inline(always)]
+            || stream.make_rays(self.s, beams),
+        );
+        let snapshot = self.frame.snapshot;
+        if self.frame.view.skip.beams {
+            met.met_by(snapshot.columns(), beams, self.outside);
+        } else {
+            met.all(snapshot.columns());
+        }
+        let nothing = met.is_empty() && snapshot.columns().general_unbounded.is_empty();
+        if nothing && snapshot.background() == Rgb::BLACK {
+            self.stats.skipped.nothing_ahead += stream.len() as u64;
+        } else {
+            self.trace(&*stream, met, tile, depth);
         }
     }
 
     /// Finds what the rays of a batch meet, then adds the light that arrives along them.
     #[inline(always)]
-    fn trace(&mut self, batch: &impl Batch<S>, shapes: &Shapes, radiance: &mut [Vec<f32>; 3], depth: u32) {
+    fn trace(&mut self, batch: &impl Batch<S>, shapes: &Shapes, tile: &mut Tile, depth: u32) {
         let rays = if depth == 0 { &mut self.stats.rays.primary } else { &mut self.stats.rays.reflection };
         *rays += batch.live();
-        self.found.make_room(batch.rays());
+        self.found.make_room(batch.stretch(batch.stretches() - 1).end);
         self.s.vectorize(
             #[inline(always)]
             || self.find(batch, shapes),
         );
         self.s.vectorize(
             #[inline(always)]
-            || self.shade(batch, radiance, depth),
+            || self.shade(batch, &Before, tile, depth),
         );
-    }
-
-    /// Finds and shades at once: where the points lie is known beforehand.
-    #[inline(always)]
-    fn find_and_shade(&mut self, camera: &Primary<S>, shapes: &Shapes, radiance: &mut [Vec<f32>; 3]) {
-        for at in (0..camera.rays()).step_by(F::<S>::LANES) {
-            let packet = camera.packet(self.s, at, None);
-            let best = self.nearest(&packet, shapes);
-            best.store(self.found, at);
-            let light = self.gather(&packet, &best, 0);
-            camera.add(self.s, at, &packet, light, radiance);
-        }
-    }
-
-    /// Adds the light that arrives along the rays of a batch from what they have met.
-    #[inline(always)]
-    fn shade(&mut self, batch: &impl Batch<S>, radiance: &mut [Vec<f32>; 3], depth: u32) {
-        for at in (0..batch.rays()).step_by(F::<S>::LANES) {
-            if depth > 0 && self.is_dark(at) {
-                continue;
-            }
-            let known = F::load(self.s, &self.found.inverse_length[at..]);
-            let packet = batch.packet(self.s, at, Some(known));
-            let best = Best::found(self.s, self.found, at);
-            let light = self.gather(&packet, &best, depth);
-            batch.add(self.s, at, &packet, light, radiance);
-        }
-    }
-
-    /// Whether the rays from `at` on meet nothing but darkness.
-    #[inline(always)]
-    fn is_dark(&self, at: usize) -> bool {
-        let hits = !U::load(self.s, &self.found.prim[at..]).is(NOTHING);
-        !hits.any() && self.frame.snapshot.background() == Rgb::BLACK
     }
 
     /// Finds what the rays of a batch meet, and what may stand between that and the lights.
     #[inline(always)]
     fn find(&mut self, batch: &impl Batch<S>, shapes: &Shapes) {
         let mut seen = Seen::nothing(self.s);
-        for at in (0..batch.rays()).step_by(F::<S>::LANES) {
-            let packet = batch.packet(self.s, at, None);
-            let best = self.nearest(&packet, shapes);
-            best.store(self.found, at);
-            packet.inverse_length.store(&mut self.found.inverse_length[at..]);
-            seen.add(&packet, &best);
+        for stretch in 0..batch.stretches() {
+            for at in batch.stretch(stretch).step_by(F::<S>::LANES) {
+                let packet = batch.packet(self.s, at);
+                let best = self.nearest(&packet, shapes);
+                best.store(self.found, at);
+                seen.add(&packet, &best);
+            }
         }
         let places: Vec<Place> = seen.places().collect();
         self.plan_shadows(&places);
@@ -264,19 +339,16 @@ impl<S: Simd> Tracer<'_, S> {
         }
     }
 
-    /// Divides sums over `grid` x `grid` samples; lights past every number become the largest, what is no number black.
+    /// Divides sums over `grid` x `grid` samples.
     #[inline(always)]
     fn finish(&mut self, tile: &mut Tile, grid: u32) {
+        if grid == 1 {
+            return;
+        }
         let share = F::splat(self.s, 1.0 / (grid as f32 * grid as f32));
-        let (zero, infinite) = (F::splat(self.s, 0.0), F::splat(self.s, f32::INFINITY));
-        let most = F::splat(self.s, f32::MAX);
         for column in &mut tile.radiance {
             for at in (0..column.len()).step_by(F::<S>::LANES) {
-                let light = F::load(self.s, &column[at..]);
-                let finite = light.abs().less(infinite);
-                self.stats.not_finite += (!finite).count();
-                F::pick(finite, light * share, F::pick(zero.less(light), most, zero))
-                    .store(&mut column[at..]);
+                (F::load(self.s, &column[at..]) * share).store(&mut column[at..]);
             }
         }
     }

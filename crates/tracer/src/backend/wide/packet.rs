@@ -11,7 +11,7 @@ use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING};
 use crate::kernel::{Rays, magnitude};
 use crate::lanes::{D, D3, F, F3, M, U, narrow3, splat_wide};
 use crate::numeric::WORLD_DRIFT;
-use crate::{Place, Tile};
+use crate::{Place, Region, Size, Tile};
 
 /// One ray in every lane.
 #[derive(Clone, Copy)]
@@ -55,6 +55,12 @@ impl<S: Simd> Packet<'_, S> {
         self.left.lane(lane)
     }
 
+    /// Points so many metres along the rays.
+    #[inline(always)]
+    pub(super) fn point(&self, t: F<S>) -> F3<S> {
+        self.rays.direction.scale_add(t, self.rays.origin)
+    }
+
     /// Origins, relative to the snapshot's, and directions of any length.
     #[inline(always)]
     pub(super) fn precise(&self, s: S) -> (D3<S>, D3<S>) {
@@ -71,7 +77,7 @@ impl<S: Simd> Packet<'_, S> {
 #[derive(Clone, Copy)]
 pub(super) enum Precise<'a, S: Simd> {
     /// Those of a tile's pixels from a place in its columns on.
-    Camera(&'a Primary<S>, usize),
+    Camera(&'a Primary<'a, S>, usize),
     /// Those of a stream from a place on.
     Stream(&'a Queue, usize),
     /// Those of a question from a place on.
@@ -115,19 +121,10 @@ impl<S: Simd> Left<S> {
     }
 }
 
-/// Rays as kernels see them, and 1 over the length of each direction, unless that is known.
+/// Rays as kernels see them, and 1 over the length of each direction.
 #[inline(always)]
-pub(super) fn kernel_rays<S: Simd>(
-    s: S,
-    origin: D3<S>,
-    direction: D3<S>,
-    inverse_length: Option<F<S>>,
-) -> (Rays<S>, F<S>) {
-    let (origin, direction) = (narrow3(origin), narrow3(direction));
-    let inverse_length = match inverse_length {
-        Some(known) => known,
-        None => F::splat(s, 1.0) / direction.dot(direction).sqrt(),
-    };
+pub(super) fn kernel_rays<S: Simd>(s: S, origin: F3<S>, direction: F3<S>) -> (Rays<S>, F<S>) {
+    let inverse_length = F::splat(s, 1.0) / direction.dot(direction).sqrt();
     let rays = Rays { origin, direction: direction.scale(inverse_length), reach: magnitude(origin) };
     (rays, inverse_length)
 }
@@ -138,10 +135,33 @@ pub(super) fn drift(origin: DVec3) -> f32 {
     origin.abs().element_sum() as f32 * WORLD_DRIFT
 }
 
+/// The camera's rays through a tile, column by column, in the order of the tile's pixels.
+#[derive(Default)]
+pub(super) struct CameraRays {
+    /// Unit directions.
+    direction: [Vec<f32>; 3],
+    /// 1 over the lengths of the directions that they were made from.
+    inverse_length: Vec<f32>,
+    /// Which lanes of each packet lie within the picture.
+    live: Vec<u64>,
+}
+
+impl CameraRays {
+    fn make_room(&mut self, pixels: usize) {
+        if self.live.len() < pixels {
+            self.direction.iter_mut().for_each(|column| column.resize(pixels, 0.0));
+            self.inverse_length.resize(pixels, 0.0);
+            self.live.resize(pixels, 0);
+        }
+    }
+}
+
 /// What the camera's packets of one tile have in common.
-pub(super) struct Primary<S: Simd> {
+pub(super) struct Primary<'a, S: Simd> {
+    rays: &'a mut CameraRays,
+    eye32: F3<S>,
+    reach: F<S>,
     eye: D3<S>,
-    drift: F<S>,
     corner: D3<S>,
     across: D3<S>,
     down: D3<S>,
@@ -154,16 +174,23 @@ pub(super) struct Primary<S: Simd> {
     top: u32,
     pub(super) width: u32,
     pub(super) height: u32,
-    pub(super) pixels: usize,
     /// Whether pixels hold nothing yet.
     pub(super) fresh: bool,
+    /// Whether what is met here stands for the pixel.
+    pub(super) kept: bool,
     weight: F3<S>,
 }
 
-impl<S: Simd> Primary<S> {
+impl<'a, S: Simd> Primary<'a, S> {
     /// For the sample at a column and row of the grid within each pixel.
     #[inline(always)]
-    pub(super) fn new(s: S, frame: &Frame<'_>, tile: &Tile, column: u32, row: u32) -> Self {
+    pub(super) fn new(
+        s: S,
+        frame: &Frame<'_>,
+        tile: &Tile,
+        (column, row): (u32, u32),
+        rays: &'a mut CameraRays,
+    ) -> Self {
         let share = frame.view.place(column, row);
         // A block and a bit, so that the last part can be loaded whole.
         let (mut columns, mut rows) = ([0.0; 2 * BLOCK_PIXELS], [0.0; 2 * BLOCK_PIXELS]);
@@ -177,9 +204,13 @@ impl<S: Simd> Primary<S> {
             *lanes = (D::load(s, &columns[at..]), D::load(s, &rows[at..]));
         }
         let raster = &frame.raster;
+        rays.make_room(tile.depth.len());
+        let eye = splat_wide(s, frame.eye);
         Self {
-            eye: splat_wide(s, frame.eye),
-            drift: F::splat(s, drift(frame.snapshot.origin_in_frame())),
+            rays,
+            eye32: narrow3(eye),
+            reach: magnitude(narrow3(eye)) + F::splat(s, drift(frame.snapshot.origin_in_frame())),
+            eye,
             corner: splat_wide(s, raster.corner),
             across: splat_wide(s, raster.across),
             down: splat_wide(s, raster.down),
@@ -190,9 +221,34 @@ impl<S: Simd> Primary<S> {
             top: tile.y,
             width: tile.width,
             height: tile.height,
-            pixels: tile.depth.len(),
             fresh: (column, row) == (0, 0),
+            kept: (column, row) == (frame.view.grid / 2, frame.view.grid / 2),
             weight: F3::splat(F::splat(s, 1.0)),
+        }
+    }
+
+    /// Makes the rays of a part of the tile.
+    #[inline(always)]
+    pub(super) fn make_rays(&mut self, s: S, region: &Region) {
+        let blocks_across = self.width.div_ceil(BLOCK);
+        let Size { width, height } = region.size;
+        for part in 0..BLOCK_PIXELS / F::<S>::LANES {
+            let (columns, rows) = self.within[part];
+            for y in (region.y..region.y + height).step_by(BLOCK as usize) {
+                let row = self.through_row(s, rows, y);
+                for x in (region.x..region.x + width).step_by(BLOCK as usize) {
+                    let direction = narrow3(self.across_row(s, columns, x, row));
+                    let (rays, inverse_length) = kernel_rays(s, self.eye32, direction);
+                    let block = (y / BLOCK * blocks_across + x / BLOCK) as usize;
+                    let at = block * BLOCK_PIXELS + part * F::<S>::LANES;
+                    let unit = rays.direction;
+                    for (column, v) in self.rays.direction.iter_mut().zip([unit.x, unit.y, unit.z]) {
+                        v.store(&mut column[at..]);
+                    }
+                    inverse_length.store(&mut self.rays.inverse_length[at..]);
+                    self.rays.live[at] = inside::<S>(self.width - x, self.height - y, part as u32);
+                }
+            }
         }
     }
 
@@ -209,9 +265,19 @@ impl<S: Simd> Primary<S> {
     pub(super) fn directions(&self, s: S, at: usize) -> D3<S> {
         let (x, y, part) = self.corner_of(at);
         let (columns, rows) = self.within[part];
-        let columns = columns + D::splat(s, f64::from(self.left + x));
-        let rows = rows + D::splat(s, f64::from(self.top + y));
-        self.across.scale_add(columns, self.down.scale_add(rows, self.corner))
+        self.across_row(s, columns, x, self.through_row(s, rows, y))
+    }
+
+    /// Directions through the left edge of the picture, `rows` below a row of the tile.
+    #[inline(always)]
+    fn through_row(&self, s: S, rows: D<S>, y: u32) -> D3<S> {
+        self.down.scale_add(rows + D::splat(s, f64::from(self.top + y)), self.corner)
+    }
+
+    /// Directions in a row, `columns` right of a column of the tile.
+    #[inline(always)]
+    fn across_row(&self, s: S, columns: D<S>, x: u32, row: D3<S>) -> D3<S> {
+        self.across.scale_add(columns + D::splat(s, f64::from(self.left + x)), row)
     }
 
     /// The ray of the pixel at a place in the tile's columns.
@@ -225,35 +291,40 @@ impl<S: Simd> Primary<S> {
         )
     }
 
+    /// Which lanes at a place in the tile's columns lie within the picture.
+    #[inline(always)]
+    pub(super) fn live_lanes(&self, s: S, at: usize) -> M<S> {
+        M::from_bits(s, self.rays.live[at])
+    }
+
     /// The packet at a place in the tile's columns.
     #[inline(always)]
-    pub(super) fn packet_at(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S> {
-        let (x, y, part) = self.corner_of(at);
-        let (rays, inverse_length) = kernel_rays(s, self.eye, self.directions(s, at), inverse_length);
-        let rays = rays.drifting(self.drift);
+    pub(super) fn packet_at(&self, s: S, at: usize) -> Packet<'_, S> {
+        let [x, y, z] = &self.rays.direction;
+        let direction = F3::new(F::load(s, &x[at..]), F::load(s, &y[at..]), F::load(s, &z[at..]));
         Packet {
             precise: Precise::Camera(self, at),
-            rays,
-            inverse_length,
+            rays: Rays { origin: self.eye32, direction, reach: self.reach },
+            inverse_length: F::load(s, &self.rays.inverse_length[at..]),
             weight: self.weight,
             pixel: U::counted(s, at as u32),
             left: Left::nothing(s),
-            live: inside(s, self.width - x, self.height - y, part as u32),
+            live: self.live_lanes(s, at),
         }
     }
 }
 
 /// Which lanes of a part of a block lie within the columns and rows that the picture has left.
 #[inline(always)]
-fn inside<S: Simd>(s: S, columns: u32, rows: u32, part: u32) -> M<S> {
-    if columns >= BLOCK && rows >= BLOCK {
-        return M::splat(s, true);
-    }
+fn inside<S: Simd>(columns: u32, rows: u32, part: u32) -> u64 {
     let lanes = F::<S>::LANES as u32;
+    if columns >= BLOCK && rows >= BLOCK {
+        return u64::MAX >> (64 - lanes);
+    }
     let mut bits = 0;
     for lane in 0..lanes {
         let pixel = part * lanes + lane;
         bits |= u64::from(pixel % BLOCK < columns && pixel / BLOCK < rows) << lane;
     }
-    M::from_bits(s, bits)
+    bits
 }

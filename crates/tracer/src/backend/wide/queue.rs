@@ -5,8 +5,10 @@ use catoptra_core::{Ray, Triple};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
+use super::beam::{Beam, Bundle};
 use super::packet::{Left, Packet, Precise, drift, kernel_rays};
-use crate::lanes::{D, D3, F, F3, M, U};
+use crate::kernel::{Rays, magnitude};
+use crate::lanes::{D, D3, F, F3, M, U, narrow3};
 
 /// Columns of rays; each has room for one more packet than there are rays.
 #[derive(Default)]
@@ -20,6 +22,11 @@ pub(super) struct Queue {
     pixel: Vec<u32>,
     prim: Vec<u32>,
     facet: Vec<u32>,
+    /// The rays as kernels see them, once they are [made](Self::make_rays): origins, unit directions, and 1 over the
+    /// lengths of the directions that they were made from.
+    start: [Vec<f32>; 3],
+    unit: [Vec<f32>; 3],
+    inverse_length: Vec<f32>,
 }
 
 /// A packet's lanes from each of three columns.
@@ -96,28 +103,64 @@ impl Queue {
         Ray::new(vector(&self.origin) + self.zero, vector(&self.direction))
     }
 
+    /// Makes the rays as kernels see them, and the beams in which they run.
+    #[inline(always)]
+    pub(super) fn make_rays<S: Simd>(&mut self, s: S, beams: &mut Vec<Beam>) {
+        let mut bundle = Bundle::nothing(s);
+        for at in (0..self.length).step_by(F::<S>::LANES) {
+            let (origin, direction) = self.precise(s, at);
+            let (rays, inverse_length) = kernel_rays(s, narrow3(origin), narrow3(direction));
+            let (start, unit) = (rays.origin, rays.direction);
+            for (column, v) in self.start.iter_mut().zip([start.x, start.y, start.z]) {
+                v.store(&mut column[at..]);
+            }
+            for (column, v) in self.unit.iter_mut().zip([unit.x, unit.y, unit.z]) {
+                v.store(&mut column[at..]);
+            }
+            inverse_length.store(&mut self.inverse_length[at..]);
+            bundle.add(self.live_lanes(s, at), U::load(s, &self.prim[at..]), start, unit);
+        }
+        beams.clear();
+        beams.extend(bundle.beams());
+    }
+
     /// The packet that starts with ray `at`.
     #[inline(always)]
-    pub(super) fn packet_at<S: Simd>(&self, s: S, at: usize, inverse_length: Option<F<S>>) -> Packet<'_, S> {
-        let (origin, direction) = self.precise(s, at);
-        let (rays, inverse_length) = kernel_rays(s, origin, direction, inverse_length);
-        let rays = rays.drifting(F::splat(s, drift(self.zero)));
-        let lanes = F::<S>::LANES;
-        let left = self.length - at;
-        let bits = if left >= lanes { u64::MAX >> (64 - lanes) } else { (1 << left) - 1 };
+    pub(super) fn packet_at<S: Simd>(&self, s: S, at: usize) -> Packet<'_, S> {
+        let origin = narrow(s, &self.start, at);
+        let reach = magnitude(origin) + F::splat(s, drift(self.zero));
         Packet {
             precise: Precise::Stream(self, at),
-            rays,
-            inverse_length,
-            weight: narrow(s, &self.weight, at),
-            pixel: U::load(s, &self.pixel[at..]),
+            rays: Rays { origin, direction: narrow(s, &self.unit, at), reach },
+            inverse_length: F::load(s, &self.inverse_length[at..]),
+            weight: self.weights(s, at),
+            pixel: self.pixels(s, at),
             left: Left {
                 prim: U::load(s, &self.prim[at..]),
                 facet: U::load(s, &self.facet[at..]),
                 any: true,
             },
-            live: M::from_bits(s, bits),
+            live: self.live_lanes(s, at),
         }
+    }
+
+    /// Which lanes from ray `at` on are rays.
+    #[inline(always)]
+    pub(super) fn live_lanes<S: Simd>(&self, s: S, at: usize) -> M<S> {
+        let (lanes, left) = (F::<S>::LANES, self.length - at);
+        M::from_bits(s, if left >= lanes { u64::MAX >> (64 - lanes) } else { (1 << left) - 1 })
+    }
+
+    /// How much of the light along the rays from `at` on counts.
+    #[inline(always)]
+    pub(super) fn weights<S: Simd>(&self, s: S, at: usize) -> F3<S> {
+        narrow(s, &self.weight, at)
+    }
+
+    /// The pixels of the rays from `at` on.
+    #[inline(always)]
+    pub(super) fn pixels<S: Simd>(&self, s: S, at: usize) -> U<S> {
+        U::load(s, &self.pixel[at..])
     }
 
     /// Room for another packet beyond the rays there are and the one that is stored whole.
@@ -129,7 +172,8 @@ impl Queue {
         }
         let room = needed.next_power_of_two();
         self.origin.iter_mut().chain(&mut self.direction).for_each(|c| c.resize(room, 0.0));
-        self.weight.iter_mut().for_each(|c| c.resize(room, 0.0));
+        let singles = self.weight.iter_mut().chain(&mut self.start).chain(&mut self.unit);
+        singles.chain([&mut self.inverse_length]).for_each(|c| c.resize(room, 0.0));
         [&mut self.pixel, &mut self.prim, &mut self.facet].into_iter().for_each(|c| c.resize(room, 0));
     }
 }

@@ -266,7 +266,7 @@ impl<S: Simd> Settled<S> {
     }
 }
 
-/// The lanes of a packet by the material they have met.
+/// The lanes of a packet by the material they have met: read and written in place, element by element.
 pub(super) struct Groups {
     count: usize,
     lanes: [u64; MOST_LANES],
@@ -274,9 +274,13 @@ pub(super) struct Groups {
 }
 
 impl Groups {
+    /// No lanes.
+    pub(super) const NONE: Self = Self { count: 0, lanes: [0; MOST_LANES], materials: [0; MOST_LANES] };
+
+    /// Forgets all lanes.
     #[inline(always)]
-    pub(super) fn new() -> Self {
-        Self { count: 0, lanes: [0; MOST_LANES], materials: [0; MOST_LANES] }
+    pub(super) fn clear(&mut self) {
+        self.count = 0;
     }
 
     /// Adds lanes that wear a material.

@@ -44,6 +44,43 @@ impl<S: Simd> Ways<S> {
 }
 
 impl<S: Simd> Tracer<'_, S> {
+    /// Which ways to a light are blocked, where only planes and spheres may stand there and `f32` can tell.
+    #[inline(always)]
+    pub(super) fn blocked_for_certain(&mut self, ways: &Ways<S>, light: usize) -> Option<M<S>> {
+        let columns = self.frame.snapshot.columns();
+        let between = &self.between[light];
+        if between.tree || !columns.general_unbounded.is_empty() {
+            return None;
+        }
+        let behind = &self.frame.snapshot.light_rows()[light].behind;
+        let (mut open, mut undecided) = (ways.live, M::splat(self.s, false));
+        for &row in &between.planes {
+            let plane = &columns.planes[row as usize];
+            let blocking = plane.block(self.s, &ways.rays, behind[row as usize]);
+            let other = open & !ways.left.from(self.s, plane.prim, 0);
+            undecided = undecided | (other & blocking.undecided);
+            open = open & !(other & blocking.blocked);
+        }
+        for &prim in &between.bounded {
+            let Row::Sphere(row) = columns.rows[prim as usize] else { return None };
+            let own = ways.left.from(self.s, prim, 0) & open;
+            if own.any() && !self.outside {
+                return None;
+            }
+            let nothing = M::splat(self.s, false);
+            let blocking =
+                columns.spheres[row as usize].block(self.s, &ways.rays, &ways.target, nothing, self.outside);
+            let other = open & !own;
+            undecided = undecided | (other & blocking.undecided);
+            open = open & !(other & blocking.blocked);
+        }
+        if undecided.any() {
+            return None;
+        }
+        self.stats.tests.shapes += ((between.planes.len() + between.bounded.len()) * F::<S>::LANES) as u64;
+        Some(ways.live & !open)
+    }
+
     /// Which ways to a light are blocked.
     #[inline(always)]
     pub(super) fn blocked(&mut self, packet: &Packet<'_, S>, ways: &Ways<S>, light: usize) -> M<S> {

@@ -24,7 +24,7 @@ pub(super) struct Surface<S: Simd> {
 
 impl<S: Simd> Surface<S> {
     #[inline(always)]
-    fn flat(point: F3<S>, normal: F3<S>) -> Self {
+    pub(super) fn flat(point: F3<S>, normal: F3<S>) -> Self {
         Self { point, normal, shading: normal }
     }
 
@@ -50,7 +50,7 @@ impl<S: Simd> Tracer<'_, S> {
         prim: u32,
     ) -> Surface<S> {
         let columns = self.frame.snapshot.columns();
-        let point = packet.rays.direction.scale_add(best.t, packet.rays.origin);
+        let point = packet.point(best.t);
         match columns.rows[prim as usize] {
             Row::Plane(row) => Surface::flat(point, splat3(self.s, columns.planes[row as usize].normal32)),
             Row::Rectangle(row) => {
@@ -70,7 +70,12 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// Relative to the centre, where `f32` is fine enough for sharp highlights; one Newton step brings it there.
     #[inline(always)]
-    fn surface_of_sphere(&self, packet: &Packet<'_, S>, best: &Best<S>, sphere: &SphereRow) -> Surface<S> {
+    pub(super) fn surface_of_sphere(
+        &self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        sphere: &SphereRow,
+    ) -> Surface<S> {
         let direction = packet.rays.direction;
         let near = self.near(packet, best);
         let from_center = narrow3(near - splat_wide(self.s, sphere.center));

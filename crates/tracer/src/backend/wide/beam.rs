@@ -1,0 +1,120 @@
+//! In which directions the rays of a stream run, and so which shapes they cannot meet.
+
+use catoptra_core::Aabb;
+use catoptra_core::glam::DVec3;
+use fearless_simd::Simd;
+
+use super::spread::Spread;
+use crate::kernel::PlaneRow;
+use crate::lanes::{F3, M, U};
+use crate::numeric::PLAN_MARGIN;
+use crate::snapshot::Ball;
+
+/// Rays that leave one shape, as they are gathered.
+pub(super) struct Bundle<S: Simd> {
+    start: Spread<S>,
+    unit: Spread<S>,
+}
+
+impl<S: Simd> Bundle<S> {
+    #[inline(always)]
+    pub(super) fn nothing(s: S) -> Self {
+        Self { start: Spread::nothing(s), unit: Spread::nothing(s) }
+    }
+
+    /// Adds the lanes of a mask by the shapes that they leave.
+    #[inline(always)]
+    pub(super) fn add(&mut self, lanes: M<S>, prim: U<S>, start: F3<S>, unit: F3<S>) {
+        self.start.add(lanes, prim, start);
+        self.unit.add(lanes, prim, unit);
+    }
+
+    /// The beams, shape by shape.
+    pub(super) fn beams(&self) -> impl Iterator<Item = Beam> + '_ {
+        self.start
+            .boxes()
+            .zip(self.unit.boxes())
+            .map(|((prim, start), (_, unit))| Beam::new(prim, start, unit))
+    }
+}
+
+/// Rays from within a box in directions within a box.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Beam {
+    /// Which shape they leave.
+    pub(super) prim: u32,
+    center: DVec3,
+    half: DVec3,
+    /// Middle of the unit directions.
+    axis: DVec3,
+    half_spread: DVec3,
+}
+
+impl Beam {
+    fn new(prim: u32, start: Aabb, unit: Aabb) -> Self {
+        let center = start.centre();
+        let margin = PLAN_MARGIN * (center.abs().element_sum() + start.size().element_sum());
+        Self {
+            prim,
+            center,
+            half: start.size() / 2.0 + DVec3::splat(margin),
+            axis: unit.centre(),
+            half_spread: unit.size() / 2.0 + DVec3::splat(PLAN_MARGIN),
+        }
+    }
+
+    /// Whether a ray may meet a ball.
+    ///
+    /// Rays c + e + t (m + f) with |e| ≤ ρ and |f| ≤ δ meet a ball of radius R round c + L only if there is a t ≥ 0
+    /// with |t m − L| ≤ R + ρ + t δ, that is t² (|m|² − δ²) − 2 t (m·L + δ (R + ρ)) + |L|² − (R + ρ)² ≤ 0.
+    pub(super) fn may_meet(&self, ball: &Ball) -> bool {
+        let to_ball = ball.center - self.center;
+        let (spread, reach) = (self.half_spread.length(), ball.radius + self.half.length());
+        let reach = reach + PLAN_MARGIN * (reach + to_ball.length());
+        let square = self.axis.length_squared() - spread * spread;
+        let linear = self.axis.dot(to_ball) + spread * reach;
+        let constant = to_ball.length_squared() - reach * reach;
+        let never = constant > 0.0 && square > 0.0 && (linear < 0.0 || linear * linear < square * constant);
+        !never && self.may_cross_box(to_ball, ball.radius * (1.0 + PLAN_MARGIN))
+    }
+
+    /// Whether a ray may meet a box of half the size `radius` round a place seen from the middle of the starts: along
+    /// every axis it is there from some t to another, and these stretches must overlap.
+    fn may_cross_box(&self, middle: DVec3, radius: f64) -> bool {
+        let (mut from, mut to) = (0.0_f64, f64::INFINITY);
+        for axis in 0..3 {
+            let reach = radius + self.half[axis] + PLAN_MARGIN * middle[axis].abs();
+            let (nearest, farthest) = (middle[axis].abs() - reach, middle[axis].abs() + reach);
+            let slowest = self.axis[axis] * middle[axis].signum() - self.half_spread[axis];
+            let fastest = self.axis[axis] * middle[axis].signum() + self.half_spread[axis];
+            if nearest > 0.0 {
+                if fastest <= 0.0 {
+                    return false;
+                }
+                from = from.max(nearest / fastest);
+                if slowest > 0.0 {
+                    to = to.min(farthest / slowest);
+                }
+            } else if slowest > 0.0 {
+                to = to.min(farthest / slowest);
+            } else if fastest < 0.0 {
+                to = to.min(nearest / fastest);
+            }
+        }
+        from * (1.0 - PLAN_MARGIN) <= to * (1.0 + PLAN_MARGIN)
+    }
+
+    /// Whether a ray may meet a plane.
+    pub(super) fn may_cross(&self, row: &PlaneRow) -> bool {
+        if self.prim == row.prim {
+            return false;
+        }
+        let size = row.normal.abs();
+        let behind = row.distance - row.normal.dot(self.center);
+        let slope = row.normal.dot(self.axis);
+        let margin = PLAN_MARGIN * (row.distance.abs() + self.center.abs().element_sum());
+        let (off, lean) = (size.dot(self.half) + margin, size.dot(self.half_spread));
+        let away = (behind > off && slope < -lean) || (behind < -off && slope > lean);
+        !away
+    }
+}

@@ -1,0 +1,62 @@
+//! A few packets on their way from what they meet to what they show.
+//!
+//! Each step is taken for all of them before the next, so that the CPU has independent work while square roots and
+//! quotients are under way, and what one step needs stays in registers.
+
+use catoptra_core::Lane;
+use fearless_simd::Simd;
+
+use super::search::Best;
+use super::settle::Groups;
+use crate::film::NOTHING;
+use crate::lanes::{F, F3, M, U};
+
+/// Packets in a chunk.
+pub(super) const CHUNK: usize = 8;
+
+/// The packets of a chunk, column by column.
+pub(super) struct Chunk<S: Simd> {
+    /// Places of their first rays in their batch.
+    pub(super) at: [usize; CHUNK],
+    pub(super) best: [Best<S>; CHUNK],
+    /// What they have met, relative to the snapshot's origin.
+    pub(super) point: [F3<S>; CHUNK],
+    /// Geometric unit normals on the viewer's side.
+    pub(super) normal: [F3<S>; CHUNK],
+    /// Unit normals to shade with, on the viewer's side, where any shape has others.
+    pub(super) smooth: [F3<S>; CHUNK],
+    /// Unit vectors to the viewer, where a material is glossy.
+    pub(super) to_viewer: [F3<S>; CHUNK],
+    /// Lanes that have met something, by material.
+    pub(super) groups: [Groups; CHUNK],
+    /// Lanes whose materials answer lights.
+    pub(super) lit: [M<S>; CHUNK],
+    /// Whether any material of a packet is glossy.
+    pub(super) glossy: [bool; CHUNK],
+    /// Light that arrives from all sides, weighed by the cosine: irradiance.
+    pub(super) irradiance: [F3<S>; CHUNK],
+    /// Radiance shown by gloss.
+    pub(super) gloss: [F3<S>; CHUNK],
+}
+
+impl<S: Simd> Chunk<S> {
+    #[inline(always)]
+    pub(super) fn new(s: S) -> Self {
+        let zero = F::splat(s, 0.0);
+        let dark = F3::splat(zero);
+        let nothing = U::splat(s, NOTHING);
+        Self {
+            at: [0; CHUNK],
+            best: [Best { t: zero, error: zero, prim: nothing, facet: nothing }; CHUNK],
+            point: [dark; CHUNK],
+            normal: [dark; CHUNK],
+            smooth: [dark; CHUNK],
+            to_viewer: [dark; CHUNK],
+            groups: [const { Groups::NONE }; CHUNK],
+            lit: [zero.less(zero); CHUNK],
+            glossy: [false; CHUNK],
+            irradiance: [dark; CHUNK],
+            gloss: [dark; CHUNK],
+        }
+    }
+}

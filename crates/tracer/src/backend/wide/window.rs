@@ -1,0 +1,132 @@
+//! Through which part of a picture a scene is looked at, and what can be seen through it.
+
+use catoptra_core::Aabb;
+use catoptra_core::glam::DVec3;
+
+use super::plan::Place;
+use crate::backend::Frame;
+use crate::film::BLOCK;
+use crate::kernel::PlaneRow;
+use crate::numeric::PLAN_MARGIN;
+use crate::snapshot::Ball;
+use crate::{Region, Size};
+
+/// The quarters of a region, in whole blocks; fewer where it is too small for that.
+pub(super) fn quarters(region: Region) -> impl Iterator<Item = Region> {
+    let halves = |start: u32, length: u32| {
+        let first = (length / 2).next_multiple_of(BLOCK).min(length);
+        [(start, first), (start + first, length - first)].into_iter().filter(|&(_, length)| length > 0)
+    };
+    let Size { width, height } = region.size;
+    halves(region.y, height).flat_map(move |(y, height)| {
+        halves(region.x, width).map(move |(x, width)| Region::new(x, y, Size::new(width, height)))
+    })
+}
+
+/// The camera rays of a region: those within four directions from the eye.
+pub(super) struct Window {
+    eye: DVec3,
+    corners: [DVec3; 4],
+    /// Inward unit normals of the four sides.
+    sides: [DVec3; 4],
+}
+
+impl Window {
+    pub(super) fn new(frame: &Frame<'_>, region: &Region) -> Self {
+        let raster = &frame.raster;
+        let corner = |x: u32, y: u32| {
+            raster.corner + raster.across * f64::from(region.x + x) + raster.down * f64::from(region.y + y)
+        };
+        let Size { width: w, height: h } = region.size;
+        let corners = [corner(0, 0), corner(w, 0), corner(w, h), corner(0, h)];
+        let middle: DVec3 = corners.iter().sum();
+        let sides = std::array::from_fn(|i| {
+            let side = corners[i].cross(corners[(i + 1) % 4]).normalize_or_zero();
+            side * side.dot(middle).signum()
+        });
+        Self { eye: frame.eye, corners, sides }
+    }
+
+    /// 1 / t of a plane along the four corners.
+    pub(super) fn nearness(&self, row: &PlaneRow) -> [f64; 4] {
+        let inverse = 1.0 / (row.distance - row.normal.dot(self.eye));
+        let (normal, [a, b, c, d]) = (row.normal, &self.corners);
+        [
+            normal.dot(*a) * inverse,
+            normal.dot(*b) * inverse,
+            normal.dot(*c) * inverse,
+            normal.dot(*d) * inverse,
+        ]
+    }
+
+    /// Where the points of a plane lie that are seen through the window; `None` where they may have no end.
+    pub(super) fn place_on(&self, row: &PlaneRow) -> Option<Place> {
+        let nearness = self.nearness(row);
+        let margin = PLAN_MARGIN * nearness.iter().fold(0.0, |m, w| w.abs().max(m));
+        if !nearness.iter().all(|w| *w > margin && w.is_finite()) {
+            return None;
+        }
+        let points = std::array::from_fn::<_, 4, _>(|i| self.eye + self.corners[i] / nearness[i]);
+        Some(Place::new(row.prim, Aabb::of(points)))
+    }
+
+    /// Whether a ball may be seen.
+    pub(super) fn may_show(&self, ball: &Ball) -> bool {
+        let to_center = ball.center - self.eye;
+        let reach = ball.radius + PLAN_MARGIN * (to_center.length() + ball.radius);
+        self.sides.iter().all(|side| side.dot(to_center) >= -reach)
+    }
+
+    /// Where the points of a ball lie that are seen through the window, from outside it: on its near side.
+    ///
+    /// At an angle θ to the ball's centre, its near side is |L| cos θ − √(R² − |L|² sin² θ) away, which grows with θ up
+    /// to the silhouette. The window holds the directions within ω of its middle.
+    pub(super) fn place_on_ball(&self, prim: u32, ball: &Ball) -> Place {
+        let to_center = ball.center - self.eye;
+        let (distance2, radius2) = (to_center.length_squared(), ball.radius * ball.radius);
+        let middle = self.corners.iter().sum::<DVec3>().normalize_or_zero();
+        let widest =
+            self.corners.iter().map(|c| c.dot(middle) / c.length()).fold(1.0, f64::min) - PLAN_MARGIN;
+        let spread = (1.0 - widest * widest).max(0.0).sqrt();
+        let (along, aside) = (to_center.dot(middle), to_center.cross(middle).length());
+        let near_side = |along: f64, aside: f64| {
+            let half_chord2 = radius2 - aside * aside;
+            if along > 0.0 && half_chord2 > 0.0 {
+                along - half_chord2.sqrt()
+            } else {
+                (distance2 - radius2).max(0.0).sqrt()
+            }
+        };
+        let towards = (along * widest + aside * spread, (aside * widest - along * spread).max(0.0));
+        let least =
+            if towards.1 > 0.0 { near_side(towards.0, towards.1) } else { distance2.sqrt() - ball.radius };
+        let most = near_side(along * widest - aside * spread, aside * widest + along * spread);
+        let reach = (most - least) / 2.0 + most * (2.0 - 2.0 * widest).max(0.0).sqrt();
+        let reach = DVec3::splat(reach);
+        let center = self.eye + middle * ((least + most) / 2.0);
+        Place::new(prim, Aabb { min: center - reach, max: center + reach })
+    }
+
+    /// Whether the eye may lie within a ball.
+    pub(super) fn is_within(&self, ball: &Ball) -> bool {
+        !(ball.center.distance(self.eye) > ball.radius * (1.0 + PLAN_MARGIN))
+    }
+
+    /// Whether every ray meets a ball from outside.
+    pub(super) fn filled_by_ball(&self, ball: &Ball) -> bool {
+        let to_center = ball.center - self.eye;
+        let (distance2, radius2) = (to_center.length_squared(), ball.radius * ball.radius);
+        // Directions that meet a ball from outside make a convex cone.
+        self.corners.iter().all(|d| {
+            let along = d.dot(to_center);
+            let rest = d.length_squared() * ((distance2 - radius2) + PLAN_MARGIN * distance2);
+            along > 0.0 && along * along > rest
+        })
+    }
+
+    /// Whether a plane cannot stand between the eye and a place.
+    pub(super) fn is_free_of(&self, row: &PlaneRow, place: &Place) -> bool {
+        let behind = row.distance - row.normal.dot(self.eye);
+        behind != 0.0 && !place.may_lie_beyond(row, behind)
+    }
+}
