@@ -85,7 +85,7 @@ impl Geometry for Cuboid {
     }
 
     fn crossing(&self, _: &Ray, at: Located, facet: u32) -> Option<Crossing> {
-        let outwards = if facet % 2 == 0 { -1.0 } else { 1.0 };
+        let outwards = if facet.is_multiple_of(2) { -1.0 } else { 1.0 };
         let normal = DVec3::AXES[(facet / 2) as usize % 3] * outwards;
         Some(Crossing::flat(at, self.to_world.direction(normal), facet))
     }

@@ -92,7 +92,7 @@ fn of_sphere(center: DVec3, radius: f64, ray: &Ray) -> Vec<(Place, u32)> {
 
 /// A flat convex polygon, by where the line meets its plane: on the inner side of every edge, or on it.
 fn of_polygon(corners: &[DVec3], ray: &Ray) -> Option<Place> {
-    let line = Line::new(ray, corners.iter().flat_map(|p| p.to_array()));
+    let line = Line::new(ray, corners.iter().flat_map(DVec3::to_array));
     let corners: Vec<Vector> = corners.iter().map(|&p| vector(p, line.scale)).collect();
     let normal = cross(&minus(&corners[1], &corners[0]), &minus(&corners[2], &corners[0]));
     let along = dot(&normal, &line.direction);
@@ -157,7 +157,7 @@ fn of_box(bounds: &Aabb, ray: &Ray) -> Vec<(Place, u32)> {
     for facet in 0..6_u32 {
         let axis = (facet / 2) as usize;
         let along = &line.direction[axis];
-        let away = (if facet % 2 == 0 { &low[axis] } else { &high[axis] }) - &line.origin[axis];
+        let away = (if facet.is_multiple_of(2) { &low[axis] } else { &high[axis] }) - &line.origin[axis];
         let between = |i: usize| {
             let at = &line.origin[i] * along + &line.direction[i] * &away;
             let [a, b] = [&low[i] * along, &high[i] * along];

@@ -67,7 +67,7 @@ impl Staged<'_> {
                 let light = DVec3::from(light.map(f64::from));
                 Reply::Occluded(hit.is_none_or(|(place, t)| self.is_hidden(ray, place, t, light)))
             }
-            Question::Mirrors(count) => Reply::Path(self.follow(ray, hit, count, |d, n| reflect(d, n))),
+            Question::Mirrors(count) => Reply::Path(self.follow(ray, hit, count, reflect)),
             Question::Glass(count, index) => {
                 let index = f64::from(index);
                 // From the side that the normal points to into the glass, or out of it.
