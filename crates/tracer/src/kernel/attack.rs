@@ -148,7 +148,7 @@ fn spheres() {
 fn rectangles() {
     let record = attack(|random| {
         let (corner, u) = (random.point() * random.power(-4, 6), random.point() * random.power(-4, 4));
-        let v = u.any_orthonormal_vector() * random.power(-4, 4);
+        let v = u.normalize().any_orthonormal_vector() * random.power(-4, 4);
         let rim = vec![corner, corner + u, corner + u + v, corner + v];
         Some((Rectangle::new(corner, u, v).ok()?.into(), rim))
     });
