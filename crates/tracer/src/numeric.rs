@@ -15,6 +15,10 @@ pub(crate) const FAR: f64 = 8.0;
 /// pixels before it, below 2³², needs 52 bits at most, so it is the same however it is put together.
 pub(crate) const SAMPLE_STEP: f64 = 1.0 / (1_u32 << 20) as f64;
 
+/// Whether `f32` must be certain of what it says, which it always must. Only a build that measures what that costs (the
+/// feature `trust-f32`) has all its bounds zero, and takes its answers as they are.
+pub(crate) const CERTAIN: bool = cfg!(not(feature = "trust-f32"));
+
 /// Unit roundoff of `f32`, 2⁻²⁴.
 const U: f32 = 1.0 / (1 << 24) as f32;
 

@@ -108,10 +108,18 @@ fn features(mesh: &TriangleMesh) -> Vec<DVec3> {
 fn trial(random: &mut Random, mesh: &TriangleMesh, placement: Placement, reach: f64) -> Trial {
     let features: Vec<DVec3> = features(mesh).into_iter().map(|p| placement.point(p)).collect();
     let middle = features.iter().sum::<DVec3>() / features.len() as f64;
+    // Rays from anywhere to anywhere, from one point to anywhere, and from one point close together: each kind may go
+    // another way through a tracer.
+    let bundle = random.below(3);
+    let (point, feature) = (middle + random.point(reach), random.below(features.len()));
     let aim = |_| {
-        let target = features[random.below(features.len())];
-        let from = if random.below(4) == 0 { middle } else { middle + random.point(reach) };
-        random.aimed(from, target)
+        let target = if bundle == 2 { feature + random.below(4) } else { random.below(features.len()) };
+        let from = match (bundle, random.below(4)) {
+            (1 | 2, _) => point,
+            (_, 0) => middle,
+            _ => middle + random.point(reach),
+        };
+        random.aimed(from, features[target % features.len()])
     };
     let rays = (0..24).map(aim).collect();
     let source = MeshSource { path: String::new(), mesh: Arc::new(mesh.clone()) };

@@ -17,7 +17,7 @@ use fearless_simd::Simd;
 
 use crate::integrator::LIGHT_ITSELF;
 use crate::lanes::{F, F3, M};
-use crate::numeric::LEAST_REACH;
+use crate::numeric::{CERTAIN, LEAST_REACH};
 
 pub(crate) use plane::PlaneRow;
 pub(crate) use rectangle::RectangleRow;
@@ -97,6 +97,12 @@ impl<S: Simd> Proposal<S> {
         let maybe = self.hit & (self.t - self.error).less(target.distance) & !before;
         Blocking { blocked: before, undecided: self.undecided | maybe }
     }
+}
+
+/// A bound on an error, unless `f32` is [trusted](CERTAIN): then it is 0, and not worked out.
+#[inline(always)]
+pub(crate) fn bound<S: Simd>(s: S, error: F<S>) -> F<S> {
+    if CERTAIN { error } else { F::splat(s, 0.0) }
 }
 
 /// Sum of the magnitudes of the coordinates.

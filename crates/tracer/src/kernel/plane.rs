@@ -4,7 +4,7 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::Simd;
 
-use super::{Blocking, Proposal, Rays, magnitude_of, rounded};
+use super::{Blocking, Proposal, Rays, bound, magnitude_of, rounded};
 use crate::lanes::{F, splat3};
 use crate::numeric::{DIRECTION_ERROR, POINT_ERROR, WIDE_SHARE};
 
@@ -40,7 +40,8 @@ impl PlaneRow {
     fn behind<S: Simd>(&self, s: S, rays: &Rays<S>) -> (F<S>, F<S>) {
         let n = splat3(s, self.normal32);
         let behind = F::splat(s, self.distance32) - n.dot(rays.origin);
-        (behind, (rays.reach + F::splat(s, self.reach)) * F::splat(s, POINT_ERROR))
+        let error = (rays.reach + F::splat(s, self.reach)) * F::splat(s, POINT_ERROR);
+        (behind, bound(s, error))
     }
 
     #[inline(always)]
@@ -52,7 +53,7 @@ impl PlaneRow {
         let direction_error = F::splat(s, DIRECTION_ERROR);
         Proposal {
             t,
-            error: t.mul_add(direction_error, point_error) * inverse.abs(),
+            error: bound(s, t.mul_add(direction_error, point_error) * inverse.abs()),
             hit: F::splat(s, 0.0).less(t),
             undecided: !point_error.less(behind.abs()) | !direction_error.less(slope.abs()),
         }

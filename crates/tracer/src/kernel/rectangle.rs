@@ -4,7 +4,7 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane, LaneMask};
 use fearless_simd::Simd;
 
-use super::{PlaneRow, Proposal, Rays, magnitude_of, rounded};
+use super::{PlaneRow, Proposal, Rays, bound, magnitude_of, rounded};
 use crate::lanes::{F, splat3};
 use crate::numeric::POINT_ERROR;
 
@@ -43,7 +43,7 @@ impl RectangleRow {
         let point = rays.direction.scale_add(plane.t, rays.origin - splat3(s, self.corner));
         let point_error =
             (rays.reach + F::splat(s, self.reach)).mul_add(F::splat(s, POINT_ERROR), plane.error);
-        let error = point_error * F::splat(s, self.steepness);
+        let error = bound(s, point_error * F::splat(s, self.steepness));
         let (mut inside, mut outside) = (!zero.less(zero), zero.less(zero));
         for along in self.along {
             let share = splat3(s, along).dot(point);

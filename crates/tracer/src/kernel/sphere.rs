@@ -4,7 +4,7 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
 
-use super::{Blocking, Proposal, Rays, Target, magnitude_of, rounded};
+use super::{Blocking, Proposal, Rays, Target, bound, magnitude_of, rounded};
 use crate::lanes::{F, F3, M, splat3};
 use crate::numeric::POINT_ERROR;
 
@@ -52,9 +52,9 @@ impl SphereRow {
         let closest = to_center.dot(rays.direction);
         let remainder = rays.direction.scale_add(-closest, to_center);
         let half_chord2 = radius * radius - remainder.dot(remainder);
-        let point_error = (rays.reach + F::splat(s, self.reach)) * F::splat(s, POINT_ERROR);
+        let point_error = bound(s, (rays.reach + F::splat(s, self.reach)) * F::splat(s, POINT_ERROR));
         // At the silhouette the remainder is as long as the radius r, off by e: |r² − (r ± e)²| ≤ e (2r + e).
-        let error = point_error * (radius + radius + radius + point_error);
+        let error = bound(s, point_error * (radius + radius + radius + point_error));
         Passage { to_center, closest, half_chord2, error, point_error }
     }
 
@@ -70,7 +70,7 @@ impl SphereRow {
             return Proposal { t: zero, error: zero, hit: maybe, undecided: maybe };
         }
         let half = pass.half_chord2.max(zero).sqrt();
-        let error = pass.point_error + pass.error / half;
+        let error = bound(s, pass.point_error + pass.error / half);
         let (near, far) = (pass.closest - half, pass.closest + half);
         let ahead = error.less(near);
         let inside = near.less(-error) & error.less(far);

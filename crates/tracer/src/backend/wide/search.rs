@@ -10,7 +10,7 @@ use super::plan::Shapes;
 use crate::film::NOTHING;
 use crate::kernel::Proposal;
 use crate::lanes::{Bits, F, M, U};
-use crate::numeric::SETTLED_ERROR;
+use crate::numeric::{CERTAIN, SETTLED_ERROR};
 use crate::snapshot::{Row, Way};
 
 /// Shapes are tried one by one up to this many; more go by the tree.
@@ -191,12 +191,12 @@ impl<S: Simd> Tracer<'_, S> {
             // What is met before the stretch begins may hide what is met on it.
             undecided = undecided | (hit & !asked.begins(self.s, at)[1].less(proposal.t - proposal.error));
         }
-        let take = nearer & !undecided;
+        let take = if CERTAIN { nearer & !undecided } else { nearer };
         best.t = F::pick(take, proposal.t, best.t);
         best.error = F::pick(take, proposal.error, best.error);
         best.prim = U::pick(take, U::splat(self.s, prim), best.prim);
         best.facet = U::pick(take, U::splat(self.s, facet), best.facet);
-        if undecided.any() {
+        if CERTAIN && undecided.any() {
             let doubtful = Doubtful {
                 prim,
                 facet: Some(facet),

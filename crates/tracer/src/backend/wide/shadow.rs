@@ -8,6 +8,7 @@ use super::packet::{Left, Packet};
 use crate::Snapshot;
 use crate::kernel::{Blocking, Rays, Target};
 use crate::lanes::{Bits, F, M};
+use crate::numeric::CERTAIN;
 use crate::snapshot::Row;
 
 /// Ways from points to a light.
@@ -178,7 +179,11 @@ impl<S: Simd> Tracer<'_, S> {
         self.stats.tests.shapes += F::<S>::LANES as u64;
         let undecided = allowed & blocking.undecided;
         let left = open & !(allowed & blocking.blocked & !undecided);
-        if undecided.any() { self.block_lanes((packet, ways), left, undecided, place) } else { left }
+        if CERTAIN && undecided.any() {
+            self.block_lanes((packet, ways), left, undecided, place)
+        } else {
+            left
+        }
     }
 
     /// Decides in `f64`, lane by lane, whether a shape blocks the way.
