@@ -101,3 +101,74 @@ fn own_ray(shape: &Shape, ray: &Ray) -> Ray {
         _ => *ray,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use catoptra_core::geometry::{Cuboid, Disk, Plane, Rectangle, Sphere, Tetrahedron, Triangle};
+    use catoptra_core::glam::DVec3;
+    use catoptra_core::{MeshSource, TriangleMesh};
+
+    use super::*;
+
+    /// One of every kind, all of which the ray down from (0.25, 4, 0.25) meets first at t = 4.
+    fn one_of_each() -> Vec<Shape> {
+        let (o, x, z) = (DVec3::ZERO, DVec3::X, DVec3::Z);
+        let corners = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+        let mesh = TriangleMesh::new(corners, vec![[0, 1, 2]], None, None).unwrap();
+        vec![
+            Plane::new(o, DVec3::new(0.0, -3.0, 0.0)).unwrap().into(),
+            Sphere::new(DVec3::new(0.25, -2.0, 0.25), 2.0).unwrap().into(),
+            Triangle::new(o, x, z).unwrap().into(),
+            Tetrahedron::new(o, x, z, -DVec3::Y).unwrap().into(),
+            Rectangle::new(o, x, z).unwrap().into(),
+            Disk::new(o, DVec3::Y, 1.0).unwrap().into(),
+            Cuboid::new(-DVec3::ONE, DVec3::new(1.0, 0.0, 1.0)).unwrap().into(),
+            Mesh::new(MeshSource { path: String::new(), mesh: Arc::new(mesh) }).into(),
+        ]
+    }
+
+    #[test]
+    fn every_kind_of_shape_is_met_where_it_is() {
+        let shapes = one_of_each();
+        let down = Ray::new(DVec3::new(0.25, 4.0, 0.25), DVec3::NEG_Y);
+        for kind in Shape::KINDS {
+            let shape = shapes.iter().find(|shape| shape.kind_name() == kind.name);
+            let shape = shape.unwrap_or_else(|| panic!("no {} here", kind.name)).clone();
+            let met = meetings(&[shape.clone()], &down, Span::AHEAD);
+            assert_eq!(met[0].place.to_f64(), 4.0, "{}", kind.name);
+            assert!(meetings(&[shape], &down, Span::until(4.0_f64.next_down())).is_empty(), "{}", kind.name);
+        }
+    }
+
+    #[test]
+    fn what_is_met_in_one_place_comes_in_the_order_of_the_shapes() {
+        let shapes = one_of_each();
+        let down = Ray::new(DVec3::new(0.25, 4.0, 0.25), DVec3::NEG_Y);
+        let met = meetings(&shapes, &down, Span { min: 4.0, max: 4.0 });
+        assert_eq!(
+            met.iter().map(|met| met.shape).collect::<Vec<_>>(),
+            (0..shapes.len()).collect::<Vec<_>>()
+        );
+    }
+
+    #[test]
+    fn a_tangent_is_met_and_one_step_beside_it_is_not() {
+        let sphere = [Sphere::new(DVec3::ZERO, 1.0).unwrap().into()];
+        let beside =
+            |x: f64| meetings(&sphere, &Ray::new(DVec3::new(x, 5.0, 0.0), DVec3::NEG_Y), Span::AHEAD).len();
+        assert_eq!([beside(1.0), beside(1.0_f64.next_up()), beside(1.0_f64.next_down())], [2, 0, 2]);
+    }
+
+    #[test]
+    fn a_wrong_answer_is_not_confirmed() {
+        let shapes = one_of_each();
+        let down = Ray::new(DVec3::new(0.25, 4.0, 0.25), DVec3::NEG_Y);
+        let place = |prim| catoptra_tracer::Place { prim, facet: 0 };
+        let confirmed = |said| confirm(&shapes, &down, Span::AHEAD, said).is_ok();
+        assert!(confirmed(Some((place(0), 4.0))));
+        assert!(!confirmed(Some((place(1), 4.0))), "the plane comes before the sphere");
+        assert!(!confirmed(Some((place(0), 4.000_001))) && !confirmed(None));
+    }
+}
