@@ -1,8 +1,10 @@
 //! Numbers at both ends of the range, and rays that are none.
 
-use catoptra_core::geometry::{Cuboid, Disk, Plane, Rectangle, Sphere, Triangle};
+use std::sync::Arc;
+
+use catoptra_core::geometry::{Cuboid, Disk, Mesh, Plane, Rectangle, Sphere, Triangle};
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Ray, Shape};
+use catoptra_core::{InvalidPart, MeshSource, Ray, Shape, TriangleMesh};
 
 use super::flat::made;
 use super::random::rounded;
@@ -10,9 +12,9 @@ use super::{Group, Random, Trial};
 
 pub(super) const SCENES: Group = Group {
     name: "scale of scenes",
-    doc: "all coordinates times 2^-140 to 2^120",
+    doc: "all coordinates times 2^-140 to 2^120, often near the square roots of the ends of the range",
     make: |random| {
-        let scale = random.power(-140, 120);
+        let scale = [random.power(-140, 120), random.power(56, 68), random.power(-80, -56)][random.below(3)];
         let shapes = shapes(random, scale);
         let ray = |_| {
             let from = [DVec3::ZERO, random.point(4.0)][random.below(2)];
@@ -61,6 +63,14 @@ pub(super) const BAD_RAYS: Group = Group {
     },
 };
 
+/// A mesh of triangles whose corners `f32` holds.
+fn mesh_of(triangles: &[[DVec3; 3]]) -> Result<Mesh, InvalidPart> {
+    let corners = triangles.as_flattened().iter().map(|p| p.to_array().map(|c| c as f32)).collect();
+    let numbers = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let mesh = Arc::new(TriangleMesh::new(corners, numbers, None, None)?);
+    Ok(Mesh::new(MeshSource { path: String::new(), mesh }))
+}
+
 /// One of each of some kinds.
 fn shapes(random: &mut Random, scale: f64) -> Vec<Shape> {
     let mut point = |reach: f64| rounded(random.point(reach) * scale);
@@ -72,5 +82,8 @@ fn shapes(random: &mut Random, scale: f64) -> Vec<Shape> {
     shapes.extend(made(Plane::new(r, point(1.0))));
     shapes.extend(made(Disk::new(p, point(1.0), radius)));
     shapes.extend(made(Rectangle::new(q, DVec3::X * radius, DVec3::Y * radius)));
-    shapes
+    shapes.extend(made(mesh_of(&[[p, q, r], [r, q, -p]])));
+    // Alone, now and then, so that nothing hides it.
+    let first = random.below(shapes.len().max(1));
+    if random.below(2) == 0 && !shapes.is_empty() { vec![shapes.swap_remove(first)] } else { shapes }
 }

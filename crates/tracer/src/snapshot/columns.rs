@@ -9,6 +9,7 @@ use super::Prim;
 use super::origin::relative;
 use crate::accel::MeshTree;
 use crate::kernel::{PlaneRow, RectangleRow, SphereRow, TriangleRow};
+use crate::numeric::ORDINARY;
 
 /// Where a mesh stands.
 #[derive(Debug, Clone)]
@@ -121,6 +122,9 @@ impl Columns {
     }
 
     fn add(&mut self, prim: &Prim, shape: &Shape, id: u32, meshes: &[Arc<MeshTree>]) -> Row {
+        if !is_ordinary(shape) {
+            return Row::General;
+        }
         match shape {
             Shape::Plane(plane) => {
                 Row::Plane(push(&mut self.planes, PlaneRow::new(plane.point(), plane.normal(), id)))
@@ -149,6 +153,19 @@ impl Columns {
             },
             _ => Row::General,
         }
+    }
+}
+
+/// Whether `f32` holds squares and products of a shape's coordinates; of others it could be certain and wrong.
+fn is_ordinary(shape: &Shape) -> bool {
+    let [least, most] = ORDINARY;
+    match (shape, shape.bounds()) {
+        (Shape::Plane(plane), _) => plane.point().abs().max_element() <= most,
+        (_, Some(bounds)) => {
+            let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
+            (least..=most).contains(&largest)
+        }
+        (_, None) => true,
     }
 }
 
