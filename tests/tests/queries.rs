@@ -1,10 +1,12 @@
 //! Does every backend answer questions about single rays as the exhaustive one does, and refuse what is no ray?
 
-use catoptra_core::Ray;
+use catoptra_core::geometry::Mesh;
 use catoptra_core::glam::DVec3;
+use catoptra_core::material::Matte;
+use catoptra_core::{Geometry, MeshSource, Placement, Ray, Rgb, Scene, TriangleMesh};
 use catoptra_tests::{parsed, shipped_scenes};
 use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
-use catoptra_tracer::{Place, Pool, Snapshot, backend_named, backends};
+use catoptra_tracer::{Place, Pool, Preset, Snapshot, backend_named, backends};
 
 /// Numbers from -1 to 1 that look random (xorshift, Marsaglia 2003).
 struct Numbers(u64);
@@ -119,6 +121,81 @@ fn rays_of_extreme_length_meet_what_ordinary_ones_do() {
         for backend in backends().iter().filter(|b| b.name() == "wide") {
             let hit = nearest(backend.name(), &snapshot, &rays).get(0);
             assert!(hit.is_some_and(|(_, t)| (t * scale - 2.0).abs() < 1e-12), "{scale:e} {hit:?}");
+        }
+    }
+}
+
+/// A mesh of triangles in random places of random sizes, many of them without area or in one place.
+fn crowd(numbers: &mut Numbers, count: u32) -> TriangleMesh {
+    let mut positions: Vec<[f32; 3]> = Vec::new();
+    for id in 0..count {
+        let (size, place) = (numbers.next().powi(2), numbers.vector());
+        for corner in 0..3 {
+            let own = if id % 7 == 0 { place } else { place + numbers.vector() * size };
+            let shared = positions.len() > 9 && id % 3 == 0 && corner < 2;
+            positions.push(if shared {
+                positions[positions.len() - 5]
+            } else {
+                own.to_array().map(|v| v as f32)
+            });
+        }
+    }
+    let triangles = (0..count).map(|id| [3 * id, 3 * id + 1, 3 * id + 2]).collect();
+    TriangleMesh::new(positions, triangles, None, None).unwrap()
+}
+
+/// Rays from one point, to one point, and without order; a third of them through corners, a third through edges.
+fn aimed_rays(numbers: &mut Numbers, mesh: &Mesh, count: usize) -> RayList {
+    let mut rays = RayList::new();
+    let (eye, lamp) = (DVec3::new(0.3, 0.5, 4.0), DVec3::new(-2.0, 3.0, 0.25));
+    let triangles = mesh.triangles();
+    for at in 0..count {
+        // Rays of a group meet neighbouring triangles, so that they stay together.
+        let facet = (at / 40 * 7 % triangles.triangles().len()) as u32;
+        let [a, b, c] = triangles.corners(facet).map(|p| mesh.placement().point(p));
+        let target = match at % 3 {
+            0 => [a, b, c][at % 2],
+            1 => a.lerp(b, numbers.next().abs()),
+            _ => a + numbers.vector() * 0.1,
+        };
+        match at / 320 % 3 {
+            0 => rays.push(&Ray::new(eye, target - eye), [0.0, f64::INFINITY], None),
+            1 => rays.push(&Ray::new(target + numbers.vector() * 0.1, lamp - target), [0.0, 1.0], None),
+            _ => {
+                let from = numbers.vector() * 3.0;
+                rays.push(&Ray::new(from, target - from), [0.1, 2.0], None);
+            }
+        }
+    }
+    rays
+}
+
+#[test]
+fn meshes_of_any_kind_are_met_where_the_oracle_meets_them() {
+    let mut numbers = Numbers(88_172_645_463_325_252);
+    let source = MeshSource { path: String::new(), mesh: crowd(&mut numbers, 400).into() };
+    let turned = Placement::IDENTITY.turned(DVec3::X, DVec3::new(0.3, 0.2, 0.1), 1.0).unwrap();
+    let turned = turned.scaled(1.5).unwrap();
+    for placement in [Placement::IDENTITY, turned] {
+        let mesh = Mesh::new(source.clone()).placed(&placement);
+        let rays = aimed_rays(&mut numbers, &mesh, 5000);
+        let mut scene = Scene::new();
+        let grey = scene.add_material("grey", Matte::new(Rgb::grey(0.5)).unwrap()).unwrap();
+        scene.add_shape("mesh", mesh, grey, None).unwrap();
+        for preset in Preset::ALL {
+            let snapshot = Snapshot::extract_with(&scene, None, *preset);
+            let right = nearest("oracle", &snapshot, &rays);
+            for backend in ["scalar", "wide"] {
+                let found = nearest(backend, &snapshot, &rays);
+                let mut occluded = Vec::new();
+                let pool = Pool::new(1).unwrap();
+                find_occluded(backend_named(backend).unwrap(), &snapshot, &rays, &mut occluded, &pool);
+                for at in 0..rays.len() {
+                    let (a, b) = (right.get(at).map(|hit| hit.0), found.get(at).map(|hit| hit.0));
+                    assert_eq!(a, b, "{backend} {} ray {at}", preset.name());
+                    assert_eq!(a.is_some(), occluded[at], "{backend} {} ray {at}", preset.name());
+                }
+            }
         }
     }
 }

@@ -146,6 +146,6 @@ pub(crate) const FAN_SPREAD: f32 = 64.0 * U;
 /// Most that the slopes of rays may differ by to be traced together; measured on three scanned and built meshes.
 pub(crate) const FAN_WIDTH: f32 = 0.25;
 
-/// Most that the `t` of a triangle may be off, relative to itself, for its plane to be taken at its word: far below what
-/// `f32` can hold, and what one Newton step from there leaves.
-pub(crate) const DEPTH_ERROR: f64 = 1.0 / (1_u64 << 40) as f64;
+/// Most that the `t` of a triangle may be off, relative to itself, for its plane to be taken at its word: a 64th of what
+/// `f32` can hold.
+pub(crate) const DEPTH_ERROR: f64 = 1.0 / (1_u64 << 30) as f64;

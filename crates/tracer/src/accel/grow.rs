@@ -403,3 +403,92 @@ fn block(mesh: &TriangleMesh, items: &[Item]) -> Block8 {
     }
     block
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Triangles in random places of random sizes, some without area, some in one place.
+    fn crowd(count: u32) -> TriangleMesh {
+        let mut seed = 0x9e37_79b9_u32;
+        let mut number = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 8) as f32 / (1 << 24) as f32
+        };
+        let mut positions = Vec::new();
+        for id in 0..count {
+            let (size, place) = (number() * number() * 0.3, [number(), number(), number() * 0.01]);
+            for corner in 0..3 {
+                let spread = if id % 7 == 0 { 0.0 } else { size };
+                let place = if id % 11 == 0 { [0.5; 3] } else { place };
+                positions
+                    .push(place.map(|v| if id % 5 == 0 && corner == 2 { v } else { v + spread * number() }));
+            }
+        }
+        let triangles = (0..count).map(|id| [3 * id, 3 * id + 1, 3 * id + 2]).collect();
+        TriangleMesh::new(positions, triangles, None, None).unwrap()
+    }
+
+    /// Looks at every leaf: that its triangles lie within all boxes above, and how often each triangle stands in one.
+    fn check(mesh: &TriangleMesh, tree: &WideTree) -> Vec<u32> {
+        let mut seen = vec![0; mesh.triangles().len()];
+        let everything = Box32 { min: [f32::NEG_INFINITY; 3], max: [f32::INFINITY; 3] };
+        let mut stack = vec![(0_usize, everything, 0)];
+        while let Some((at, around, depth)) = stack.pop() {
+            assert!(depth < MAX_DEPTH);
+            let node = &tree.nodes[at];
+            for child in 0..usize::from(node.children) {
+                let bounds = node.bounds_of(child);
+                assert_eq!(around.union(&bounds), around, "a child lies within its parent");
+                if node.count[child] == 0 {
+                    stack.push((node.link[child] as usize, bounds, depth + 1));
+                    continue;
+                }
+                for slot in node.link[child]..node.link[child] + u32::from(node.count[child]) {
+                    let facet = tree.facet(slot);
+                    seen[facet as usize] += 1;
+                    let corners = mesh.triangles()[facet as usize].map(|i| mesh.positions()[i as usize]);
+                    assert_eq!(tree.triangle(slot), corners);
+                    assert!(corners.iter().all(|p| bounds.union(&Box32 { min: *p, max: *p }) == bounds));
+                }
+            }
+        }
+        seen
+    }
+
+    #[test]
+    fn every_triangle_stands_in_one_leaf_within_all_boxes_above_it() {
+        for count in [1, 2, 8, 9, 13, 100, 20_000] {
+            let mesh = crowd(count);
+            for preset in Preset::ALL {
+                let seen = check(&mesh, &grow(&mesh, *preset));
+                assert!(seen.iter().all(|&times| times == 1), "{count} {}", preset.name());
+            }
+        }
+    }
+
+    #[test]
+    fn a_tree_does_not_depend_on_the_number_of_threads() {
+        let mesh = crowd(30_000);
+        let grown = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let tree = pool.install(|| grow(&mesh, Preset::Balanced));
+            (tree.nodes.len(), tree.blocks.iter().map(|block| block.facet).collect::<Vec<_>>())
+        };
+        assert!(grown(1) == grown(3));
+    }
+
+    #[test]
+    fn a_thousand_triangles_in_one_place_and_wild_extents_still_make_a_tree() {
+        let scales = (0..200).map(|i| 2.0_f32.powi(i - 100));
+        let mut positions: Vec<[f32; 3]> = scales.map(|v| [v; 3]).collect();
+        positions.extend([[0.25; 3], [0.5, 0.25, 0.25], [0.25, 0.5, 0.25]]);
+        let ladder = (0..197).map(|i| [i, i + 1, i + 2]);
+        let same = std::iter::repeat_n([200, 201, 202], 1000);
+        let triangles: Vec<[u32; 3]> = ladder.chain(same).collect();
+        let mesh = TriangleMesh::new(positions, triangles, None, None).unwrap();
+        for preset in Preset::ALL {
+            assert!(check(&mesh, &grow(&mesh, *preset)).iter().all(|&times| times == 1));
+        }
+    }
+}

@@ -30,6 +30,13 @@ impl<S: Simd> D<S> {
     }
 
     #[inline(always)]
+    pub(crate) fn store(self, to: &mut [f64]) {
+        let half = S::f64s::LEN;
+        self.lower.store_slice(&mut to[..half]);
+        self.upper.store_slice(&mut to[half..2 * half]);
+    }
+
+    #[inline(always)]
     pub(crate) fn abs(self) -> Self {
         Self { lower: self.lower.abs(), upper: self.upper.abs() }
     }
@@ -37,6 +44,16 @@ impl<S: Simd> D<S> {
     #[inline(always)]
     pub(crate) fn max(self, o: Self) -> Self {
         Self { lower: self.lower.max(o.lower), upper: self.upper.max(o.upper) }
+    }
+
+    #[inline(always)]
+    pub(crate) fn set(&mut self, lane: usize, v: f64) {
+        let half = S::f64s::LEN;
+        if lane < half {
+            self.lower.as_mut_slice()[lane] = v;
+        } else {
+            self.upper.as_mut_slice()[lane - half] = v;
+        }
     }
 
     /// Where `self <= o`; never for NaN.

@@ -14,9 +14,10 @@ use super::search::Best;
 use crate::backend::Frame;
 use crate::film::NOTHING;
 use crate::kernel::mesh::Visits;
-use crate::lanes::{D, D3, F, M, U, narrow3, splat_wide, splat3};
+use crate::lanes::{Bits, D, D3, F, M, U, narrow3, splat_wide, splat3};
 use crate::numeric::{END_ERROR, ORDINARY};
 use crate::query::{HitSlice, RaySlice};
+use crate::snapshot::Row;
 use crate::{Place, Size, Snapshot, Stats, View};
 
 /// What is asked about some rays.
@@ -226,39 +227,66 @@ impl<S: Simd> Tracer<'_, S> {
             let error = F::pick(finite, far * F::splat(self.s, END_ERROR), none);
             let mut best = Best::nothing_until(self.s, far, error);
             self.look(&packet, &mut best, &shapes);
-            for lane in 0..(asked.rays.len() - at).min(F::<S>::LANES) {
-                let live = packet.live.bits() >> lane & 1 == 1;
-                let hit = if asked.any && live {
-                    let prim = best.prim.lane(lane);
-                    (prim != NOTHING).then_some((Place { prim, facet: 0 }, 0.0))
-                } else if live {
-                    self.settled_hit(&packet, &best, lane)
-                } else {
-                    self.plainly(asked, at + lane)
-                };
-                answers.set(at + lane, hit);
-            }
+            self.store(asked, (&packet, &best), at, answers);
         }
     }
 
-    /// The place that a lane has found, with its `t` from `f64`.
-    fn settled_hit(&self, packet: &Packet<'_, S>, best: &Best<S>, lane: usize) -> Option<(Place, f64)> {
-        let place = Place { prim: best.prim.lane(lane), facet: best.facet.lane(lane) };
-        if place.prim == NOTHING {
-            return None;
+    /// Keeps what a packet has found.
+    #[inline(always)]
+    fn store(
+        &mut self,
+        asked: &Asked<'_>,
+        (packet, best): (&Packet<'_, S>, &Best<S>),
+        at: usize,
+        answers: &mut Answers<'_, '_>,
+    ) {
+        let lanes = (asked.rays.len() - at).min(F::<S>::LANES);
+        match answers {
+            Answers::Nearest(hits) => {
+                best.prim.store(&mut hits.prim[at..]);
+                best.facet.store(&mut hits.facet[at..]);
+                self.settled_hits(packet, best).store(&mut hits.t[at..]);
+            }
+            Answers::Occluded(occluded) => {
+                for (lane, occluded) in occluded[at..at + lanes].iter_mut().enumerate() {
+                    *occluded = best.prim.lane(lane) != NOTHING;
+                }
+            }
         }
-        if let Some(mesh) = self.frame.snapshot.mesh_at(place.prim) {
-            let asked = || (packet.span(lane), packet.leaving(lane));
-            return Some((place, self.settled_t(mesh, &packet.ray(lane), (place.prim, place.facet), asked)));
+        let odd = !packet.live.bits() & (u64::MAX >> (64 - lanes));
+        for lane in Bits(odd) {
+            answers.set(at + lane, self.plainly(asked, at + lane));
         }
-        let (ray, span, leaving) = (packet.ray(lane), packet.span(lane), packet.leaving(lane));
-        let hit = self.frame.snapshot.cross_part(place.prim, Some(place.facet), &ray, span, leaving);
-        // What `f32` was certain of stands, though `f64` may see its `t` at the very end of the stretch.
-        let t = hit.map_or_else(
-            || f64::from(best.t.lane(lane) * packet.inverse_length.lane(lane)),
-            |h| h.crossing.t,
-        );
-        Some((place, t))
+    }
+
+    /// The `t` of what lanes have found, from `f64`.
+    #[inline(always)]
+    fn settled_hits(&mut self, packet: &Packet<'_, S>, best: &Best<S>) -> D<S> {
+        let snapshot = self.frame.snapshot;
+        let mut all = (best.t * packet.inverse_length).widen();
+        let mut left = (best.hits() & packet.live).bits();
+        while left != 0 {
+            let prim = best.prim.lane(left.trailing_zeros() as usize);
+            let lanes = M::from_bits(self.s, left) & best.prim.is(prim);
+            left &= !lanes.bits();
+            if let (Row::Instance(row), Some(mesh)) =
+                (snapshot.columns().rows[prim as usize], snapshot.mesh_at(prim))
+            {
+                let instance = &snapshot.columns().instances[row as usize];
+                let t = self.settled_t(packet, (instance, mesh), lanes, &best.facet);
+                all = D::pick(lanes, t, all);
+                continue;
+            }
+            for lane in lanes.lanes() {
+                let (ray, span, leaving) = (packet.ray(lane), packet.span(lane), packet.leaving(lane));
+                let facet = Some(best.facet.lane(lane));
+                // What `f32` was certain of stands, though `f64` may see its `t` at the very end of the stretch.
+                if let Some(hit) = snapshot.cross_part(prim, facet, &ray, span, leaving) {
+                    all.set(lane, hit.crossing.t);
+                }
+            }
+        }
+        all
     }
 
     /// What a ray meets that `f32` cannot hold.

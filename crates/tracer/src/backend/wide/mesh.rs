@@ -1,7 +1,7 @@
 //! How a packet finds the triangles of a mesh: all lanes together where they go through one point, else lane by lane.
 
 use catoptra_core::geometry::Mesh;
-use catoptra_core::{Arithmetic, Geometry, Lane, Ray, Span};
+use catoptra_core::{Arithmetic, Geometry, Lane, LaneMask, Ray, Span};
 use fearless_simd::Simd;
 
 use super::Tracer;
@@ -9,9 +9,9 @@ use super::ask::Asked;
 use super::packet::{Packet, Precise, drift};
 use super::search::Best;
 use super::shadow::Ways;
-use crate::kernel::mesh::{FanRays, Lines, Lone, LoneBest, Umpire, Visits, depth};
-use crate::lanes::{Bits, D3, F, M, U, splat_wide, widen3};
-use crate::numeric::{DEPTH_ERROR, END_ERROR, POINT_ERROR};
+use crate::kernel::mesh::{FanRays, LaneCorners, Lines, Lone, LoneBest, Umpire, Visits};
+use crate::lanes::{Bits, D, D3, F, M, U, splat_wide, widen3};
+use crate::numeric::{END_ERROR, POINT_ERROR};
 use crate::snapshot::{Affine, Instance, Way};
 use crate::{Hit, Snapshot};
 
@@ -58,11 +58,7 @@ impl<S: Simd> Tracer<'_, S> {
         };
         self.count(&mut visits);
         *self.visits = visits;
-        for lane in Bits(packet.live.bits()) {
-            if facets[lane] != NONE {
-                self.take(packet, best, lane, mesh, (instance.prim, facets[lane]));
-            }
-        }
+        self.take(packet, best, (instance, mesh), &facets);
     }
 
     /// Marks the lanes that meet any triangle of a mesh.
@@ -164,44 +160,56 @@ impl<S: Simd> Tracer<'_, S> {
         facets
     }
 
-    /// Takes over a triangle that is nearer for certain. Its `t` is a function of ray and triangle alone, however it was
-    /// found, so that bits do not depend on which rays were traced together.
+    /// Takes over triangles that are nearer for certain. Their `t` are functions of ray and triangle alone, however those
+    /// were found, so that bits do not depend on which rays were traced together.
     #[inline(always)]
     fn take(
         &mut self,
         packet: &Packet<'_, S>,
         best: &mut Best<S>,
-        lane: usize,
-        mesh: &Mesh,
-        place: (u32, u32),
+        (instance, mesh): (&Instance, &Mesh),
+        facets: &[u32; 16],
     ) {
-        let ray = packet.ray(lane);
-        let t = self.settled_t(mesh, &ray, place, || (packet.span(lane), packet.leaving(lane)));
-        let metres = (t as f32 / packet.inverse_length.lane(lane)).min(f32::MAX.next_down());
-        best.t.set(lane, metres);
-        best.error.set(lane, metres * END_ERROR);
-        best.prim.set(lane, place.0);
-        best.facet.set(lane, place.1);
+        let facet = U::load(self.s, facets);
+        let taken = packet.live & !facet.is(NONE);
+        if !taken.any() {
+            return;
+        }
+        let t = self.settled_t(packet, (instance, mesh), taken, &facet).narrow();
+        let metres = (t / packet.inverse_length).min(F::splat(self.s, f32::MAX.next_down()));
+        best.t = F::pick(taken, metres, best.t);
+        best.error = F::pick(taken, metres * F::splat(self.s, END_ERROR), best.error);
+        best.prim = U::pick(taken, U::splat(self.s, instance.prim), best.prim);
+        best.facet = U::pick(taken, facet, best.facet);
     }
 
-    /// Where a ray meets a triangle that it is known to meet.
+    /// Where rays meet triangles of a mesh that they are known to meet.
     #[inline(always)]
     pub(super) fn settled_t(
         &self,
-        mesh: &Mesh,
-        ray: &Ray,
-        (prim, facet): (u32, u32),
-        asked: impl FnOnce() -> (Span, Option<crate::Place>),
-    ) -> f64 {
-        let triangles = mesh.triangles();
-        let ([a, b, c], at) = (triangles.triangles()[facet as usize], triangles.positions());
-        let (t, error) = depth(&[at[a as usize], at[b as usize], at[c as usize]], &mesh.own_ray(ray));
-        if error <= t.abs() * DEPTH_ERROR {
-            return t;
+        packet: &Packet<'_, S>,
+        (instance, mesh): (&Instance, &Mesh),
+        lanes: M<S>,
+        facet: &U<S>,
+    ) -> D<S> {
+        let (triangles, at) = (mesh.triangles().triangles(), mesh.triangles().positions());
+        let mut corners = LaneCorners::NONE;
+        for lane in lanes.lanes() {
+            let [a, b, c] = triangles[facet.lane(lane) as usize];
+            corners.set(lane, &[at[a as usize], at[b as usize], at[c as usize]]);
         }
-        let (span, leaving) = asked();
-        let hit = self.frame.snapshot.cross_part(prim, Some(facet), ray, span, leaving);
-        hit.map_or(t, |hit| hit.crossing.t)
+        let (origin, direction) = packet.precise(self.s);
+        let (origin, direction) =
+            (instance.own_points(self.s, origin), instance.own_vectors(self.s, direction));
+        let (mut t, sure) = corners.depths(self.s, origin, direction);
+        for lane in Bits((lanes & !sure).bits()) {
+            let (ray, span, leaving) = (packet.ray(lane), packet.span(lane), packet.leaving(lane));
+            let facet = Some(facet.lane(lane));
+            if let Some(hit) = self.frame.snapshot.cross_part(instance.prim, facet, &ray, span, leaving) {
+                t.set(lane, hit.crossing.t);
+            }
+        }
+        t
     }
 
     /// The ways still open once a mesh stands there. Compiled apart.

@@ -13,7 +13,9 @@ use catoptra_core::{Ray, Span};
 pub(crate) use bundle::Lines;
 pub(crate) use fan::{Fan, FanRays};
 pub(crate) use lone::{Lone, LoneBest};
-pub(crate) use precise::{Verdict, depth, meet};
+pub(crate) use precise::LaneCorners;
+
+use precise::{Verdict, depth, meet};
 
 /// Decides for certain what bounds leave open.
 pub(crate) trait Umpire {

@@ -4,8 +4,11 @@
 
 use catoptra_core::Ray;
 use catoptra_core::glam::DVec3;
+use fearless_simd::Simd;
 
-use crate::numeric::{MEET_EDGE_ERROR, MEET_SLOPE_ERROR, MEET_TOP_ERROR};
+use crate::kernel::cross;
+use crate::lanes::{D, D3, F, M};
+use crate::numeric::{DEPTH_ERROR, MEET_EDGE_ERROR, MEET_SLOPE_ERROR, MEET_TOP_ERROR};
 
 /// What is certain of a ray and a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,6 +58,57 @@ pub(crate) fn depth(corners: &[[f32; 3]; 3], ray: &Ray) -> (f64, f64) {
     let error = 1.5 * (top_error + t.abs() * slope_error) / slope.abs() + t.abs() * (2.0 * f64::EPSILON);
     let certain = slope.abs() > 4.0 * slope_error && error.is_finite();
     (t, if certain { error } else { f64::INFINITY })
+}
+
+/// Corners of a triangle in every lane: x, y and z of the first, the second and the third.
+pub(crate) struct LaneCorners([[f32; MOST_LANES]; 9]);
+
+/// Most lanes that any packet has.
+const MOST_LANES: usize = 16;
+
+impl LaneCorners {
+    pub(crate) const NONE: Self = Self([[0.0; MOST_LANES]; 9]);
+
+    #[inline(always)]
+    pub(crate) fn set(&mut self, lane: usize, corners: &[[f32; 3]; 3]) {
+        let lane = lane % MOST_LANES;
+        for corner in 0..3 {
+            for axis in 0..3 {
+                self.0[3 * corner + axis][lane] = corners[corner][axis];
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn corner<S: Simd>(&self, s: S, first: usize) -> D3<S> {
+        let rows = &self.0;
+        let x = F::load(s, &rows[3 * first]).widen();
+        let y = F::load(s, &rows[3 * first + 1]).widen();
+        D3::new(x, y, F::load(s, &rows[3 * first + 2]).widen())
+    }
+
+    /// As [`depth`], for rays in every lane; and where the bound on the error is below [`DEPTH_ERROR`] of it.
+    #[inline(always)]
+    pub(crate) fn depths<S: Simd>(&self, s: S, origin: D3<S>, direction: D3<S>) -> (D<S>, M<S>) {
+        let a = self.corner(s, 0);
+        let (e, f) = (self.corner(s, 1) - a, self.corner(s, 2) - a);
+        let (normal, from) = (cross(e, f), a - origin);
+        let length = largest(e).max(largest(f));
+        let length2 = length * length;
+        let slope = normal.dot(direction);
+        let spread = direction.x.abs() + direction.y.abs() + direction.z.abs();
+        let slope_error = D::splat(s, MEET_SLOPE_ERROR) * spread * length2;
+        let t = normal.dot(from) / slope;
+        let top_error = D::splat(s, MEET_TOP_ERROR) * length2 * largest(from);
+        let error = D::splat(s, 1.5) * (top_error + t.abs() * slope_error) / slope.abs();
+        let steep = (D::splat(s, 4.0) * slope_error).at_most(slope.abs());
+        (t, steep & error.at_most(t.abs() * D::splat(s, DEPTH_ERROR)))
+    }
+}
+
+#[inline(always)]
+fn largest<S: Simd>(v: D3<S>) -> D<S> {
+    v.x.abs().max(v.y.abs()).max(v.z.abs())
 }
 
 #[inline(always)]
