@@ -24,6 +24,10 @@ impl Numbers {
     }
 }
 
+fn pool(threads: usize) -> Pool {
+    Pool::new(threads).expect("a pool of threads")
+}
+
 fn random_rays(count: usize) -> RayList {
     let mut numbers = Numbers(88_172_645_463_325_252);
     let mut rays = RayList::new();
@@ -41,8 +45,8 @@ fn random_rays(count: usize) -> RayList {
 
 fn nearest(backend: &str, snapshot: &Snapshot, rays: &RayList) -> HitList {
     let mut hits = HitList::default();
-    let backend = backend_named(backend).unwrap();
-    find_nearest(backend, snapshot, rays, &mut hits, &Pool::new(2).unwrap());
+    let backend = backend_named(backend).expect("a backend of that name");
+    find_nearest(backend, snapshot, rays, &mut hits, &pool(2));
     hits
 }
 
@@ -55,13 +59,13 @@ fn every_backend_meets_what_the_oracle_meets() {
         for backend in backends() {
             let found = nearest(backend.name(), &snapshot, &rays);
             let mut occluded = Vec::new();
-            find_occluded(*backend, &snapshot, &rays, &mut occluded, &Pool::new(2).unwrap());
-            for at in 0..rays.len() {
+            find_occluded(*backend, &snapshot, &rays, &mut occluded, &pool(2));
+            for (at, &occluded) in occluded.iter().enumerate() {
                 let (a, b) = (right.get(at), found.get(at));
                 assert_eq!(a.map(|h| h.0), b.map(|h| h.0), "{name} {} ray {at}", backend.name());
                 let (a, b) = (a.map_or(0.0, |h| h.1), b.map_or(0.0, |h| h.1));
                 assert!((a - b).abs() <= 1e-12 * a.abs(), "{name} {} ray {at}: {a} {b}", backend.name());
-                assert_eq!(right.get(at).is_some(), occluded[at], "{name} {} ray {at}", backend.name());
+                assert_eq!(right.get(at).is_some(), occluded, "{name} {} ray {at}", backend.name());
             }
         }
     }
@@ -141,7 +145,7 @@ fn crowd(numbers: &mut Numbers, count: u32) -> TriangleMesh {
         }
     }
     let triangles = (0..count).map(|id| [3 * id, 3 * id + 1, 3 * id + 2]).collect();
-    TriangleMesh::new(positions, triangles, None, None).unwrap()
+    TriangleMesh::new(positions, triangles, None, None).expect("a mesh")
 }
 
 /// Rays from one point, to one point, and without order; a third of them through corners, a third through edges.
@@ -188,12 +192,12 @@ fn meshes_of_any_kind_are_met_where_the_oracle_meets_them() {
             for backend in ["scalar", "wide"] {
                 let found = nearest(backend, &snapshot, &rays);
                 let mut occluded = Vec::new();
-                let pool = Pool::new(1).unwrap();
-                find_occluded(backend_named(backend).unwrap(), &snapshot, &rays, &mut occluded, &pool);
-                for at in 0..rays.len() {
+                let tracing = backend_named(backend).expect("a backend of that name");
+                find_occluded(tracing, &snapshot, &rays, &mut occluded, &pool(1));
+                for (at, &occluded) in occluded.iter().enumerate() {
                     let (a, b) = (right.get(at).map(|hit| hit.0), found.get(at).map(|hit| hit.0));
                     assert_eq!(a, b, "{backend} {} ray {at}", preset.name());
-                    assert_eq!(a.is_some(), occluded[at], "{backend} {} ray {at}", preset.name());
+                    assert_eq!(a.is_some(), occluded, "{backend} {} ray {at}", preset.name());
                 }
             }
         }

@@ -130,7 +130,7 @@ fn scene_of(path: &Path) -> Result<Scene> {
     let mesh = mesh::read(path)?;
     let mut scene = Scene::new();
     let clay = scene.add_material("clay", Matte::new(Rgb::grey(0.5)).into_diagnostic()?).into_diagnostic()?;
-    let source = MeshSource { path: path.display().to_string().into(), mesh: mesh.into() };
+    let source = MeshSource { path: path.display().to_string(), mesh: mesh.into() };
     scene.add_shape("mesh", Mesh::new(source), clay, None).into_diagnostic()?;
     Ok(scene)
 }

@@ -5,11 +5,12 @@
 
 use catoptra_core::TriangleMesh;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f32x4};
+use fearless_simd::{Level, Simd, dispatch};
 use rayon::prelude::*;
 
+use super::bins::{Bin, Extent, Item, Plane, Scale, Set};
 use super::wide_tree::{Block8, Node8, WIDTH, WideTree};
-use super::{Box32, MAX_DEPTH, Preset};
+use super::{MAX_DEPTH, Preset};
 
 /// Most bins along an axis that any preset has.
 const MOST_BINS: usize = 32;
@@ -26,143 +27,6 @@ const HALVE: usize = MAX_DEPTH - 32;
 /// Builds the tree on the threads of the pool it is called in.
 pub(super) fn grow(mesh: &TriangleMesh, preset: Preset) -> WideTree {
     dispatch!(Level::baseline(), s => Grower { s, preset }.grow(mesh))
-}
-
-/// A triangle's box; the last number of the lower corner is the bits of the triangle's own.
-#[derive(Clone, Copy)]
-struct Item {
-    low: [f32; 4],
-    high: [f32; 4],
-}
-
-impl Item {
-    fn new(mesh: &TriangleMesh, id: u32) -> Self {
-        let [a, b, c] = mesh.triangles()[id as usize].map(|i| mesh.positions()[i as usize]);
-        let (mut low, mut high) = ([f32::from_bits(id); 4], [0.0; 4]);
-        for axis in 0..3 {
-            low[axis] = a[axis].min(b[axis]).min(c[axis]);
-            high[axis] = a[axis].max(b[axis]).max(c[axis]);
-        }
-        Self { low, high }
-    }
-}
-
-/// A box in registers; the fourth numbers mean nothing.
-#[derive(Clone, Copy)]
-struct Extent<S: Simd> {
-    low: f32x4<S>,
-    high: f32x4<S>,
-}
-
-impl<S: Simd> Extent<S> {
-    #[inline(always)]
-    fn empty(s: S) -> Self {
-        Self { low: f32x4::splat(s, f32::INFINITY), high: f32x4::splat(s, f32::NEG_INFINITY) }
-    }
-
-    #[inline(always)]
-    fn of(s: S, item: &Item) -> Self {
-        Self { low: f32x4::load_array_ref(s, &item.low), high: f32x4::load_array_ref(s, &item.high) }
-    }
-
-    #[inline(always)]
-    fn union(self, o: Self) -> Self {
-        Self { low: self.low.min(o.low), high: self.high.max(o.high) }
-    }
-
-    /// Twice the centre; the order of centres is all that counts.
-    #[inline(always)]
-    fn centre2(self) -> f32x4<S> {
-        self.low + self.high
-    }
-
-    /// The box of one point.
-    #[inline(always)]
-    fn point(at: f32x4<S>) -> Self {
-        Self { low: at, high: at }
-    }
-
-    /// Half the surface area; 0 when empty.
-    #[inline(always)]
-    fn half_area(self) -> f32 {
-        let [x, y, z, _] = (self.high - self.low).to_array();
-        if x < 0.0 { 0.0 } else { x * y + y * z + z * x }
-    }
-
-    fn bounds(self) -> Box32 {
-        let corner = |[x, y, z, _]: [f32; 4]| [x, y, z];
-        Box32 { min: corner(self.low.to_array()), max: corner(self.high.to_array()) }
-    }
-}
-
-/// Triangles that stand side by side, with the boxes round them and round their centres.
-#[derive(Clone, Copy)]
-struct Set<S: Simd> {
-    first: usize,
-    count: usize,
-    around: Extent<S>,
-    centres: Extent<S>,
-    leaf: bool,
-}
-
-impl<S: Simd> Set<S> {
-    fn empty(s: S, first: usize) -> Self {
-        Self { first, count: 0, around: Extent::empty(s), centres: Extent::empty(s), leaf: false }
-    }
-
-    #[inline(always)]
-    fn add(&mut self, extent: Extent<S>) {
-        self.count += 1;
-        self.around = self.around.union(extent);
-        self.centres = self.centres.union(Extent::point(extent.centre2()));
-    }
-}
-
-/// Where a set is split: before a bin along an axis.
-#[derive(Clone, Copy)]
-struct Plane {
-    axis: usize,
-    bin: i32,
-    cost: f32,
-}
-
-/// How centres fall into bins.
-#[derive(Clone, Copy)]
-struct Scale<S: Simd> {
-    low: f32x4<S>,
-    scale: f32x4<S>,
-    bins: usize,
-}
-
-impl<S: Simd> Scale<S> {
-    #[inline(always)]
-    fn new(s: S, centres: Extent<S>, bins: usize) -> Self {
-        let extent = centres.high - centres.low;
-        let most = f32x4::splat(s, bins as f32 * 0.999);
-        let some = extent.simd_gt(f32x4::splat(s, f32::MIN_POSITIVE));
-        let scale = some.select(most / extent, f32x4::splat(s, 0.0));
-        Self { low: centres.low, scale, bins }
-    }
-
-    #[inline(always)]
-    fn bins_of(&self, extent: Extent<S>) -> [i32; 4] {
-        let place = (extent.centre2() - self.low) * self.scale;
-        place.to_int::<fearless_simd::i32x4<S>>().to_array()
-    }
-}
-
-/// What falls into a bin.
-#[derive(Clone, Copy)]
-struct Bin {
-    around: Item,
-    count: u32,
-}
-
-impl Default for Bin {
-    #[inline(always)]
-    fn default() -> Self {
-        Self { around: Item { low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4] }, count: 0 }
-    }
 }
 
 struct Grower<S: Simd> {
@@ -407,6 +271,7 @@ fn block(mesh: &TriangleMesh, items: &[Item]) -> Block8 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::accel::Box32;
 
     /// Triangles in random places of random sizes, some without area, some in one place.
     fn crowd(count: u32) -> TriangleMesh {

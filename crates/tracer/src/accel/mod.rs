@@ -1,5 +1,6 @@
 //! How few things a ray is tested against: trees of boxes.
 
+mod bins;
 mod build;
 mod grow;
 mod mesh_tree;

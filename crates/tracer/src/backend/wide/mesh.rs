@@ -1,7 +1,7 @@
 //! How a packet finds the triangles of a mesh: all lanes together where they go through one point, else lane by lane.
 
 use catoptra_core::geometry::Mesh;
-use catoptra_core::{Arithmetic, Geometry, Lane, LaneMask, Ray, Span};
+use catoptra_core::{Arithmetic, Lane, LaneMask};
 use fearless_simd::Simd;
 
 use super::Tracer;
@@ -9,14 +9,14 @@ use super::ask::Asked;
 use super::packet::{Packet, Precise, drift};
 use super::search::Best;
 use super::shadow::Ways;
+use super::umpire::{Blocked, Nearest};
 use crate::kernel::mesh::{FanRays, LaneCorners, Lines, Lone, LoneBest, Umpire, Visits};
 use crate::lanes::{Bits, D, D3, F, M, U, splat_wide, widen3};
 use crate::numeric::{END_ERROR, POINT_ERROR};
-use crate::snapshot::{Affine, Instance, Way};
-use crate::{Hit, Snapshot};
+use crate::snapshot::{Affine, Instance};
 
 /// Stands for no triangle.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 impl<S: Simd> Tracer<'_, S> {
     /// Finds the nearest triangle of a mesh. Compiled apart.
@@ -294,68 +294,6 @@ impl<S: Simd> Tracer<'_, S> {
         let eight = crate::accel::WIDTH as u64;
         self.stats.tests.boxes += std::mem::take(&mut visits.nodes) * eight;
         self.stats.tests.shapes += std::mem::take(&mut visits.blocks) * eight;
-    }
-}
-
-/// Decides what a ray of a packet meets first.
-struct Nearest<'a, S: Simd> {
-    snapshot: &'a Snapshot,
-    mesh: &'a Mesh,
-    prim: u32,
-    packet: &'a Packet<'a, S>,
-    /// What the rays had met before they came to the mesh.
-    before: &'a Best<S>,
-}
-
-impl<S: Simd> Umpire for Nearest<'_, S> {
-    fn ray(&mut self, lane: usize) -> Option<(Ray, Span)> {
-        Some((self.mesh.own_ray(&self.packet.ray(lane)), self.packet.span(lane)))
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn decide(&mut self, lane: usize, facet: u32, held: Option<u32>) -> Option<f64> {
-        let (ray, span, leaving) = (self.packet.ray(lane), self.packet.span(lane), self.packet.leaving(lane));
-        let cross = |prim: u32, facet: u32| self.snapshot.cross_part(prim, Some(facet), &ray, span, leaving);
-        let hit = cross(self.prim, facet)?;
-        let other: Option<Hit> = match (held, self.before.prim.lane(lane)) {
-            (Some(held), _) => cross(self.prim, held),
-            (None, NONE) => None,
-            (None, prim) => cross(prim, self.before.facet.lane(lane)),
-        };
-        let way = Way::new(&ray, span, leaving);
-        other.is_none_or(|other| self.snapshot.precedes(&way, &hit, &other)).then_some(hit.crossing.t)
-    }
-}
-
-/// Decides whether a way to a light is blocked.
-struct Blocked<'a, S: Simd> {
-    snapshot: &'a Snapshot,
-    mesh: &'a Mesh,
-    prim: u32,
-    packet: &'a Packet<'a, S>,
-    ways: &'a Ways<S>,
-}
-
-impl<S: Simd> Blocked<'_, S> {
-    /// The way from where the ray of a lane meets its surface in `f64`, whatever `f32` made of that point.
-    fn way(&self, lane: usize) -> Option<(Ray, Span)> {
-        self.ways.from_lane(self.snapshot, self.packet, lane)
-    }
-}
-
-impl<S: Simd> Umpire for Blocked<'_, S> {
-    fn ray(&mut self, lane: usize) -> Option<(Ray, Span)> {
-        let (way, span) = self.way(lane)?;
-        Some((self.mesh.own_ray(&way), span))
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn decide(&mut self, lane: usize, facet: u32, _: Option<u32>) -> Option<f64> {
-        let (way, span) = self.way(lane)?;
-        let hit = self.snapshot.cross_part(self.prim, Some(facet), &way, span, self.ways.left.lane(lane));
-        hit.map(|hit| hit.crossing.t)
     }
 }
 

@@ -22,6 +22,7 @@ mod settle;
 mod shadow;
 mod spread;
 mod surface;
+mod umpire;
 mod walk;
 mod window;
 

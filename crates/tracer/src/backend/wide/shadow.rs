@@ -26,7 +26,7 @@ pub(super) struct Ways<S: Simd> {
 
 impl<S: Simd> Ways<S> {
     /// The way of a lane, from where its ray meets its surface in `f64`, whatever `f32` made of that point.
-    pub(super) fn from_lane(
+    pub(super) fn of_lane(
         &self,
         snapshot: &Snapshot,
         packet: &Packet<'_, S>,
@@ -213,7 +213,7 @@ impl<S: Simd> Tracer<'_, S> {
         let mut closed = 0;
         for lane in Bits(lanes) {
             self.stats.settled += 1;
-            let Some((way, span)) = ways.from_lane(snapshot, packet, lane) else { continue };
+            let Some((way, span)) = ways.of_lane(snapshot, packet, lane) else { continue };
             if snapshot.cross_part(prim, facet, &way, span, ways.left.lane(lane)).is_some() {
                 closed |= 1 << lane;
             }

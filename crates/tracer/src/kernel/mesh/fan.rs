@@ -10,26 +10,27 @@ use catoptra_core::{Arithmetic, Lane, LaneMask};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
+use super::edges::Prepared;
 use super::{Settled, Umpire, Visit, Visits, settle};
-use crate::accel::{Block8, Node8, WIDTH, WideTree};
+use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::{Bits, F, M, U};
-use crate::numeric::{FAN_EDGE, FAN_PAD, FAN_SLOPE, FAN_TOP};
+use crate::numeric::{FAN_PAD, FAN_SLOPE};
 
 /// What rays through one point have in common.
 pub(crate) struct Fan {
     /// Axes of the slopes, then the one that all rays run along.
-    axes: [usize; 3],
+    pub(super) axes: [usize; 3],
     /// 1 or −1: which way they do so. All space is mirrored through the origin for those that run backwards.
-    sign: f32,
+    pub(super) sign: f32,
     /// The point, mirrored as the rays are, axis by axis as in `axes`.
-    apex: [f32; 3],
+    pub(super) apex: [f32; 3],
     /// How far a ray may pass the point by.
-    slack: f32,
+    pub(super) slack: f32,
     /// Error of the slopes.
-    slope_error: f32,
+    pub(super) slope_error: f32,
     /// Box round the slopes of all rays.
-    low: [f32; 2],
-    high: [f32; 2],
+    pub(super) low: [f32; 2],
+    pub(super) high: [f32; 2],
     /// How far boxes are widened.
     pad: f32,
     /// Whether any crossing will do.
@@ -63,21 +64,6 @@ impl<S: Simd> FanRays<S> {
         self.u.mul_add(x, self.v.mul_add(y, z))
     }
 }
-
-/// Eight triangles as seen from the point.
-struct Prepared {
-    /// Planes through the point and each edge.
-    edges: [[[f32; WIDTH]; 3]; 3],
-    edge_error: [f32; WIDTH],
-    /// The triangle's own normal, and the point's distance from its plane along that.
-    normal: [[f32; WIDTH]; 3],
-    top: [f32; WIDTH],
-    top_error: [f32; WIDTH],
-    slope_error: [f32; WIDTH],
-}
-
-/// Three numbers for each of eight triangles.
-type Eight3<S> = [f32x8<S>; 3];
 
 /// Where rays go: slopes and the sign along the main axis.
 pub(crate) struct Aim {
@@ -245,91 +231,9 @@ impl Fan {
         for at in Bits(maybe) {
             let at = at % WIDTH;
             let facet = tree.blocks[block].facet[at];
-            changed |= self.weigh(s, tree, &prepared, at, ((block * WIDTH + at) as u32, facet), rays, umpire);
+            changed |= self.weigh(s, (tree, &prepared), ((block * WIDTH + at) as u32, facet), rays, umpire);
         }
         changed
-    }
-
-    /// A block as seen from the point, and the triangles that some ray may meet.
-    #[inline(always)]
-    fn prepare<S: Simd>(&self, s: S, block: &Block8) -> (Prepared, u64) {
-        let (a, b, c) = (self.corner(s, block, 0), self.corner(s, block, 1), self.corner(s, block, 2));
-        let edges = [minus(c, b), minus(a, c), minus(b, a)];
-        let normal = cross(edges[1], edges[2]);
-        let length = largest(edges);
-        let (p, q, r) = (self.from_apex(s, a), self.from_apex(s, b), self.from_apex(s, c));
-        let size = largest([p, q, r]);
-        let planes = [cross(edges[0], q), cross(edges[1], r), cross(edges[2], p)];
-        let spread =
-            1.0 + self.low[0].abs().max(self.high[0].abs()) + self.low[1].abs().max(self.high[1].abs());
-        let relative = FAN_EDGE * spread + 4.0 * self.slope_error;
-        let per_length = size.mul_add_precise(
-            f32x8::splat(s, relative),
-            f32x8::splat(s, 2.0 * spread * self.slack + f32::MIN_POSITIVE),
-        );
-        let edge_error = length.mul_add_precise(per_length, f32x8::splat(s, f32::MIN_POSITIVE));
-        let maybe = self.seen(s, &planes, edge_error);
-        let length2 = length * length;
-        let top = p[0].mul_add_precise(normal[0], p[1].mul_add_precise(normal[1], p[2] * normal[2]));
-        let per_length2 = size
-            .mul_add_precise(f32x8::splat(s, FAN_TOP), f32x8::splat(s, 6.0 * self.slack + f32::MIN_POSITIVE));
-        let prepared = Prepared {
-            edges: [stored(planes[0]), stored(planes[1]), stored(planes[2])],
-            edge_error: edge_error.to_array(),
-            normal: stored(normal),
-            top: top.to_array(),
-            top_error: (length2 * per_length2).to_array(),
-            slope_error: (length2 * f32x8::splat(s, relative)).to_array(),
-        };
-        (prepared, maybe)
-    }
-
-    /// A corner of every triangle, axis by axis as in `axes`.
-    #[inline(always)]
-    fn corner<S: Simd>(&self, s: S, block: &Block8, corner: usize) -> Eight3<S> {
-        let rows = &block.corners[corner];
-        [
-            f32x8::load_array_ref(s, &rows[self.axes[0] % 3]),
-            f32x8::load_array_ref(s, &rows[self.axes[1] % 3]),
-            f32x8::load_array_ref(s, &rows[self.axes[2] % 3]),
-        ]
-    }
-
-    /// Corners as seen from the point, mirrored as it is.
-    #[inline(always)]
-    fn from_apex<S: Simd>(&self, s: S, p: Eight3<S>) -> Eight3<S> {
-        let sign = f32x8::splat(s, self.sign);
-        [
-            p[0].mul_sub_precise(sign, f32x8::splat(s, self.apex[0])),
-            p[1].mul_sub_precise(sign, f32x8::splat(s, self.apex[1])),
-            p[2].mul_sub_precise(sign, f32x8::splat(s, self.apex[2])),
-        ]
-    }
-
-    /// The middle of all rays' slopes along an axis, and how far they lie from it.
-    #[inline(always)]
-    fn side<S: Simd>(&self, s: S, which: usize) -> (f32x8<S>, f32x8<S>) {
-        let half = f32x8::splat(s, 0.5);
-        let (low, high) = (f32x8::splat(s, self.low[which]), f32x8::splat(s, self.high[which]));
-        // Half the width is rounded by less than what the edges' doubled errors have room for.
-        ((low + high) * half, (high - low) * half)
-    }
-
-    /// Triangles that not all rays are certain to miss: those that no two edges leave all rays on different sides of.
-    #[inline(always)]
-    fn seen<S: Simd>(&self, s: S, planes: &[Eight3<S>; 3], error: f32x8<S>) -> u64 {
-        let doubled = error + error;
-        let ((u, du), (v, dv)) = (self.side(s, 0), self.side(s, 1));
-        let (mut least_high, mut most_low) =
-            (f32x8::splat(s, f32::INFINITY), f32x8::splat(s, f32::NEG_INFINITY));
-        for n in planes {
-            let middle = n[0].mul_add_precise(u, n[1].mul_add_precise(v, n[2]));
-            let radius = n[0].abs().mul_add_precise(du, n[1].abs().mul_add_precise(dv, doubled));
-            least_high = least_high.min(middle + radius);
-            most_low = most_low.max(middle - radius);
-        }
-        let zero = f32x8::splat(s, 0.0);
-        !(least_high.simd_lt(zero) & most_low.simd_gt(zero)).to_bitmask() & 0xff
     }
 
     /// Takes over a triangle where it is nearer; whether it is for any ray.
@@ -337,13 +241,12 @@ impl Fan {
     fn weigh<S: Simd>(
         &self,
         s: S,
-        tree: &WideTree,
-        prepared: &Prepared,
-        at: usize,
+        (tree, prepared): (&WideTree, &Prepared),
         (slot, facet): (u32, u32),
         rays: &mut FanRays<S>,
         umpire: &mut dyn Umpire,
     ) -> bool {
+        let at = slot as usize % WIDTH;
         let [a, b, c] = &prepared.edges;
         let (a, b, c) = (rays.value(s, a, at), rays.value(s, b, at), rays.value(s, c, at));
         let error = F::splat(s, prepared.edge_error[at]);
@@ -430,36 +333,4 @@ impl Fan {
             Settled::Open => umpire.decide(lane, facet, other.map(|slot| tree.facet(slot))),
         }
     }
-}
-
-#[inline(always)]
-fn minus<S: Simd>(a: Eight3<S>, b: Eight3<S>) -> Eight3<S> {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline(always)]
-fn cross<S: Simd>(a: Eight3<S>, b: Eight3<S>) -> Eight3<S> {
-    [
-        a[1].mul_sub_precise(b[2], a[2] * b[1]),
-        a[2].mul_sub_precise(b[0], a[0] * b[2]),
-        a[0].mul_sub_precise(b[1], a[1] * b[0]),
-    ]
-}
-
-/// The largest coordinate of three vectors.
-#[inline(always)]
-fn largest<S: Simd>(v: [Eight3<S>; 3]) -> f32x8<S> {
-    let [a, b, c] = v;
-    longest(a).max(longest(b)).max(longest(c))
-}
-
-/// The largest coordinate of a vector.
-#[inline(always)]
-fn longest<S: Simd>(v: Eight3<S>) -> f32x8<S> {
-    v[0].abs().max(v[1].abs()).max(v[2].abs())
-}
-
-#[inline(always)]
-fn stored<S: Simd>(v: Eight3<S>) -> [[f32; WIDTH]; 3] {
-    [v[0].to_array(), v[1].to_array(), v[2].to_array()]
 }

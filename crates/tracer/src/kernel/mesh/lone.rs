@@ -142,7 +142,7 @@ impl Lone {
                 let block_first = (block * WIDTH) as u32;
                 let maybe = self.pass(s, &tree.blocks[block]);
                 for at in Bits(maybe) {
-                    self.weigh(&tree.blocks[block], at, block_first, best, tree, umpire);
+                    self.weigh(tree, block_first + at as u32, best, umpire);
                 }
                 if maybe != 0 {
                     far = best.far();
@@ -191,8 +191,8 @@ impl Lone {
     #[inline(always)]
     fn corner<S: Simd>(&self, s: S, rows: &[[f32; WIDTH]; 3], most: &mut f32x8<S>) -> (f32x8<S>, f32x8<S>) {
         let [x, y, z] = self.axes;
-        let z = self.from_origin(s, rows, z);
-        let (x, y) = (self.from_origin(s, rows, x), self.from_origin(s, rows, y));
+        let z = self.seen_from_origin(s, rows, z);
+        let (x, y) = (self.seen_from_origin(s, rows, x), self.seen_from_origin(s, rows, y));
         let x = z.mul_add_precise(f32x8::splat(s, -self.shear[0]), x);
         let y = z.mul_add_precise(f32x8::splat(s, -self.shear[1]), y);
         *most = most.max(x.abs()).max(y.abs());
@@ -200,7 +200,7 @@ impl Lone {
     }
 
     #[inline(always)]
-    fn from_origin<S: Simd>(&self, s: S, rows: &[[f32; WIDTH]; 3], axis: usize) -> f32x8<S> {
+    fn seen_from_origin<S: Simd>(&self, s: S, rows: &[[f32; WIDTH]; 3], axis: usize) -> f32x8<S> {
         f32x8::load_array_ref(s, &rows[axis % 3]) - f32x8::splat(s, self.origin[axis % 3])
     }
 
@@ -220,21 +220,12 @@ impl Lone {
 
     /// Takes over a triangle where it is nearer.
     #[inline(always)]
-    fn weigh(
-        &self,
-        block: &Block8,
-        at: usize,
-        first: u32,
-        best: &mut LoneBest,
-        tree: &WideTree,
-        umpire: &mut dyn Umpire,
-    ) {
-        let facet = block.facet[at % WIDTH];
+    fn weigh(&self, tree: &WideTree, slot: u32, best: &mut LoneBest, umpire: &mut dyn Umpire) {
+        let facet = tree.facet(slot);
         if facet == self.left {
             return;
         }
-        let slot = first + at as u32;
-        match meet(&block.triangle(at), &self.ray) {
+        match meet(&tree.triangle(slot), &self.ray) {
             Verdict::Miss => return,
             Verdict::Hit(t, error) => {
                 if t + error < best.min || t - error > best.t + best.error {

@@ -4,6 +4,7 @@
 //! by an [`Umpire`] where those do not decide either.
 
 mod bundle;
+mod edges;
 mod fan;
 mod lone;
 mod precise;

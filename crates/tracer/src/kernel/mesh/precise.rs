@@ -72,10 +72,8 @@ impl LaneCorners {
     #[inline(always)]
     pub(crate) fn set(&mut self, lane: usize, corners: &[[f32; 3]; 3]) {
         let lane = lane % MOST_LANES;
-        for corner in 0..3 {
-            for axis in 0..3 {
-                self.0[3 * corner + axis][lane] = corners[corner][axis];
-            }
+        for (row, coordinate) in self.0.iter_mut().zip(corners.as_flattened()) {
+            row[lane] = *coordinate;
         }
     }
 

@@ -1,0 +1,139 @@
+//! Eight triangles as seen from the point that rays go through: planes through their edges, with bounds.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x8};
+
+use super::Fan;
+use crate::accel::{Block8, WIDTH};
+use crate::numeric::{FAN_EDGE, FAN_TOP};
+
+/// Eight triangles as seen from the point.
+pub(super) struct Prepared {
+    /// Planes through the point and each edge.
+    pub(super) edges: [[[f32; WIDTH]; 3]; 3],
+    pub(super) edge_error: [f32; WIDTH],
+    /// The triangle's own normal, and the point's distance from its plane along that.
+    pub(super) normal: [[f32; WIDTH]; 3],
+    pub(super) top: [f32; WIDTH],
+    pub(super) top_error: [f32; WIDTH],
+    pub(super) slope_error: [f32; WIDTH],
+}
+
+/// Three numbers for each of eight triangles.
+type Eight3<S> = [f32x8<S>; 3];
+
+impl Fan {
+    /// A block as seen from the point, and the triangles that some ray may meet.
+    #[inline(always)]
+    pub(super) fn prepare<S: Simd>(&self, s: S, block: &Block8) -> (Prepared, u64) {
+        let (a, b, c) = (self.corner(s, block, 0), self.corner(s, block, 1), self.corner(s, block, 2));
+        let edges = [minus(c, b), minus(a, c), minus(b, a)];
+        let normal = cross(edges[1], edges[2]);
+        let length = largest(edges);
+        let (p, q, r) = (self.seen_from_apex(s, a), self.seen_from_apex(s, b), self.seen_from_apex(s, c));
+        let size = largest([p, q, r]);
+        let planes = [cross(edges[0], q), cross(edges[1], r), cross(edges[2], p)];
+        let spread =
+            1.0 + self.low[0].abs().max(self.high[0].abs()) + self.low[1].abs().max(self.high[1].abs());
+        let relative = FAN_EDGE * spread + 4.0 * self.slope_error;
+        let per_length = size.mul_add_precise(
+            f32x8::splat(s, relative),
+            f32x8::splat(s, 2.0 * spread * self.slack + f32::MIN_POSITIVE),
+        );
+        let edge_error = length.mul_add_precise(per_length, f32x8::splat(s, f32::MIN_POSITIVE));
+        let maybe = self.seen(s, &planes, edge_error);
+        let length2 = length * length;
+        let top = p[0].mul_add_precise(normal[0], p[1].mul_add_precise(normal[1], p[2] * normal[2]));
+        let per_length2 = size
+            .mul_add_precise(f32x8::splat(s, FAN_TOP), f32x8::splat(s, 6.0 * self.slack + f32::MIN_POSITIVE));
+        let prepared = Prepared {
+            edges: [stored(planes[0]), stored(planes[1]), stored(planes[2])],
+            edge_error: edge_error.to_array(),
+            normal: stored(normal),
+            top: top.to_array(),
+            top_error: (length2 * per_length2).to_array(),
+            slope_error: (length2 * f32x8::splat(s, relative)).to_array(),
+        };
+        (prepared, maybe)
+    }
+
+    /// A corner of every triangle, axis by axis as in `axes`.
+    #[inline(always)]
+    fn corner<S: Simd>(&self, s: S, block: &Block8, corner: usize) -> Eight3<S> {
+        let rows = &block.corners[corner];
+        [
+            f32x8::load_array_ref(s, &rows[self.axes[0] % 3]),
+            f32x8::load_array_ref(s, &rows[self.axes[1] % 3]),
+            f32x8::load_array_ref(s, &rows[self.axes[2] % 3]),
+        ]
+    }
+
+    /// Corners as seen from the point, mirrored as it is.
+    #[inline(always)]
+    fn seen_from_apex<S: Simd>(&self, s: S, p: Eight3<S>) -> Eight3<S> {
+        let sign = f32x8::splat(s, self.sign);
+        [
+            p[0].mul_sub_precise(sign, f32x8::splat(s, self.apex[0])),
+            p[1].mul_sub_precise(sign, f32x8::splat(s, self.apex[1])),
+            p[2].mul_sub_precise(sign, f32x8::splat(s, self.apex[2])),
+        ]
+    }
+
+    /// The middle of all rays' slopes along an axis, and how far they lie from it.
+    #[inline(always)]
+    fn side<S: Simd>(&self, s: S, which: usize) -> (f32x8<S>, f32x8<S>) {
+        let half = f32x8::splat(s, 0.5);
+        let (low, high) = (f32x8::splat(s, self.low[which]), f32x8::splat(s, self.high[which]));
+        // Half the width is rounded by less than what the edges' doubled errors have room for.
+        ((low + high) * half, (high - low) * half)
+    }
+
+    /// Triangles that not all rays are certain to miss: those that no two edges leave all rays on different sides of.
+    #[inline(always)]
+    fn seen<S: Simd>(&self, s: S, planes: &[Eight3<S>; 3], error: f32x8<S>) -> u64 {
+        let doubled = error + error;
+        let ((u, du), (v, dv)) = (self.side(s, 0), self.side(s, 1));
+        let (mut least_high, mut most_low) =
+            (f32x8::splat(s, f32::INFINITY), f32x8::splat(s, f32::NEG_INFINITY));
+        for n in planes {
+            let middle = n[0].mul_add_precise(u, n[1].mul_add_precise(v, n[2]));
+            let radius = n[0].abs().mul_add_precise(du, n[1].abs().mul_add_precise(dv, doubled));
+            least_high = least_high.min(middle + radius);
+            most_low = most_low.max(middle - radius);
+        }
+        let zero = f32x8::splat(s, 0.0);
+        !(least_high.simd_lt(zero) & most_low.simd_gt(zero)).to_bitmask() & 0xff
+    }
+}
+
+#[inline(always)]
+fn minus<S: Simd>(a: Eight3<S>, b: Eight3<S>) -> Eight3<S> {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline(always)]
+fn cross<S: Simd>(a: Eight3<S>, b: Eight3<S>) -> Eight3<S> {
+    [
+        a[1].mul_sub_precise(b[2], a[2] * b[1]),
+        a[2].mul_sub_precise(b[0], a[0] * b[2]),
+        a[0].mul_sub_precise(b[1], a[1] * b[0]),
+    ]
+}
+
+/// The largest coordinate of three vectors.
+#[inline(always)]
+fn largest<S: Simd>(v: [Eight3<S>; 3]) -> f32x8<S> {
+    let [a, b, c] = v;
+    longest(a).max(longest(b)).max(longest(c))
+}
+
+/// The largest coordinate of a vector.
+#[inline(always)]
+fn longest<S: Simd>(v: Eight3<S>) -> f32x8<S> {
+    v[0].abs().max(v[1].abs()).max(v[2].abs())
+}
+
+#[inline(always)]
+fn stored<S: Simd>(v: Eight3<S>) -> [[f32; WIDTH]; 3] {
+    [v[0].to_array(), v[1].to_array(), v[2].to_array()]
+}
