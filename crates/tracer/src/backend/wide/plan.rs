@@ -18,6 +18,8 @@ use crate::snapshot::{Ball, Columns, LightRow, Row};
 #[derive(Debug, Default)]
 pub(super) struct Shapes {
     pub(super) planes: Vec<u32>,
+    /// How near the candidates' planes are along the corners of the window.
+    nearness: Vec<[f64; 4]>,
     /// Places of bounded shapes in the columns' lists.
     near: Vec<u32>,
     pub(super) bounded: Vec<u32>,
@@ -31,6 +33,7 @@ pub(super) struct Shapes {
 impl Shapes {
     fn clear(&mut self) {
         self.planes.clear();
+        self.nearness.clear();
         self.near.clear();
         self.bounded.clear();
         self.places.clear();
@@ -87,13 +90,13 @@ impl Shapes {
             let margin = PLAN_MARGIN * a.iter().chain(b).fold(0.0, |m, w| w.abs().max(m));
             (0..4).all(|i| a[i] > margin && a[i] > b[i] + margin)
         };
-        let rows = || candidates.planes.iter().map(|&i| (i, &columns.planes[i as usize]));
-        for (i, row) in rows() {
-            let own = window.nearness(row);
+        let rows = candidates.planes.iter().map(|&i| window.nearness(&columns.planes[i as usize]));
+        self.nearness.extend(rows);
+        for (own, &plane) in self.nearness.iter().zip(&candidates.planes) {
             // NaN and infinity, from an eye in the plane, are never left out.
             let away = own.iter().all(|w| *w < 0.0);
-            if !away && !rows().any(|(other, row)| other != i && hides(&window.nearness(row), &own)) {
-                self.planes.push(i);
+            if !away && !self.nearness.iter().any(|other| hides(other, own)) {
+                self.planes.push(plane);
             }
         }
         if columns.bounded.len() > FEW {
@@ -204,14 +207,11 @@ impl Place {
     /// Whether the ways from the points to a light may meet a ball.
     fn shaft_meets(&self, light: &LightRow, ball: &Ball) -> bool {
         let to_ball = ball.center - self.center;
-        let (along, length) = if light.at_infinity {
-            (light.place, f64::INFINITY)
-        } else {
-            let way = light.place - self.center;
-            (way.normalize_or_zero(), way.length())
-        };
-        let reach = (ball.radius + self.radius) * (1.0 + PLAN_MARGIN) + PLAN_MARGIN * to_ball.length();
-        let nearest = along * to_ball.dot(along).max(0.0).min(length);
-        !((to_ball - nearest).length() > reach)
+        let reach =
+            (ball.radius + self.radius) * (1.0 + PLAN_MARGIN) + PLAN_MARGIN * to_ball.abs().element_sum();
+        let way = if light.at_infinity { light.place } else { light.place - self.center };
+        let most = if light.at_infinity { f64::INFINITY } else { 1.0 };
+        let share = (to_ball.dot(way) / way.length_squared()).clamp(0.0, most);
+        !((to_ball - way * share).length_squared() > reach * reach)
     }
 }
