@@ -11,6 +11,7 @@ use super::packet::{Left, Packet, Precise, drift, kernel_rays};
 use super::plan::Shapes;
 use super::queue::Queue;
 use super::search::Best;
+use super::spread::Spreads;
 use crate::backend::Frame;
 use crate::film::NOTHING;
 use crate::kernel::mesh::Visits;
@@ -187,6 +188,7 @@ fn answer_with<S: Simd>(
         between: &mut [],
         visits: &mut visits,
         chunk: &mut Chunk::new(s),
+        spreads: &mut Spreads::nothing(s),
         outside: false,
     };
     let asked = Asked { rays, any: matches!(answers, Answers::Occluded(_)), snapshot };

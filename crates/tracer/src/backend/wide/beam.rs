@@ -4,39 +4,10 @@ use catoptra_core::Aabb;
 use catoptra_core::glam::DVec3;
 use fearless_simd::Simd;
 
-use super::spread::Spread;
+use super::spread::Spreads;
 use crate::kernel::PlaneRow;
-use crate::lanes::{F3, M, U};
 use crate::numeric::PLAN_MARGIN;
 use crate::snapshot::Ball;
-
-/// Rays that leave one shape, as they are gathered.
-pub(super) struct Bundle<S: Simd> {
-    start: Spread<S>,
-    unit: Spread<S>,
-}
-
-impl<S: Simd> Bundle<S> {
-    #[inline(always)]
-    pub(super) fn nothing(s: S) -> Self {
-        Self { start: Spread::nothing(s), unit: Spread::nothing(s) }
-    }
-
-    /// Adds the lanes of a mask by the shapes that they leave.
-    #[inline(always)]
-    pub(super) fn add(&mut self, lanes: M<S>, prim: U<S>, start: F3<S>, unit: F3<S>) {
-        self.start.add(lanes, prim, start);
-        self.unit.add(lanes, prim, unit);
-    }
-
-    /// The beams, shape by shape.
-    pub(super) fn beams(&self) -> impl Iterator<Item = Beam> + '_ {
-        self.start
-            .boxes()
-            .zip(self.unit.boxes())
-            .map(|((prim, start), (_, unit))| Beam::new(prim, start, unit))
-    }
-}
 
 /// Rays from within a box in directions within a box.
 #[derive(Debug, Clone, Copy)]
@@ -51,6 +22,12 @@ pub(super) struct Beam {
 }
 
 impl Beam {
+    /// The beams of rays from the starts along the unit vectors that have been spread out, shape by shape.
+    pub(super) fn all<S: Simd>(spreads: &Spreads<S>) -> impl Iterator<Item = Self> + '_ {
+        let both = spreads.starts.boxes().zip(spreads.units.boxes());
+        both.map(|((prim, start), (_, unit))| Self::new(prim, start, unit))
+    }
+
     fn new(prim: u32, start: Aabb, unit: Aabb) -> Self {
         let center = start.centre();
         let margin = PLAN_MARGIN * (center.abs().element_sum() + start.size().element_sum());

@@ -43,8 +43,9 @@ use beam::Beam;
 use chunk::Chunk;
 use meet::Before;
 use packet::{CameraRays, Primary};
-use plan::{Place, Seen, Shapes};
+use plan::{Place, Shapes};
 use queue::Queue;
+use spread::Spreads;
 use window::{Window, quarters};
 
 /// The default backend.
@@ -151,6 +152,7 @@ fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
         between,
         visits,
         chunk: &mut Chunk::new(s),
+        spreads: &mut Spreads::nothing(s),
         outside: outside(frame),
     };
     seen[0].all(frame.snapshot.columns());
@@ -189,6 +191,7 @@ struct Tracer<'a, S: Simd> {
     /// Room for walks through trees of meshes.
     visits: &'a mut Visits,
     chunk: &'a mut Chunk<S>,
+    spreads: &'a mut Spreads<S>,
     /// Whether every ray stays outside all spheres.
     outside: bool,
 }
@@ -210,7 +213,7 @@ impl<S: Simd> Tracer<'_, S> {
                 #[inline(always)]
                 || part.fill(self.s, self.frame.snapshot.background_light(), tile),
             );
-        } else if mine.tree || further.is_empty() || (mine.filled && !self.reflects(mine)) {
+        } else if mine.tree || further.is_empty() || mine.filled {
             self.trace_camera(camera, region, mine, tile);
         } else {
             for quarter in quarters(region) {
@@ -253,13 +256,6 @@ impl<S: Simd> Tracer<'_, S> {
         }
     }
 
-    /// Whether the shape that fills a part reflects: its rays are followed in streams that a first-level cache holds.
-    fn reflects(&self, shapes: &Shapes) -> bool {
-        let snapshot = self.frame.snapshot;
-        let prims = shapes.places.iter().map(|place| &snapshot.prims()[place.prim as usize]);
-        prims.map(|prim| &snapshot.material_rows()[prim.material as usize]).any(|row| row.reflects)
-    }
-
     /// Adds the light that arrives along reflected rays, and along those that are reflected again.
     fn follow(&mut self, tile: &mut Tile) {
         let Some(bounce) = self.bounce.take() else { return };
@@ -280,7 +276,7 @@ impl<S: Simd> Tracer<'_, S> {
         let Bounce { stream, beams, met } = bounce;
         self.s.vectorize(
             #[inline(always)]
-            || stream.make_rays(self.s, beams),
+            || stream.make_rays(self.s, self.spreads, beams),
         );
         let snapshot = self.frame.snapshot;
         if self.frame.view.skip.beams {
@@ -315,16 +311,17 @@ impl<S: Simd> Tracer<'_, S> {
     /// Finds what the rays of a batch meet, and what may stand between that and the lights.
     #[inline(always)]
     fn find(&mut self, batch: &impl Batch<S>, shapes: &Shapes) {
-        let mut seen = Seen::nothing(self.s);
+        self.spreads.seen.clear();
         for stretch in 0..batch.stretches() {
             for at in batch.stretch(stretch).step_by(F::<S>::LANES) {
                 let packet = batch.packet(self.s, at);
                 let best = self.nearest(&packet, shapes);
                 best.store(self.found, at);
-                seen.add(&packet, &best);
+                self.spreads.seen.add(best.hits() & packet.live, best.prim, packet.point(best.t));
             }
         }
-        let places: Vec<Place> = seen.places().collect();
+        let places: Vec<Place> =
+            self.spreads.seen.boxes().map(|(prim, bounds)| Place::new(prim, bounds)).collect();
         self.plan_shadows(&places);
     }
 

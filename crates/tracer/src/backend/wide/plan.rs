@@ -3,12 +3,9 @@
 
 use catoptra_core::Aabb;
 use catoptra_core::glam::DVec3;
-use fearless_simd::Simd;
 
 use super::beam::Beam;
-use super::packet::Packet;
-use super::search::{Best, FEW};
-use super::spread::Spread;
+use super::search::FEW;
 use super::window::Window;
 use crate::kernel::PlaneRow;
 use crate::numeric::PLAN_MARGIN;
@@ -152,27 +149,6 @@ impl Shapes {
         let planes = columns.planes.iter().enumerate();
         self.planes.extend(planes.filter(|(i, row)| crosses(*i, row)).map(|(i, _)| i as u32));
         self.keep_balls(columns, 0..columns.bounded.len() as u32, meets);
-    }
-}
-
-/// Where the points lie that a tile shows, shape by shape.
-pub(super) struct Seen<S: Simd>(Spread<S>);
-
-impl<S: Simd> Seen<S> {
-    #[inline(always)]
-    pub(super) fn nothing(s: S) -> Self {
-        Self(Spread::nothing(s))
-    }
-
-    /// Adds the points that a packet has met.
-    #[inline(always)]
-    pub(super) fn add(&mut self, packet: &Packet<'_, S>, best: &Best<S>) {
-        self.0.add(best.hits() & packet.live, best.prim, packet.point(best.t));
-    }
-
-    /// Where the points lie, shape by shape.
-    pub(super) fn places(&self) -> impl Iterator<Item = Place> + '_ {
-        self.0.boxes().map(|(prim, bounds)| Place::new(prim, bounds))
     }
 }
 

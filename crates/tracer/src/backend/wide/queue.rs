@@ -5,8 +5,9 @@ use catoptra_core::{Ray, Triple};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::beam::{Beam, Bundle};
+use super::beam::Beam;
 use super::packet::{Left, Packet, Precise, drift, kernel_rays};
+use super::spread::Spreads;
 use crate::kernel::{Rays, magnitude};
 use crate::lanes::{D, D3, F, F3, M, U, narrow3};
 
@@ -105,8 +106,9 @@ impl Queue {
 
     /// Makes the rays as kernels see them, and the beams in which they run.
     #[inline(always)]
-    pub(super) fn make_rays<S: Simd>(&mut self, s: S, beams: &mut Vec<Beam>) {
-        let mut bundle = Bundle::nothing(s);
+    pub(super) fn make_rays<S: Simd>(&mut self, s: S, spreads: &mut Spreads<S>, beams: &mut Vec<Beam>) {
+        spreads.starts.clear();
+        spreads.units.clear();
         for at in (0..self.length).step_by(F::<S>::LANES) {
             let (origin, direction) = self.precise(s, at);
             let (rays, inverse_length) = kernel_rays(s, narrow3(origin), narrow3(direction));
@@ -118,10 +120,12 @@ impl Queue {
                 v.store(&mut column[at..]);
             }
             inverse_length.store(&mut self.inverse_length[at..]);
-            bundle.add(self.live_lanes(s, at), U::load(s, &self.prim[at..]), start, unit);
+            let (live, prim) = (self.live_lanes(s, at), U::load(s, &self.prim[at..]));
+            spreads.starts.add(live, prim, start);
+            spreads.units.add(live, prim, unit);
         }
         beams.clear();
-        beams.extend(bundle.beams());
+        beams.extend(Beam::all(spreads));
     }
 
     /// The packet that starts with ray `at`.

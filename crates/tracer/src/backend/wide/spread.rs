@@ -22,8 +22,14 @@ pub(super) struct Spread<S: Simd> {
 impl<S: Simd> Spread<S> {
     #[inline(always)]
     pub(super) fn nothing(s: S) -> Self {
-        let (most, least) = (splat3(s, [f32::MAX; 3]), splat3(s, [f32::MIN; 3]));
-        Self { count: 0, prims: [0; APART], low: [most; APART], high: [least; APART], tops: most }
+        let most = splat3(s, [f32::MAX; 3]);
+        Self { count: 0, prims: [0; APART], low: [most; APART], high: [most; APART], tops: most }
+    }
+
+    /// Forgets all vectors.
+    #[inline(always)]
+    pub(super) fn clear(&mut self) {
+        self.count = 0;
     }
 
     /// Adds the lanes of a mask to the boxes of their shapes.
@@ -40,6 +46,7 @@ impl<S: Simd> Spread<S> {
 
     #[inline(always)]
     fn grow(&mut self, prim: u32, mask: M<S>, vectors: F3<S>) {
+        let (under, over) = (self.tops, F3::new(-self.tops.x, -self.tops.y, -self.tops.z));
         let mut at = 0;
         while at < self.count && self.prims[at] != prim {
             at += 1;
@@ -50,12 +57,11 @@ impl<S: Simd> Spread<S> {
                 at = APART - 1;
                 self.prims[at] = NOTHING;
             } else {
-                self.prims[at] = prim;
+                (self.prims[at], self.low[at], self.high[at]) = (prim, under, over);
                 self.count += 1;
             }
         }
         let (low, high) = (&mut self.low[at], &mut self.high[at]);
-        let (under, over) = (self.tops, F3::new(-self.tops.x, -self.tops.y, -self.tops.z));
         let (p, q) = (F3::select(mask, vectors, under), F3::select(mask, vectors, over));
         *low = F3::new(low.x.min(p.x), low.y.min(p.y), low.z.min(p.z));
         *high = F3::new(high.x.max(q.x), high.y.max(q.y), high.z.max(q.z));
@@ -69,5 +75,22 @@ impl<S: Simd> Spread<S> {
             let max = DVec3::new(high.x.greatest(), high.y.greatest(), high.z.greatest());
             (self.prims[at], Aabb { min, max })
         })
+    }
+}
+
+/// What is spread out while a batch is under way.
+pub(super) struct Spreads<S: Simd> {
+    /// Points that are seen.
+    pub(super) seen: Spread<S>,
+    /// Where the rays of a stream start.
+    pub(super) starts: Spread<S>,
+    /// The unit vectors along which they run.
+    pub(super) units: Spread<S>,
+}
+
+impl<S: Simd> Spreads<S> {
+    #[inline(always)]
+    pub(super) fn nothing(s: S) -> Self {
+        Self { seen: Spread::nothing(s), starts: Spread::nothing(s), units: Spread::nothing(s) }
     }
 }
