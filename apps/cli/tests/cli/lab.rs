@@ -62,8 +62,11 @@ fn hard_cases_are_answered_and_scored() {
         let results = std::fs::read_to_string(folder.path().join("out")).expect("results");
         assert_eq!(results.lines().next(), Some("1 1 1 2e0"), "{backend}: {results}");
         let ran = catoptra(folder.path(), &["lab", "score", "some.cases", "some.answers", "out"]);
-        println!("{results}{}", ran.out);
-        assert_eq!(ran.code, 1, "the light of case 2 stands behind the plane that is not met");
+        assert_eq!(
+            ran.code, 1,
+            "the ray of case 2 meets nothing, so that no light reaches what it meets: {}",
+            ran.out
+        );
         assert!(ran.out.contains("shade                         1      1  such as 2"), "{}", ran.out);
         assert!(ran.out.contains("mirrors                       1      0\n"), "{}", ran.out);
     }
