@@ -6,12 +6,12 @@
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use catoptra_benches::{camera, scene};
 use catoptra_core::Scene;
-use catoptra_lab::Plot;
 use catoptra_lab::scenes::{NoScene, Reach, many_instances, many_lights, many_spheres, placed_mesh};
+use catoptra_lab::{Clock, Plot, fastest};
 use catoptra_tracer::{Control, Film, Pool, Size, Snapshot, View, backend_named, render};
 
 /// Size of the frames, unless the size is what grows.
@@ -104,14 +104,10 @@ fn milliseconds(scene: &Scene, size: Size, threads: usize) -> Result<f64, Failur
     let backend = backend_named("wide").ok_or("there is no backend wide")?;
     let (snapshot, view) = (Snapshot::extract(scene), View::of(scene, camera(scene), size));
     let (pool, mut film) = (Pool::new(threads)?, Film::new(size));
-    let (mut least, begun) = (f64::INFINITY, Instant::now());
-    for frame in 0.. {
-        let started = Instant::now();
-        render(backend, &snapshot, &view, &mut film, &pool, &Control::default())?;
-        least = least.min(started.elapsed().as_secs_f64() * 1e3);
-        if frame >= 2 && begun.elapsed() > LONG_ENOUGH {
-            break;
-        }
-    }
-    Ok(least)
+    let clock = if threads == 1 { Clock::Processor } else { Clock::Wall };
+    let (done, least) = fastest(clock, 3, LONG_ENOUGH, || {
+        render(backend, &snapshot, &view, &mut film, &pool, &Control::default())
+    });
+    done?;
+    Ok(least.as_secs_f64() * 1e3)
 }

@@ -16,6 +16,7 @@
 //! ```
 
 pub mod adversary;
+mod clock;
 pub mod metrics;
 mod mismatch;
 pub mod oracle;
@@ -25,6 +26,7 @@ pub mod scenes;
 pub mod stress;
 mod ulps;
 
+pub use clock::{Clock, fastest};
 pub use metrics::{METRICS, Metric, Viewing, metric_named};
 pub use mismatch::mismatch_rate;
 pub use picture::{Pair, Picture, PictureError};

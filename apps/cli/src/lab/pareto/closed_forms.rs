@@ -7,7 +7,7 @@ use catoptra_lab::ulps_f32;
 use catoptra_tracer::{Control, Film, Size, Snapshot, View, render};
 use miette::{IntoDiagnostic, Result, miette};
 
-use super::{Lab, Question, Way, fastest, parsed};
+use super::{Lab, Question, Way, parsed};
 use crate::job::find_backend;
 
 const SIZE: Size = Size::new(200, 150);
@@ -89,7 +89,7 @@ fn way(lab: &Lab, backend: &str, (name, text, irradiance): &Lamp) -> Result<Way>
     let (snapshot, view) = (Snapshot::extract(&scene), View::of(&scene, camera.clone(), SIZE));
     let (backend, mut film) = (find_backend(backend)?, Film::new(SIZE));
     let (done, milliseconds) =
-        fastest(|| render(backend, &snapshot, &view, &mut film, &lab.pool, &Control::default()));
+        lab.fastest(|| render(backend, &snapshot, &view, &mut film, &lab.pool, &Control::default()));
     done.into_diagnostic()?;
     let (mut sum, mut most, mut pixels) = (0_u64, 0_u32, 0_u64);
     for (x, y) in (0..SIZE.height).flat_map(|y| (0..SIZE.width).map(move |x| (x, y))) {

@@ -27,7 +27,7 @@ pub(super) fn markdown(questions: &[Question], lab: &Lab) -> String {
     let mut text = format!(
         "# Run time against error\n\n\
          Written by `catoptra lab pareto --out benches`; the same numbers for programs are in [pareto.csv](pareto.csv). Errors repeat \
-         to the last digit on every machine and with any number of threads; times are those of this machine, least of five or more \
+         to the last digit on every machine and with any number of threads; times are those of this machine's processor, least of five or more \
          goes.\n\n## Conditions\n\n{}\n## Which setting for which error\n\n{}",
         conditions(lab),
         choices(questions)
@@ -53,7 +53,7 @@ fn conditions(lab: &Lab) -> String {
         .find_map(|line| line.strip_prefix("model name"))
         .map(|rest| rest.trim_start_matches([' ', '\t', ':']));
     format!(
-        "* catoptra {}, {} build, {} {}\n* CPU {}, vector instructions {}\n* {} of tracing, nothing else asked of the machine\n\
+        "* catoptra {}, {} build, {} {}\n* CPU {}, vector instructions {}\n* {} of tracing; the time that other programs took meanwhile is not counted\n\
          * radiance is linear; FLIP judges the sRGB picture at {:.0} pixels per degree\n",
         env!("CARGO_PKG_VERSION"),
         if cfg!(debug_assertions) { "development" } else { "release" },
