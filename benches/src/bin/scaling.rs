@@ -27,24 +27,32 @@ type Line = (String, Vec<(f64, f64)>);
 
 fn main() -> Result<(), Failure> {
     let folder = std::env::args().nth(1).map_or_else(|| PathBuf::from("benches"), PathBuf::from);
+    // One pool for all that runs on one thread: the clock of the processor must not lose a thread meanwhile.
+    let alone = Pool::new(1)?;
     let lights = powers(2, 11);
     write(
         &folder,
         "scaling-lights",
         "lights",
         &[
-            growing("lights everywhere", &lights, |n| many_lights(n, Reach::Everywhere))?,
-            growing("lights nearby", &lights, |n| many_lights(n, Reach::Nearby))?,
+            growing(&alone, "lights everywhere", &lights, |n| many_lights(n, Reach::Everywhere))?,
+            growing(&alone, "lights nearby", &lights, |n| many_lights(n, Reach::Nearby))?,
         ],
     )?;
-    write(&folder, "scaling-spheres", "spheres", &[growing("spheres", &powers(10, 7), many_spheres)?])?;
+    write(
+        &folder,
+        "scaling-spheres",
+        "spheres",
+        &[growing(&alone, "spheres", &powers(10, 7), many_spheres)?],
+    )?;
     let (name, rings) = ("triangles of two meshes", [4, 16, 64, 256, 512]);
-    let (_, times) = growing(name, &rings, placed_mesh)?;
+    let (_, times) = growing(&alone, name, &rings, placed_mesh)?;
     let triangles = times.into_iter().map(|(rings, time)| (4.0 * rings * rings, time)).collect();
     write(&folder, "scaling-triangles", "triangles", &[(name.to_owned(), triangles)])?;
-    let instances = growing("instances of 5000 triangles", &powers(10, 4), |n| many_instances(n, 50))?;
+    let instances =
+        growing(&alone, "instances of 5000 triangles", &powers(10, 4), |n| many_instances(n, 50))?;
     write(&folder, "scaling-instances", "instances", &[instances])?;
-    write(&folder, "scaling-pixels", "pixels", &[pixels("point")?, pixels("material")?])?;
+    write(&folder, "scaling-pixels", "pixels", &[pixels(&alone, "point")?, pixels(&alone, "material")?])?;
     write(&folder, "scaling-threads", "threads", &[threads("point")?, threads("many")?])
 }
 
@@ -68,23 +76,24 @@ fn write(folder: &Path, name: &str, what: &str, lines: &[Line]) -> Result<(), Fa
 
 /// The time of a frame for each number of things in a scene.
 fn growing(
+    pool: &Pool,
     name: &str,
     numbers: &[u32],
     scene: impl Fn(u32) -> Result<Scene, NoScene>,
 ) -> Result<Line, Failure> {
     let mut points = Vec::new();
     for &number in numbers {
-        points.push((f64::from(number), milliseconds(&scene(number)?, SIZE, 1)?));
+        points.push((f64::from(number), milliseconds(&scene(number)?, SIZE, pool, Clock::Processor)?));
     }
     Ok((name.to_owned(), points))
 }
 
-fn pixels(name: &str) -> Result<Line, Failure> {
+fn pixels(pool: &Pool, name: &str) -> Result<Line, Failure> {
     let scene = scene(&format!("seed/{name}.kdl"));
     let mut points = Vec::new();
     for edge in [32, 64, 128, 256, 512, 1024, 2048] {
         let size = Size::new(edge, edge);
-        points.push((size.pixels() as f64, milliseconds(&scene, size, 1)?));
+        points.push((size.pixels() as f64, milliseconds(&scene, size, pool, Clock::Processor)?));
     }
     Ok((name.to_owned(), points))
 }
@@ -94,19 +103,21 @@ fn threads(name: &str) -> Result<Line, Failure> {
     let cores = std::thread::available_parallelism()?.get();
     let mut points = Vec::new();
     for threads in (0..).map(|power| 1 << power).take_while(|threads| *threads <= cores) {
-        points.push((threads as f64, milliseconds(&scene, Size::new(1920, 1080), threads)?));
+        points.push((
+            threads as f64,
+            milliseconds(&scene, Size::new(1920, 1080), &Pool::new(threads)?, Clock::Wall)?,
+        ));
     }
     Ok((name.to_owned(), points))
 }
 
 /// Of the fastest frame.
-fn milliseconds(scene: &Scene, size: Size, threads: usize) -> Result<f64, Failure> {
+fn milliseconds(scene: &Scene, size: Size, pool: &Pool, clock: Clock) -> Result<f64, Failure> {
     let backend = backend_named("wide").ok_or("there is no backend wide")?;
     let (snapshot, view) = (Snapshot::extract(scene), View::of(scene, camera(scene), size));
-    let (pool, mut film) = (Pool::new(threads)?, Film::new(size));
-    let clock = if threads == 1 { Clock::Processor } else { Clock::Wall };
+    let mut film = Film::new(size);
     let (done, least) = fastest(clock, 3, LONG_ENOUGH, || {
-        render(backend, &snapshot, &view, &mut film, &pool, &Control::default())
+        render(backend, &snapshot, &view, &mut film, pool, &Control::default())
     });
     done?;
     Ok(least.as_secs_f64() * 1e3)
