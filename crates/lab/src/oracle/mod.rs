@@ -136,7 +136,7 @@ mod tests {
         for kind in Shape::KINDS {
             let shape = shapes.iter().find(|shape| shape.kind_name() == kind.name);
             let shape = shape.unwrap_or_else(|| panic!("no {} here", kind.name)).clone();
-            let met = meetings(&[shape.clone()], &down, Span::AHEAD);
+            let met = meetings(std::slice::from_ref(&shape), &down, Span::AHEAD);
             assert_eq!(met[0].place.to_f64(), 4.0, "{}", kind.name);
             assert!(meetings(&[shape], &down, Span::until(4.0_f64.next_down())).is_empty(), "{}", kind.name);
         }
