@@ -11,6 +11,9 @@ use crate::kernel::PlaneRow;
 use crate::numeric::PLAN_MARGIN;
 use crate::snapshot::{Ball, Columns, LightRow, Row};
 
+/// Longer lists of bounded shapes are not read through to find out that none matters: a walk down the tree says so sooner.
+const MANY: usize = 1024;
+
 /// Shapes that are looked at: rows of planes, ids of bounded shapes one by one, or those by the tree.
 #[derive(Debug, Default)]
 pub(super) struct Shapes {
@@ -46,7 +49,7 @@ impl Shapes {
     ) {
         let mut kept = among.filter(|&i| ball(columns.bounded[i as usize], &columns.balls[i as usize]));
         if columns.bounded.len() > FEW {
-            self.tree = kept.next().is_some();
+            self.tree = columns.bounded.len() > MANY || kept.next().is_some();
         } else {
             self.near.extend(kept);
             self.bounded.extend(self.near.iter().map(|&i| columns.bounded[i as usize]));
