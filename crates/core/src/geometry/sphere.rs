@@ -117,7 +117,10 @@ impl Geometry for Sphere {
     }
 
     fn crossing(&self, own: &Ray, at: Located, facet: u32) -> Option<Crossing> {
-        Some(Crossing::flat(at, (own.at(at.t) - self.center).try_normalize()?, facet))
+        // Of a sphere so small that `f64` takes the point for the centre, the side that faces the ray.
+        let outwards =
+            (own.at(at.t) - self.center).try_normalize().or_else(|| (-own.direction).try_normalize());
+        Some(Crossing::flat(at, outwards?, facet))
     }
 
     fn bounds(&self) -> Option<Aabb> {
@@ -167,5 +170,12 @@ mod tests {
         let sphere = Sphere::new(DVec3::Z * -1e7, 1e-3).unwrap();
         let hit = sphere.cross(&Ray::new(DVec3::ZERO, -DVec3::Z), Span::AHEAD, None).unwrap();
         assert_eq!(hit.t, 1e7 - 1e-3);
+    }
+
+    #[test]
+    fn a_sphere_smaller_than_the_steps_of_f64_is_met() {
+        let speck = Sphere::new(DVec3::X, f64::from(f32::from_bits(1))).unwrap();
+        let hit = speck.cross(&Ray::new(-DVec3::X, DVec3::X), Span::AHEAD, None).unwrap();
+        assert_eq!((hit.t, hit.normal), (2.0, -DVec3::X));
     }
 }
