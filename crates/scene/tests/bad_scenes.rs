@@ -108,7 +108,7 @@ const AFTER_A_MATERIAL: &[Case] = &[
         "edge-v must be perpendicular to edge-u",
         "",
     ),
-    Case("box \"b\" material=\"w\" { min 0 0 0; max 1 -1 1 }", (2, 35), "max must be above min", ""),
+    Case("box \"b\" material=\"w\" { min 0 0 0; max 1 -1 1 }", (2, 35), "max must not be below min", ""),
     Case(
         "triangle \"t\" material=\"w\" { a 0 0 0; b 1 0 0; c 2 0 0 }",
         (2, 47),
