@@ -9,6 +9,7 @@ mod wide;
 use catoptra_core::Raster;
 use catoptra_core::glam::DVec3;
 
+use crate::numeric::PLAN_MARGIN;
 use crate::query::{HitSlice, RaySlice};
 use crate::{Snapshot, Stats, Tile, View};
 
@@ -23,15 +24,27 @@ pub struct Frame<'a> {
     pub raster: Raster,
     /// The eye, relative to the snapshot's origin.
     pub(crate) eye: DVec3,
+    /// Whether the eye, and so every ray of the view, stays outside all spheres.
+    pub(crate) outside_spheres: bool,
 }
 
 impl<'a> Frame<'a> {
     /// Looks at a snapshot.
     #[must_use]
     pub fn new(snapshot: &'a Snapshot, view: &'a View) -> Self {
+        let frame = Self::without_eye(snapshot, view);
+        let spheres = &snapshot.columns().spheres;
+        let outside_spheres =
+            spheres.iter().all(|row| row.center.distance(frame.eye) > row.radius * (1.0 + PLAN_MARGIN));
+        Self { outside_spheres, ..frame }
+    }
+
+    /// As [`new`](Self::new), without asking where the eye lies.
+    pub(crate) fn without_eye(snapshot: &'a Snapshot, view: &'a View) -> Self {
         let raster = view.camera.raster(view.size.width, view.size.height);
         let eye = raster.eye - snapshot.origin();
-        Self { snapshot, view, raster: Raster { eye: raster.eye - snapshot.frame(), ..raster }, eye }
+        let raster = Raster { eye: raster.eye - snapshot.frame(), ..raster };
+        Self { snapshot, view, raster, eye, outside_spheres: false }
     }
 }
 

@@ -24,6 +24,18 @@ pub(crate) fn splat_wide<S: Simd>(s: S, v: DVec3) -> D3<S> {
     Triple::new(D::splat(s, v.x), D::splat(s, v.y), D::splat(s, v.z))
 }
 
+/// A packet's lanes from place `at` on of three columns.
+#[inline(always)]
+pub(crate) fn load3<S: Simd>(s: S, [x, y, z]: &[Vec<f32>; 3], at: usize) -> F3<S> {
+    Triple::new(F::load(s, &x[at..]), F::load(s, &y[at..]), F::load(s, &z[at..]))
+}
+
+/// A packet's lanes from place `at` on of three columns, in `f64`.
+#[inline(always)]
+pub(crate) fn load_wide3<S: Simd>(s: S, [x, y, z]: &[Vec<f64>; 3], at: usize) -> D3<S> {
+    Triple::new(D::load(s, &x[at..]), D::load(s, &y[at..]), D::load(s, &z[at..]))
+}
+
 /// Rounded to `f32`.
 #[inline(always)]
 pub(crate) fn narrow3<S: Simd>(v: D3<S>) -> F3<S> {

@@ -116,6 +116,11 @@ impl Columns {
         columns
     }
 
+    /// Whether a shape is a sphere with a kernel.
+    pub(crate) fn is_sphere(&self, prim: u32) -> bool {
+        matches!(self.rows[prim as usize], Row::Sphere(_))
+    }
+
     /// How many shapes have no kernel.
     pub(crate) fn without_kernel(&self) -> usize {
         self.rows.iter().filter(|&&row| row == Row::General).count()

@@ -125,6 +125,13 @@ const ARITHMETIC: [Arithmetic; 4] = [
     ("exact, always", exact),
 ];
 
+/// Nanoseconds an answer, and how many of a million are wrong.
+fn way<T: PartialEq>(series: &str, setting: &str, milliseconds: f64, (right, found): (&[T], &[T])) -> Way {
+    let wrong = mismatch_rate(right, found).unwrap_or(1.0);
+    let time = milliseconds * 1e6 / found.len() as f64;
+    Way { series: series.to_owned(), setting: setting.to_owned(), time, errors: vec![wrong * 1e6] }
+}
+
 fn triangles(lab: &Lab) -> Question {
     let mut ways = Vec::new();
     for (sort_name, sort) in SORTS {
@@ -133,14 +140,7 @@ fn triangles(lab: &Lab) -> Question {
         for (name, meets) in ARITHMETIC {
             let (found, milliseconds) =
                 lab.fastest(|| lab.pool.run(|| pairs.iter().map(meets).collect::<Vec<bool>>()));
-            let wrong = mismatch_rate(&right, &found).unwrap_or(1.0);
-            let time = milliseconds * 1e6 / pairs.len() as f64;
-            ways.push(Way {
-                series: sort_name.to_owned(),
-                setting: name.to_owned(),
-                time,
-                errors: vec![wrong * 1e6],
-            });
+            ways.push(way(sort_name, name, milliseconds, (&right, &found)));
         }
     }
     let words = format!(
@@ -184,14 +184,7 @@ fn mesh(lab: &Lab) -> Result<Question> {
             [("f32 with bounds, 4 to 16 rays at once (wide)", "wide"), ("f64 with bounds (scalar)", "scalar")]
         {
             let (found, milliseconds) = answers(backend)?;
-            let wrong = mismatch_rate(&right, &found).unwrap_or(1.0);
-            let time = milliseconds * 1e6 / rays.len() as f64;
-            ways.push(Way {
-                series: sort_name.to_owned(),
-                setting: name.to_owned(),
-                time,
-                errors: vec![wrong * 1e6],
-            });
+            ways.push(way(sort_name, name, milliseconds, (&right, &found)));
         }
     }
     let words = format!(

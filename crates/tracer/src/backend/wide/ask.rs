@@ -4,7 +4,6 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Camera, Lane, Ray, Span};
 use fearless_simd::{Level, Simd};
 
-use super::Tracer;
 use super::batch::Found;
 use super::chunk::Chunk;
 use super::packet::{Left, Packet, Precise, drift, kernel_rays};
@@ -12,10 +11,11 @@ use super::plan::Shapes;
 use super::queue::Queue;
 use super::search::Best;
 use super::spread::Spreads;
+use super::{Tracer, Work, at_level};
 use crate::backend::Frame;
 use crate::film::NOTHING;
 use crate::kernel::mesh::Visits;
-use crate::lanes::{Bits, D, D3, F, M, U, narrow3, splat_wide, splat3};
+use crate::lanes::{Bits, D, D3, F, M, U, load_wide3, narrow3, splat_wide, splat3};
 use crate::numeric::{END_ERROR, ORDINARY};
 use crate::query::{HitSlice, RaySlice};
 use crate::snapshot::Row;
@@ -46,7 +46,7 @@ impl Asked<'_> {
         let at = self.rays.first + at;
         let rays = self.rays.rays;
         let origin = splat_wide(s, self.snapshot.origin());
-        (load3(s, &rays.origin, at) - origin, load3(s, &rays.direction, at))
+        (load_wide3(s, &rays.origin, at) - origin, load_wide3(s, &rays.direction, at))
     }
 
     /// Where the stretches of the packet at ray `at` begin and end; not finite for those without an end.
@@ -142,61 +142,43 @@ fn sum<S: Simd>(v: D3<S>) -> D<S> {
     v.x.abs() + v.y.abs() + v.z.abs()
 }
 
-#[inline(always)]
-fn load3<S: Simd>(s: S, [x, y, z]: &[Vec<f64>; 3], at: usize) -> D3<S> {
-    D3::new(D::load(s, &x[at..]), D::load(s, &y[at..]), D::load(s, &z[at..]))
+/// Answers with the best of the instructions there are.
+pub(super) fn answer(snapshot: &Snapshot, rays: RaySlice<'_>, answers: Answers<'_, '_>) -> Stats {
+    at_level(Level::new(), Answer { snapshot, rays, answers })
 }
 
-/// Answers with the best of the instructions there are, as [`super::trace_natively`] traces.
-pub(super) fn answer_natively(
-    snapshot: &Snapshot,
-    rays: RaySlice<'_>,
-    answers: &mut Answers<'_, '_>,
-) -> Stats {
-    let level = Level::new();
-    #[cfg(target_arch = "x86_64")]
-    if let Some(s) = level.as_avx512() {
-        answer_with(s, snapshot, rays, answers)
-    } else if let Some(s) = level.as_avx2() {
-        answer_with(s, snapshot, rays, answers)
-    } else if let Some(s) = level.as_sse2() {
-        answer_with(s, snapshot, rays, answers)
-    } else {
-        unreachable!("every x86-64 has SSE2")
+/// Answering about rays.
+struct Answer<'a, 'b, 'c> {
+    snapshot: &'a Snapshot,
+    rays: RaySlice<'a>,
+    answers: Answers<'b, 'c>,
+}
+
+impl Work for Answer<'_, '_, '_> {
+    type Output = Stats;
+
+    #[inline(always)]
+    fn with<S: Simd>(self, s: S) -> Stats {
+        let Self { snapshot, rays, mut answers } = self;
+        let view = View::new(Camera::default(), Size::new(1, 1));
+        let (mut next, mut found, mut visits) = (Queue::default(), Found::default(), Visits::default());
+        let mut tracer = Tracer {
+            s,
+            frame: &Frame::without_eye(snapshot, &view),
+            stats: Stats::default(),
+            next: &mut next,
+            bounce: None,
+            found: &mut found,
+            between: &mut [],
+            visits: &mut visits,
+            chunk: &mut Chunk::new(s),
+            spreads: &mut Spreads::nothing(s),
+            outside: false,
+        };
+        let asked = Asked { rays, any: matches!(answers, Answers::Occluded(_)), snapshot };
+        tracer.answer(&asked, &mut answers);
+        tracer.stats
     }
-    #[cfg(not(target_arch = "x86_64"))]
-    fearless_simd::dispatch!(level, s => answer_with(s, snapshot, rays, answers))
-}
-
-/// Lets the compiler use the instructions that `s` proves.
-fn answer_with<S: Simd>(
-    s: S,
-    snapshot: &Snapshot,
-    rays: RaySlice<'_>,
-    answers: &mut Answers<'_, '_>,
-) -> Stats {
-    let view = View::new(Camera::default(), Size::new(1, 1));
-    let frame = Frame::new(snapshot, &view);
-    let (mut next, mut found, mut visits) = (Queue::default(), Found::default(), Visits::default());
-    let mut tracer = Tracer {
-        s,
-        frame: &frame,
-        stats: Stats::default(),
-        next: &mut next,
-        bounce: None,
-        found: &mut found,
-        between: &mut [],
-        visits: &mut visits,
-        chunk: &mut Chunk::new(s),
-        spreads: &mut Spreads::nothing(s),
-        outside: false,
-    };
-    let asked = Asked { rays, any: matches!(answers, Answers::Occluded(_)), snapshot };
-    s.vectorize(
-        #[inline(always)]
-        || tracer.answer(&asked, answers),
-    );
-    tracer.stats
 }
 
 /// Where answers go.

@@ -9,10 +9,10 @@ use super::packet::Packet;
 use super::plan::Shapes;
 use super::search::Best;
 use super::surface::Surface;
+use crate::Tile;
 use crate::kernel::{PlaneRow, Proposal, SphereRow};
 use crate::lanes::{F, M, U, splat3};
 use crate::snapshot::Row;
-use crate::{Snapshot, Tile};
 
 /// A shape that can fill a part of a picture.
 trait Filler<S: Simd> {
@@ -51,19 +51,7 @@ impl<S: Simd> Filler<S> for &SphereRow {
 struct Filled<'a, F> {
     filler: F,
     prim: u32,
-    material: u32,
-    /// Whether its material answers lights.
-    lit: bool,
-    glossy: bool,
     shapes: &'a Shapes,
-}
-
-impl<'a, R> Filled<'a, R> {
-    fn new(filler: R, prim: u32, snapshot: &Snapshot, shapes: &'a Shapes) -> Self {
-        let material = snapshot.prims()[prim as usize].material;
-        let row = &snapshot.material_rows()[material as usize];
-        Self { filler, prim, material, lit: row.answers_light, glossy: row.material.is_glossy(), shapes }
-    }
 }
 
 impl<S: Simd, R: Filler<S>> Finder<S> for Filled<'_, R> {
@@ -84,12 +72,8 @@ impl<S: Simd, R: Filler<S>> Finder<S> for Filled<'_, R> {
             facet: U::splat(tracer.s, 0),
         };
         tracer.occupy(&best, place, at);
-        tracer.chunk.groups[place].add(packet.live.bits(), self.material);
-        tracer.chunk.glossy[place] = self.glossy && self.lit;
-        tracer.chunk.lit[place] = if self.lit { packet.live } else { M::splat(tracer.s, false) };
-        if !self.lit {
-            tracer.count_unlit(packet.live);
-        }
+        let lit = tracer.wears(packet.live, self.prim, place);
+        tracer.chunk.lit[place] = lit;
         let surface = self.filler.surface(tracer, &packet, &best);
         tracer.put(&packet, place, surface);
     }
@@ -102,7 +86,7 @@ impl<S: Simd> Tracer<'_, S> {
         let columns = self.frame.snapshot.columns();
         if let [plane] = *shapes.planes {
             let filler = &columns.planes[plane as usize];
-            let filled = Filled::new(filler, filler.prim, self.frame.snapshot, shapes);
+            let filled = Filled { filler, prim: filler.prim, shapes };
             self.s.vectorize(
                 #[inline(always)]
                 || self.shade(part, &filled, tile, 0),
@@ -110,7 +94,7 @@ impl<S: Simd> Tracer<'_, S> {
         } else if let [prim] = *shapes.bounded
             && let Row::Sphere(row) = columns.rows[prim as usize]
         {
-            let filled = Filled::new(&columns.spheres[row as usize], prim, self.frame.snapshot, shapes);
+            let filled = Filled { filler: &columns.spheres[row as usize], prim, shapes };
             self.s.vectorize(
                 #[inline(always)]
                 || self.shade(part, &filled, tile, 0),

@@ -25,18 +25,16 @@ struct AddLight<'t, 'a, S: Simd, B> {
 impl<S: Simd, B: Batch<S>> LightVisitor for AddLight<'_, '_, S, B> {
     #[inline(always)]
     fn visit<E: Emitter>(mut self, light: &E) {
-        let blockers = Blockers::of(self.tracer, self.light, light.shadow());
-        let faced = match blockers {
-            Blockers::None if !self.tracer.frame.snapshot.columns().smooth => self.add_open(light),
-            _ => self.add(light, blockers),
-        };
+        let open = self.tracer.is_open(self.light, light.shadow());
+        let smooth = self.tracer.frame.snapshot.columns().smooth;
+        let faced = if open && !smooth { self.add_open(light) } else { self.add(light, open, smooth) };
         let stats = &mut self.tracer.stats;
         stats.skipped.out_of_cone += faced.lit - faced.in_cone;
         stats.skipped.facing_away += faced.in_cone - faced.facing;
-        *match (light.shadow(), blockers) {
+        *match (light.shadow(), open) {
             (false, _) => &mut stats.skipped.shadow_off,
-            (true, Blockers::None) => &mut stats.skipped.nothing_between,
-            (true, Blockers::Some) => &mut stats.rays.shadow,
+            (true, true) => &mut stats.skipped.nothing_between,
+            (true, false) => &mut stats.rays.shadow,
         } += faced.facing;
     }
 }
@@ -80,18 +78,16 @@ impl<S: Simd, B: Batch<S>> AddLight<'_, '_, S, B> {
 
     /// Adds any light.
     #[inline(always)]
-    fn add<E: Emitter>(&mut self, light: &E, blockers: Blockers) -> Faced {
+    fn add<E: Emitter>(&mut self, light: &E, open: bool, smooth: bool) -> Faced {
         let zero = F::splat(self.tracer.s, 0.0);
         let color = F3::of(zero, light.color());
-        let smooth = self.tracer.frame.snapshot.columns().smooth;
         let mut faced = Faced::default();
         for packet in 0..self.count.min(CHUNK) {
             let facing = face(self.tracer.chunk, light, packet, smooth, &mut faced);
-            let reached = match blockers {
-                Blockers::None => facing.lanes,
-                Blockers::Some => {
-                    facing.lanes & !self.tracer.shadowed(self.batch, packet, self.light, &facing)
-                }
+            let reached = if open {
+                facing.lanes
+            } else {
+                facing.lanes & !self.tracer.shadowed(self.batch, packet, self.light, &facing)
             };
             let arriving = F::pick(reached, facing.cosine * facing.arrival.strength, zero);
             let irradiance = &mut self.tracer.chunk.irradiance[packet];
@@ -129,27 +125,6 @@ fn face<S: Simd, E: Emitter>(
     Facing { arrival, cosine, lanes }
 }
 
-/// What may stand between the chunk's points and a light.
-#[derive(Clone, Copy)]
-enum Blockers {
-    /// Nothing, or the light throws no shadows.
-    None,
-    /// Something.
-    Some,
-}
-
-impl Blockers {
-    #[inline(always)]
-    fn of<S: Simd>(tracer: &Tracer<'_, S>, light: usize, shadow: bool) -> Self {
-        let general = &tracer.frame.snapshot.columns().general_unbounded;
-        if !shadow || (tracer.between[light].is_empty() && general.is_empty()) {
-            Self::None
-        } else {
-            Self::Some
-        }
-    }
-}
-
 impl<S: Simd> Tracer<'_, S> {
     /// Adds what every light makes of the first `count` packets of the chunk. Compiled apart for each kind of light.
     #[inline(always)]
@@ -160,6 +135,13 @@ impl<S: Simd> Tracer<'_, S> {
                 || row.light.visit(AddLight { tracer: self, batch, count, light }),
             );
         }
+    }
+
+    /// Whether nothing stands between the chunk's points and a light, or the light throws no shadows.
+    #[inline(always)]
+    fn is_open(&self, light: usize, shadow: bool) -> bool {
+        let general = &self.frame.snapshot.columns().general_unbounded;
+        !shadow || (self.between[light].is_empty() && general.is_empty())
     }
 
     /// Adds the gloss of the lanes that a light reaches.

@@ -125,7 +125,7 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// Adds lanes by their material; answers those that answer lights.
     #[inline(always)]
-    fn wears(&mut self, mask: M<S>, prim: u32, place: usize) -> M<S> {
+    pub(super) fn wears(&mut self, mask: M<S>, prim: u32, place: usize) -> M<S> {
         let snapshot = self.frame.snapshot;
         let material = snapshot.prims()[prim as usize].material;
         self.chunk.groups[place].add(mask.bits(), material);
@@ -134,15 +134,9 @@ impl<S: Simd> Tracer<'_, S> {
             self.chunk.glossy[place] |= row.material.is_glossy();
             mask
         } else {
-            self.count_unlit(mask);
+            self.stats.skipped.unlit_material += mask.count() * snapshot.light_rows().len() as u64;
             M::splat(self.s, false)
         }
-    }
-
-    /// Counts lights that lanes do not answer.
-    #[inline(always)]
-    pub(super) fn count_unlit(&mut self, mask: M<S>) {
-        self.stats.skipped.unlit_material += mask.count() * self.frame.snapshot.light_rows().len() as u64;
     }
 
     /// Puts the lanes' surfaces, turned to the viewer, at a place of the chunk.

@@ -34,7 +34,6 @@ use fearless_simd::{Level, Simd};
 use super::{Backend, Frame};
 use crate::kernel::mesh::Visits;
 use crate::lanes::{F, F3, splat3};
-use crate::numeric::PLAN_MARGIN;
 use crate::query::{HitSlice, RaySlice};
 use crate::{Instructions, Region, Size, Snapshot, Stats, Tile, View};
 use ask::Answers;
@@ -66,15 +65,15 @@ impl Backend for Wide {
 
     fn trace(&self, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
         let level = frame.view.instructions.map_or_else(Level::new, Instructions::level);
-        ROOM.with_borrow_mut(|room| trace_at(level, frame, tile, room))
+        ROOM.with_borrow_mut(|room| at_level(level, TraceTile { frame, tile, room }))
     }
 
     fn find_nearest(&self, snapshot: &Snapshot, rays: RaySlice<'_>, hits: &mut HitSlice<'_>) -> Stats {
-        ask::answer_natively(snapshot, rays, &mut Answers::Nearest(hits))
+        ask::answer(snapshot, rays, Answers::Nearest(hits))
     }
 
     fn find_occluded(&self, snapshot: &Snapshot, rays: RaySlice<'_>, occluded: &mut [bool]) -> Stats {
-        ask::answer_natively(snapshot, rays, &mut Answers::Occluded(occluded))
+        ask::answer(snapshot, rays, Answers::Occluded(occluded))
     }
 }
 
@@ -108,29 +107,52 @@ struct Bounce {
 /// How often what is looked at is narrowed down: all shapes, a tile's, a quarter's.
 const LEVELS: usize = 3;
 
-/// Traces one tile with the instructions of a level.
-fn trace_at(level: Level, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
+/// Work that any vector instructions can do.
+trait Work {
+    type Output;
+
+    /// Does it with the instructions that `s` stands for.
+    fn with<S: Simd>(self, s: S) -> Self::Output;
+}
+
+/// Does work with the instructions of a level.
+fn at_level<W: Work>(level: Level, work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
     if let Some(s) = level.as_avx512() {
-        trace_with(s, frame, tile, room)
+        vectorized(s, work)
     } else if let Some(s) = level.as_avx2() {
-        trace_with(s, frame, tile, room)
+        vectorized(s, work)
     } else if let Some(s) = level.as_sse2() {
-        trace_with(s, frame, tile, room)
+        vectorized(s, work)
     } else {
         unreachable!("every x86-64 has SSE2")
     }
     #[cfg(not(target_arch = "x86_64"))]
-    fearless_simd::dispatch!(level, s => trace_tile(s, frame, tile, room))
+    fearless_simd::dispatch!(level, s => vectorized(s, work))
 }
 
 /// Lets the compiler use the instructions that `s` proves.
-#[cfg(target_arch = "x86_64")]
-fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
+fn vectorized<S: Simd, W: Work>(s: S, work: W) -> W::Output {
     s.vectorize(
         #[inline(always)]
-        || trace_tile(s, frame, tile, room),
+        || work.with(s),
     )
+}
+
+/// Tracing one tile.
+struct TraceTile<'a> {
+    frame: &'a Frame<'a>,
+    tile: &'a mut Tile,
+    room: &'a mut Room,
+}
+
+impl Work for TraceTile<'_> {
+    type Output = Stats;
+
+    #[inline(always)]
+    fn with<S: Simd>(self, s: S) -> Stats {
+        trace_tile(s, self.frame, self.tile, self.room)
+    }
 }
 
 /// Traces one tile with the instructions that `s` stands for.
@@ -153,7 +175,7 @@ fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
         visits,
         chunk: &mut Chunk::new(s),
         spreads: &mut Spreads::nothing(s),
-        outside: outside(frame),
+        outside: frame.outside_spheres,
     };
     seen[0].all(frame.snapshot.columns());
     for sample in 0..grid * grid {
@@ -167,12 +189,6 @@ fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
     }
     tracer.finish(tile, grid);
     tracer.stats
-}
-
-/// Whether the eye, and so every ray, stays outside all spheres.
-fn outside(frame: &Frame<'_>) -> bool {
-    let spheres = &frame.snapshot.columns().spheres;
-    spheres.iter().all(|row| row.center.distance(frame.eye) > row.radius * (1.0 + PLAN_MARGIN))
 }
 
 /// What tracing a tile keeps at hand.

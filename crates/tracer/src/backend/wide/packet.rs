@@ -9,7 +9,7 @@ use super::queue::Queue;
 use crate::backend::Frame;
 use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING};
 use crate::kernel::{Rays, magnitude};
-use crate::lanes::{D, D3, F, F3, M, U, narrow3, splat_wide};
+use crate::lanes::{D, D3, F, F3, M, U, load3, narrow3, splat_wide};
 use crate::numeric::WORLD_DRIFT;
 use crate::{Place, Region, Size, Tile};
 
@@ -300,8 +300,7 @@ impl<'a, S: Simd> Primary<'a, S> {
     /// The packet at a place in the tile's columns.
     #[inline(always)]
     pub(super) fn packet_at(&self, s: S, at: usize) -> Packet<'_, S> {
-        let [x, y, z] = &self.rays.direction;
-        let direction = F3::new(F::load(s, &x[at..]), F::load(s, &y[at..]), F::load(s, &z[at..]));
+        let direction = load3(s, &self.rays.direction, at);
         Packet {
             precise: Precise::Camera(self, at),
             rays: Rays { origin: self.eye32, direction, reach: self.reach },

@@ -9,7 +9,7 @@ use super::search::FEW;
 use super::window::Window;
 use crate::kernel::PlaneRow;
 use crate::numeric::PLAN_MARGIN;
-use crate::snapshot::{Ball, Columns, LightRow, Row};
+use crate::snapshot::{Ball, Columns, LightRow};
 
 /// Longer lists of bounded shapes are not read through to find out that none matters: a walk down the tree says so sooner.
 const MANY: usize = 1024;
@@ -40,6 +40,19 @@ impl Shapes {
         (self.tree, self.filled) = (false, false);
     }
 
+    /// Every shape that passes the tests.
+    fn keep(
+        &mut self,
+        columns: &Columns,
+        plane: impl Fn(usize, &PlaneRow) -> bool,
+        ball: impl Fn(u32, &Ball) -> bool,
+    ) {
+        self.clear();
+        let planes = columns.planes.iter().enumerate();
+        self.planes.extend(planes.filter(|(i, row)| plane(*i, row)).map(|(i, _)| i as u32));
+        self.keep_balls(columns, 0..columns.bounded.len() as u32, ball);
+    }
+
     /// Adds the bounded shapes of a list that pass a test.
     fn keep_balls(
         &mut self,
@@ -63,23 +76,17 @@ impl Shapes {
 
     /// Every shape there is.
     pub(super) fn all(&mut self, columns: &Columns) {
-        self.clear();
-        self.planes.extend(0..columns.planes.len() as u32);
-        self.keep_balls(columns, 0..columns.bounded.len() as u32, |_, _| true);
+        self.keep(columns, |_, _| true, |_, _| true);
     }
 
     /// Shapes that a ray of some beams may meet. Where all rays stay outside all spheres, those that leave one do not
     /// meet it again.
     pub(super) fn met_by(&mut self, columns: &Columns, beams: &[Beam], convex: bool) {
-        self.clear();
-        let planes = columns.planes.iter().enumerate();
-        let crossed = planes.filter(|(_, row)| beams.iter().any(|beam| beam.may_cross(row)));
-        self.planes.extend(crossed.map(|(i, _)| i as u32));
         let met = |prim: u32, ball: &Ball| {
-            let round = convex && matches!(columns.rows[prim as usize], Row::Sphere(_));
+            let round = convex && columns.is_sphere(prim);
             beams.iter().any(|beam| !(round && beam.prim == prim) && beam.may_meet(ball))
         };
-        self.keep_balls(columns, 0..columns.bounded.len() as u32, met);
+        self.keep(columns, |_, row| beams.iter().any(|beam| beam.may_cross(row)), met);
     }
 
     /// Shapes among `candidates` that a camera ray through a window may see first.
@@ -115,7 +122,7 @@ impl Shapes {
         }
         for &near in &self.near {
             let (prim, ball) = (columns.bounded[near as usize], &columns.balls[near as usize]);
-            let round = matches!(columns.rows[prim as usize], Row::Sphere(_)) && !window.is_within(ball);
+            let round = columns.is_sphere(prim) && !window.is_within(ball);
             let place =
                 if round { window.place_on_ball(prim, ball) } else { Place::new(prim, ball.bounds()) };
             self.filled = round && self.near.len() == 1 && window.filled_by_ball(ball);
@@ -142,16 +149,10 @@ impl Shapes {
             light.behind[i] != 0.0 && places.iter().any(|place| place.may_lie_beyond(row, light.behind[i]))
         };
         let meets = |prim: u32, ball: &Ball| {
-            places.iter().any(|place| {
-                let itself =
-                    convex && place.prim == prim && matches!(columns.rows[prim as usize], Row::Sphere(_));
-                !itself && place.shaft_meets(light, ball)
-            })
+            let round = convex && columns.is_sphere(prim);
+            places.iter().any(|place| !(round && place.prim == prim) && place.shaft_meets(light, ball))
         };
-        self.clear();
-        let planes = columns.planes.iter().enumerate();
-        self.planes.extend(planes.filter(|(i, row)| crosses(*i, row)).map(|(i, _)| i as u32));
-        self.keep_balls(columns, 0..columns.bounded.len() as u32, meets);
+        self.keep(columns, crosses, meets);
     }
 }
 

@@ -1,7 +1,7 @@
 //! The rays of a stream, gathered lane by lane and handed out in full packets.
 
+use catoptra_core::Ray;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Ray, Triple};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
@@ -9,7 +9,7 @@ use super::beam::Beam;
 use super::packet::{Left, Packet, Precise, drift, kernel_rays};
 use super::spread::Spreads;
 use crate::kernel::{Rays, magnitude};
-use crate::lanes::{D, D3, F, F3, M, U, narrow3};
+use crate::lanes::{D3, F, F3, M, U, load_wide3, load3, narrow3};
 
 /// Columns of rays; each has room for one more packet than there are rays.
 #[derive(Default)]
@@ -28,18 +28,6 @@ pub(super) struct Queue {
     start: [Vec<f32>; 3],
     unit: [Vec<f32>; 3],
     inverse_length: Vec<f32>,
-}
-
-/// A packet's lanes from each of three columns.
-#[inline(always)]
-fn wide<S: Simd>(s: S, [x, y, z]: &[Vec<f64>; 3], at: usize) -> D3<S> {
-    Triple::new(D::load(s, &x[at..]), D::load(s, &y[at..]), D::load(s, &z[at..]))
-}
-
-/// A packet's lanes from each of three columns.
-#[inline(always)]
-fn narrow<S: Simd>(s: S, [x, y, z]: &[Vec<f32>; 3], at: usize) -> F3<S> {
-    Triple::new(F::load(s, &x[at..]), F::load(s, &y[at..]), F::load(s, &z[at..]))
 }
 
 /// Rays to be gathered.
@@ -95,7 +83,7 @@ impl Queue {
     /// Origins and directions from ray `at` on.
     #[inline(always)]
     pub(super) fn precise<S: Simd>(&self, s: S, at: usize) -> (D3<S>, D3<S>) {
-        (wide(s, &self.origin, at), wide(s, &self.direction, at))
+        (load_wide3(s, &self.origin, at), load_wide3(s, &self.direction, at))
     }
 
     /// A ray, in the snapshot's frame.
@@ -131,11 +119,11 @@ impl Queue {
     /// The packet that starts with ray `at`.
     #[inline(always)]
     pub(super) fn packet_at<S: Simd>(&self, s: S, at: usize) -> Packet<'_, S> {
-        let origin = narrow(s, &self.start, at);
+        let origin = load3(s, &self.start, at);
         let reach = magnitude(origin) + F::splat(s, drift(self.zero));
         Packet {
             precise: Precise::Stream(self, at),
-            rays: Rays { origin, direction: narrow(s, &self.unit, at), reach },
+            rays: Rays { origin, direction: load3(s, &self.unit, at), reach },
             inverse_length: F::load(s, &self.inverse_length[at..]),
             weight: self.weights(s, at),
             pixel: self.pixels(s, at),
@@ -158,7 +146,7 @@ impl Queue {
     /// How much of the light along the rays from `at` on counts.
     #[inline(always)]
     pub(super) fn weights<S: Simd>(&self, s: S, at: usize) -> F3<S> {
-        narrow(s, &self.weight, at)
+        load3(s, &self.weight, at)
     }
 
     /// The pixels of the rays from `at` on.

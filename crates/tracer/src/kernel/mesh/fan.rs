@@ -11,7 +11,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
 use super::edges::Prepared;
-use super::{Settled, Umpire, Visit, Visits, settle};
+use super::{Settled, Umpire, Visits, settle};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::{Bits, F, M, U};
 use crate::numeric::{FAN_PAD, FAN_SLOPE};
@@ -207,13 +207,7 @@ impl Fan {
                 & (least * f32x8::splat(s, low)).simd_le(self.row(s, node, which, 1));
         }
         let there = (1_u64 << node.children) - 1;
-        let near = near.to_array();
-        let first = visits.stack.len();
-        for child in Bits(met.to_bitmask() & there) {
-            let child = child % WIDTH;
-            let (link, count) = (node.link[child], u32::from(node.count[child]));
-            visits.add(first, Visit { near: near[child], link, count });
-        }
+        visits.add_children(node, met.to_bitmask() & there, near.to_array());
     }
 
     /// Tests all rays against a block; whether any has changed.

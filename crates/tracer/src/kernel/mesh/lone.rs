@@ -7,7 +7,7 @@ use catoptra_core::Ray;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::{Umpire, Verdict, Visit, Visits, meet};
+use super::{Umpire, Verdict, Visits, meet};
 use crate::accel::{Block8, Node8, WIDTH, WideTree};
 use crate::lanes::Bits;
 use crate::numeric::{BOX_STRETCH, LONE_FLOOR, LONE_PAD, LONE_SHARE, LONE_SPREAD};
@@ -173,18 +173,7 @@ impl Lone {
         }
         let there = (1_u64 << node.children) - 1;
         let met = enter.simd_le(leave).to_bitmask() & there;
-        let near = enter.to_array();
-        let first = visits.stack.len();
-        for child in Bits(met) {
-            visits.add(
-                first,
-                Visit {
-                    near: near[child % WIDTH],
-                    link: node.link[child % WIDTH],
-                    count: u32::from(node.count[child % WIDTH]),
-                },
-            );
-        }
+        visits.add_children(node, met, enter.to_array());
     }
 
     /// Corners across the ray, sheared so that it becomes an axis; `most` grows to their largest coordinate.

@@ -11,6 +11,9 @@ mod precise;
 
 use catoptra_core::{Ray, Span};
 
+use crate::accel::{Node8, WIDTH};
+use crate::lanes::Bits;
+
 pub(crate) use bundle::Lines;
 pub(crate) use fan::{Fan, FanRays};
 pub(crate) use lone::{Lone, LoneBest};
@@ -98,6 +101,17 @@ impl Visits {
     #[inline(always)]
     fn next(&mut self) -> Option<Visit> {
         self.stack.pop()
+    }
+
+    /// Adds some children of a node, entered at `near`, the nearest last.
+    #[inline(always)]
+    fn add_children(&mut self, node: &Node8, children: u64, near: [f32; WIDTH]) {
+        let first = self.stack.len();
+        for child in Bits(children) {
+            let child = child % WIDTH;
+            let (link, count) = (node.link[child], u32::from(node.count[child]));
+            self.add(first, Visit { near: near[child], link, count });
+        }
     }
 
     /// Adds a child below the nearer ones of its siblings, which begin at `first`.
