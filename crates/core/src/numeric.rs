@@ -30,6 +30,10 @@ pub const EDGE_VALUE_ERROR: f64 = 16.0 * UNIT_ROUNDOFF_F64;
 /// two `f32`, so that rounding it to `f32` gives the right number or the one beside it.
 pub const ROOT_PRECISION: f64 = 1.0 / (1_u64 << 36) as f64;
 
+/// Products of two `f64` from here on lose nothing of `f64`'s range to rounding: their last digit is worth at least
+/// 2⁻¹⁰⁶ of them, and this is 2¹⁰⁶ of the smallest number, 2⁻¹⁰⁷⁴.
+pub const WHOLE_PRODUCT: f64 = f64::from_bits((1023 - 968) << 52);
+
 /// The least sine of the angle between two edges whose vector product is taken in `f64`: 2⁻²⁰.
 ///
 /// The product is off by 5u of the product of the edges' lengths (one rounding in each coordinate of both, three in a

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use glam::{DVec2, DVec3};
 
-use crate::exact::{Dyadic, Located, Root, exactly};
+use crate::exact::{Bounded, Dyadic, Located, Number, Root, Verdict, decide};
 
 /// The half line `origin + t * direction`, t > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,21 +97,30 @@ impl Crossing {
         (self.t + self.error).next_up()
     }
 
-    /// How its place on the ray compares with that of another crossing; where the bounds of both overlap, their exact
-    /// roots are asked for. `Equal` where a root is missing.
+    /// How its place on the ray compares with that of another crossing; where the bounds of both overlap, the roots of
+    /// both are asked for, those in exact numbers last. `Equal` where a root is missing.
     #[must_use]
-    pub fn order(&self, other: &Self, roots: impl FnOnce() -> [Option<Root<Dyadic>>; 2]) -> Ordering {
+    pub fn order(
+        &self,
+        other: &Self,
+        bounded: impl FnOnce() -> [Verdict<Option<Root<Bounded>>>; 2],
+        exact: impl FnOnce() -> [Verdict<Option<Root<Dyadic>>>; 2],
+    ) -> Ordering {
         // Comparisons of rounded sums hold for the sums themselves, as rounding keeps order.
         if self.t + self.error < other.t - other.error {
             Ordering::Less
         } else if other.t + other.error < self.t - self.error {
             Ordering::Greater
         } else {
-            let compared = exactly(|| match roots() {
-                [Some(a), Some(b)] => a.compare(&b).map(Some),
-                _ => Ok(None),
-            });
-            compared.unwrap_or(Ordering::Equal)
+            decide(|| compare(bounded()), || compare(exact())).unwrap_or(Ordering::Equal)
         }
+    }
+}
+
+/// How two roots compare, if there are two.
+fn compare<N: Number>([a, b]: [Verdict<Option<Root<N>>>; 2]) -> Verdict<Option<Ordering>> {
+    match (a?, b?) {
+        (Some(a), Some(b)) => a.compare(&b).map(Some),
+        _ => Ok(None),
     }
 }

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use dashu_int::ops::{BitTest, SquareRoot};
-use dashu_int::{IBig, Sign, UBig};
+use dashu_int::{IBig, Sign, UBig, Word};
 
 use super::{Located, Number, Root, Verdict};
 use crate::Span;
@@ -16,7 +16,7 @@ pub struct Dyadic {
     exponent: i64,
 }
 
-/// Bits that roots and quotients are worked out to before they are rounded to `f64`.
+/// Bits that roots are worked out to before they are rounded to `f64`.
 const WORKING_BITS: i64 = 96;
 
 impl Dyadic {
@@ -62,25 +62,23 @@ impl Dyadic {
         Self { mantissa: mantissa.into(), exponent: (self.exponent - up) / 2 }
     }
 
-    /// The nearest `f64` to `self / other`, or one beside it; infinite beyond the largest, and for `other` = 0.
+    /// The quotient `self / other`, within 4u of itself or two subnormal steps; infinite beyond the largest, and for
+    /// `other` = 0.
     #[must_use]
     pub fn over(&self, other: &Self) -> f64 {
         if other.is_zero() {
             return f64::INFINITY;
         }
-        let bits = self.mantissa.bit_len() as i64 - other.mantissa.bit_len() as i64;
-        let up = (WORKING_BITS - bits).max(0);
-        let quotient = (self.magnitude() << usize::try_from(up).unwrap_or(0)) / other.magnitude();
-        let negative = (self.mantissa.sign() == Sign::Negative) != (other.mantissa.sign() == Sign::Negative);
-        let size = float(&quotient, self.exponent - other.exponent - up);
-        if negative { -size } else { size }
+        let (above, below) = (Leading::of(self), Leading::of(other));
+        // Each is rounded to f64 once after at most 2⁻⁶⁴ was cut off, then their quotient.
+        scaled(above.digits / below.digits, above.exponent - below.exponent)
     }
 
     /// The nearest `f64`, or one beside it; infinite beyond the largest.
     #[must_use]
     pub fn to_f64(&self) -> f64 {
-        let size = float(&self.magnitude(), self.exponent);
-        if self.mantissa.sign() == Sign::Negative { -size } else { size }
+        let Leading { digits, exponent } = Leading::of(self);
+        scaled(digits, exponent)
     }
 
     /// Times 2^`up`.
@@ -112,14 +110,29 @@ impl Dyadic {
     }
 }
 
-/// `mantissa × 2^exponent`, rounded at most twice.
-fn float(mantissa: &UBig, exponent: i64) -> f64 {
-    let surplus = (mantissa.bit_len() as i64 - 64).max(0);
-    let top = mantissa >> usize::try_from(surplus).unwrap_or(0);
-    let top = u64::try_from(&top).unwrap_or(u64::MAX) as f64;
-    // Powers of two beyond those of f64 are reached in steps; all but a step into the subnormals are exact.
-    let mut left = exponent + surplus;
-    let mut value = top;
+/// The first words of a number, 65 bits and more, rounded to `f64`, and the power of two that they are to be taken times.
+struct Leading {
+    digits: f64,
+    exponent: i64,
+}
+
+impl Leading {
+    fn of(number: &Dyadic) -> Self {
+        let (sign, words) = number.mantissa.as_sign_words();
+        let taken = words.len().min((u128::BITS / Word::BITS) as usize);
+        let top = words.iter().rev().take(taken);
+        let digits = top.fold(0_u128, |sum, &word| sum << Word::BITS | u128::from(word)) as f64;
+        Self {
+            digits: if sign == Sign::Negative { -digits } else { digits },
+            exponent: number.exponent + (words.len() - taken) as i64 * i64::from(Word::BITS),
+        }
+    }
+}
+
+/// `value × 2^exponent`. Powers of two beyond those of `f64` are reached in steps; all but a step into the subnormals
+/// are exact.
+fn scaled(mut value: f64, exponent: i64) -> f64 {
+    let mut left = exponent;
     while left != 0 && value != 0.0 && value.is_finite() {
         let step = left.clamp(-512, 512);
         value *= 2.0_f64.powi(step as i32);
@@ -161,6 +174,9 @@ impl Number for Dyadic {
     }
 
     fn times(&self, other: &Self) -> Self {
+        if self.is_zero() || other.is_zero() {
+            return Self::of(0.0);
+        }
         Self { mantissa: &self.mantissa * &other.mantissa, exponent: self.exponent + other.exponent }
     }
 
@@ -221,8 +237,7 @@ impl Number for Dyadic {
                 }
             }
         };
-        // Rounded at most twice, by half a step of 2u each at most, after what the working bits leave out; a subnormal
-        // is off by a step or two of its own.
+        // A quotient is off by 3u, and what the working bits leave out; a subnormal by a step or two of its own.
         let error = t.abs() * 4.0 * UNIT_ROUNDOFF_F64 + f64::from_bits(2);
         Ok(t.is_finite().then_some(Located { t, error }))
     }

@@ -57,6 +57,14 @@ pub trait Number: Clone {
     /// When its error reaches beyond zero.
     fn sign(&self) -> Verdict<Ordering>;
 
+    /// How `a × b` compares with `c × d`.
+    ///
+    /// # Errors
+    /// When their errors overlap.
+    fn compare_products([a, b]: [&Self; 2], [c, d]: [&Self; 2]) -> Verdict<Ordering> {
+        a.times(b).minus(&c.times(d)).sign()
+    }
+
     /// How `a + b √s + c √r` compares with zero; `s` and `r` are not negative.
     ///
     /// # Errors
@@ -99,7 +107,7 @@ pub fn decide<T>(
 /// Answers by exact arithmetic, and counts it.
 #[cold]
 #[inline(never)]
-pub fn exactly<T>(exact: impl FnOnce() -> Verdict<Option<T>>) -> Option<T> {
+fn exactly<T>(exact: impl FnOnce() -> Verdict<Option<T>>) -> Option<T> {
     EXACT.set(EXACT.get() + 1);
     exact().unwrap_or(None)
 }

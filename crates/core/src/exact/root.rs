@@ -54,10 +54,12 @@ impl<N: Number> Root<N> {
     /// # Errors
     /// When the two lie too close together for such numbers.
     pub fn compare(&self, other: &Self) -> Verdict<Ordering> {
-        let difference = self.rational.times(&other.divisor).minus(&other.rational.times(&self.divisor));
+        let products = [[&self.rational, &other.divisor], [&other.rational, &self.divisor]];
         if self.radical.is_none() && other.radical.is_none() {
-            return difference.sign();
+            return N::compare_products(products[0], products[1]);
         }
+        let [left, right] = products.map(|[a, b]| a.times(b));
+        let difference = left.minus(&right);
         let zero = N::of(0.0);
         let part = |root: &Self, factor: &N, added: bool| match &root.radical {
             None => (zero.clone(), zero.clone()),

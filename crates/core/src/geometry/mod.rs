@@ -12,6 +12,8 @@ mod tetrahedron;
 mod triangle;
 mod triangle_mesh;
 
+use std::cmp::Ordering;
+
 pub use cuboid::Cuboid;
 pub use disk::Disk;
 pub use mesh::Mesh;
@@ -70,10 +72,28 @@ pub trait Geometry {
         self.crossing(own, at, facet)
     }
 
-    /// The exact root behind a crossing that [`cross_piece`](Self::cross_piece) has found on a facet.
-    fn root(&self, facet: u32, own: &Ray, span: Span, leaving: Option<u32>) -> Option<Root<Dyadic>> {
+    /// The root behind a crossing that [`cross_piece`](Self::cross_piece) has found on a facet.
+    ///
+    /// # Errors
+    /// When such numbers cannot tell whether there is one.
+    fn root<N: Number>(
+        &self,
+        facet: u32,
+        own: &Ray,
+        span: Span,
+        leaving: Option<u32>,
+    ) -> Verdict<Option<Root<N>>> {
         let piece = if self.pieces() > 1 { facet } else { 0 };
-        self.meet::<Dyadic>(piece, own, span, leaving).ok()?.map(|meeting| meeting.root)
+        Ok(self.meet(piece, own, span, leaving)?.map(|meeting| meeting.root))
+    }
+
+    /// How the places of two crossings that [`cross_piece`](Self::cross_piece) has found compare.
+    fn order(&self, own: &Ray, span: Span, leaving: Option<u32>, [a, b]: [&Crossing; 2]) -> Ordering {
+        a.order(
+            b,
+            || [a, b].map(|crossing| self.root(crossing.facet, own, span, leaving)),
+            || [a, b].map(|crossing| self.root(crossing.facet, own, span, leaving)),
+        )
     }
 
     /// The nearest crossing on `span`, or `None`; of crossings in one place, that of the lowest piece. A ray that is not
@@ -87,8 +107,7 @@ pub trait Geometry {
         for piece in 0..self.pieces() {
             let within = Span { max: best.map_or(span.max, |b| b.latest().min(span.max)), ..span };
             let Some(next) = self.cross_piece(piece, &own, within, leaving) else { continue };
-            let root = |crossing: &Crossing| self.root(crossing.facet, &own, span, leaving);
-            if best.is_none_or(|b| next.order(&b, || [root(&next), root(&b)]).is_lt()) {
+            if best.is_none_or(|b| self.order(&own, span, leaving, [&next, &b]).is_lt()) {
                 best = Some(next);
             }
         }
@@ -180,9 +199,17 @@ impl Shape {
         each_shape!(self, shape => shape.crossing(&shape.own_ray(ray), at, facet))
     }
 
-    /// The exact root behind a crossing that [`cross`](Self::cross) has found on a facet.
-    #[must_use]
-    pub fn root(&self, facet: u32, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Root<Dyadic>> {
+    /// The root behind a crossing that [`cross`](Self::cross) has found on a facet.
+    ///
+    /// # Errors
+    /// When such numbers cannot tell whether there is one.
+    pub fn root<N: Number>(
+        &self,
+        facet: u32,
+        ray: &Ray,
+        span: Span,
+        leaving: Option<u32>,
+    ) -> Verdict<Option<Root<N>>> {
         each_shape!(self, shape => shape.root(facet, &shape.own_ray(ray), span, leaving))
     }
 

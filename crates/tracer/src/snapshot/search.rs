@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::cmp::Ordering;
 
-use catoptra_core::exact::{Dyadic, Root};
+use catoptra_core::exact::{Number, Root, Verdict};
 use catoptra_core::geometry::Mesh;
 use catoptra_core::{Crossing, Geometry, Ray, Shape, Span};
 
@@ -113,14 +113,18 @@ impl Snapshot {
     /// Whether a ray meets one hit before another: exactly, and of hits in one place that with the lower shape, then the
     /// lower facet.
     pub(crate) fn precedes(&self, way: &Way<'_>, a: &Hit, b: &Hit) -> bool {
-        let order = a.crossing.order(&b.crossing, || [a, b].map(|hit| self.root(way, hit.place)));
+        let order = a.crossing.order(
+            &b.crossing,
+            || [a, b].map(|hit| self.root(way, hit.place)),
+            || [a, b].map(|hit| self.root(way, hit.place)),
+        );
         match order {
             Ordering::Equal => (a.place.prim, a.place.facet) < (b.place.prim, b.place.facet),
             order => order.is_lt(),
         }
     }
 
-    fn root(&self, way: &Way<'_>, place: Place) -> Option<Root<Dyadic>> {
+    fn root<N: Number>(&self, way: &Way<'_>, place: Place) -> Verdict<Option<Root<N>>> {
         let left = facet_left(place.prim, way.leaving);
         self.shape(way, place.prim).root(place.facet, way.ray, way.span, left)
     }
@@ -194,8 +198,7 @@ fn cross_mesh(mesh: &Mesh, tree: &WideTree, own: &Ray, span: Span, left: Option<
         let far = |best: Option<Crossing>| best.map_or(span.max, |b| b.latest().min(span.max));
         let within = Span { max: far(best), ..span };
         if let Some(next) = mesh.cross_piece(triangle, own, within, left) {
-            let root = |crossing: &Crossing| mesh.root(crossing.facet, own, span, left);
-            let precedes = |b: Crossing| match next.order(&b, || [root(&next), root(&b)]) {
+            let precedes = |b: Crossing| match mesh.order(own, span, left, [&next, &b]) {
                 Ordering::Equal => next.facet < b.facet,
                 order => order.is_lt(),
             };

@@ -1,5 +1,6 @@
 //! How often does which arithmetic see the wrong thing, and what does it take?
 
+use catoptra_core::exact::Dyadic;
 use catoptra_core::geometry::Triangle;
 use catoptra_core::glam::{DVec3, Vec3};
 use catoptra_core::material::Matte;
@@ -112,7 +113,7 @@ fn filtered(pair: &Pair) -> bool {
 }
 
 fn exact(pair: &Pair) -> bool {
-    pair.shape.root(0, &pair.ray, Span::AHEAD, None).is_some()
+    pair.shape.root::<Dyadic>(0, &pair.ray, Span::AHEAD, None).is_ok_and(|root| root.is_some())
 }
 
 /// A way to say whether a ray meets a triangle.
