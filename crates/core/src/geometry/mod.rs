@@ -21,7 +21,7 @@ pub use plane::Plane;
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
 pub use tetrahedron::Tetrahedron;
-pub use triangle::Triangle;
+pub use triangle::{Triangle, unit_normal};
 pub use triangle_mesh::TriangleMesh;
 
 use crate::exact::{Bounded, Dyadic, Located, Number, Root, Verdict, decide};

@@ -156,8 +156,9 @@ fn sheared(points: [DVec3; 3], direction: DVec3) -> [DVec2; 3] {
     points.map(|p| DVec2::new(p[x], p[y]) - shear * p[along])
 }
 
-/// Unit normal `(b − a) × (c − a)`; `None` without area.
-pub(super) fn unit_normal(corners: &[DVec3; 3]) -> Option<DVec3> {
+/// Unit vector along `(b − a) × (c − a)`, of corners a, b and c in metres; `None` without area.
+#[must_use]
+pub fn unit_normal(corners: &[DVec3; 3]) -> Option<DVec3> {
     let [a, b, c] = corners;
     let (u, v) = (b - a, c - a);
     let normal = u.cross(v);

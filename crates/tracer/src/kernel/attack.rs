@@ -69,16 +69,17 @@ fn aimed<S: Simd>(s: S, random: &mut Random, rim: &[DVec3]) -> (Rays<S>, Vec<Ray
     (Rays { origin, direction: direction.scale(inverse_length), reach: magnitude(origin) }, rays)
 }
 
-fn propose<S: Simd>(s: S, shape: &Shape, rays: &Rays<S>) -> Proposal<S> {
-    match shape {
+/// `None` for shapes without a kernel.
+fn propose<S: Simd>(s: S, shape: &Shape, rays: &Rays<S>) -> Option<Proposal<S>> {
+    Some(match shape {
         Shape::Plane(plane) => PlaneRow::new(plane.point(), plane.normal(), 0).propose(s, rays),
         Shape::Sphere(sphere) => {
             SphereRow::new(sphere.center(), sphere.radius()).propose(s, rays, M::splat(s, false))
         }
         Shape::Rectangle(r) => RectangleRow::new(r.corner(), r.edges(), 0).propose(s, rays),
-        Shape::Triangle(triangle) => TriangleRow::new(triangle.corners(), 0).propose(s, rays),
-        _ => unreachable!("only shapes with a kernel of this kind are attacked"),
-    }
+        Shape::Triangle(triangle) => TriangleRow::new(triangle.corners(), 0, 0)?.propose(s, rays),
+        _ => return None,
+    })
 }
 
 fn attack(target: impl Fn(&mut Random) -> Option<Target>) -> Record {
@@ -93,7 +94,7 @@ fn attack(target: impl Fn(&mut Random) -> Option<Target>) -> Record {
 
 fn try_one<S: Simd>(s: S, random: &mut Random, shape: &Shape, rim: &[DVec3], record: &mut Record) {
     let (packet, rays) = aimed(s, random, rim);
-    let proposal = propose(s, shape, &packet);
+    let Some(proposal) = propose(s, shape, &packet) else { return };
     for (lane, ray) in rays.iter().enumerate() {
         let is = |mask: M<S>| mask.bits() >> lane & 1 == 1;
         if is(proposal.undecided) {

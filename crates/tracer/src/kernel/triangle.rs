@@ -3,26 +3,33 @@
 //! After Segura and Feito, "Algorithms to test ray–triangle intersection", WSCG 2001, with the edge itself in the
 //! product, so that errors shrink with the triangle.
 
+use catoptra_core::geometry::unit_normal;
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane, LaneMask};
 use fearless_simd::Simd;
 
-use super::{Proposal, Rays, cross, magnitude, magnitude_of, rounded};
+use super::{PlaneRow, Proposal, Rays, cross, magnitude, magnitude_of, rounded};
 use crate::lanes::{F, splat3};
 use crate::numeric::{DIRECTION_ERROR, EDGE_ERROR, POINT_ERROR};
 
 /// A triangle that stands alone or is a face of a solid.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TriangleRow {
-    pub(crate) corners: [DVec3; 3],
+    /// The plane that it lies in.
+    pub(crate) plane: PlaneRow,
     pub(crate) facet: u32,
     edges: Edges,
 }
 
 impl TriangleRow {
-    pub(crate) fn new(corners: [DVec3; 3], facet: u32) -> Self {
+    /// A facet of the shape `prim`; `None` without area.
+    pub(crate) fn new(corners: [DVec3; 3], prim: u32, facet: u32) -> Option<Self> {
         let largest = corners.map(magnitude_of).into_iter().fold(0.0, f32::max);
-        Self { corners, facet, edges: Edges::new(&corners.map(rounded), largest) }
+        Some(Self {
+            plane: PlaneRow::new(corners[0], unit_normal(&corners)?, prim),
+            facet,
+            edges: Edges::new(&corners.map(rounded), largest),
+        })
     }
 
     #[inline(always)]

@@ -140,14 +140,8 @@ impl Columns {
             Shape::Rectangle(r) => {
                 Row::Rectangle(push(&mut self.rectangles, RectangleRow::new(r.corner(), r.edges(), id)))
             }
-            Shape::Triangle(t) => {
-                Row::Triangles(push(&mut self.triangles, TriangleRow::new(t.corners(), 0)), 1)
-            }
-            Shape::Tetrahedron(t) => {
-                let first = self.triangles.len() as u32;
-                self.triangles.extend((0..4).map(|face| TriangleRow::new(t.face(face), face)));
-                Row::Triangles(first, 4)
-            }
+            Shape::Triangle(t) => self.add_facets(id, &[t.corners()]),
+            Shape::Tetrahedron(t) => self.add_facets(id, &[0, 1, 2, 3].map(|face| t.face(face))),
             Shape::Mesh(mesh) => match prim.mesh {
                 Some(tree) => {
                     let tree = Arc::clone(&meshes[tree as usize]);
@@ -158,6 +152,17 @@ impl Columns {
             },
             _ => Row::General,
         }
+    }
+
+    /// Adds the triangles that a shape is made of.
+    fn add_facets(&mut self, id: u32, facets: &[[DVec3; 3]]) -> Row {
+        let numbered = (0..).zip(facets);
+        let rows: Option<Vec<_>> =
+            numbered.map(|(facet, corners)| TriangleRow::new(*corners, id, facet)).collect();
+        let Some(rows) = rows else { return Row::General };
+        let first = self.triangles.len() as u32;
+        self.triangles.extend(rows);
+        Row::Triangles(first, facets.len() as u32)
     }
 }
 

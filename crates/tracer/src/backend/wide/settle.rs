@@ -11,7 +11,7 @@ use super::Tracer;
 use super::packet::Packet;
 use super::search::Best;
 use crate::kernel::{PlaneRow, cross};
-use crate::lanes::{D, D3, F, M, narrow3, pick3, splat_wide, splat3};
+use crate::lanes::{D, D3, F, M, narrow3, pick3, splat_wide};
 use crate::snapshot::{Instance, Row};
 
 /// Points and normals of the lanes that meet something, in `f64`.
@@ -80,12 +80,15 @@ impl<S: Simd> Tracer<'_, S> {
                 self.settle_flat(packet, best, plane)
             }
             Row::Triangles(first, _) => {
-                let mut corners = LaneTriples::default();
-                for lane in mask.lanes() {
-                    let facet = best.facet.lane(lane);
-                    corners.set(lane, columns.triangles[(first + facet) as usize].corners);
+                let triangles = &columns.triangles[first as usize..];
+                let none = D::splat(self.s, 0.0);
+                let (mut normal, mut distance) = (D3::splat(none), none);
+                for (facet, lanes) in best.facets(mask) {
+                    let plane = &triangles[facet as usize].plane;
+                    normal = pick3(lanes, splat_wide(self.s, plane.normal), normal);
+                    distance = D::pick(lanes, D::splat(self.s, plane.distance), distance);
                 }
-                self.settle_triangles(packet, best, &corners)
+                self.settle_on_planes(packet, best, normal, distance)
             }
             Row::Instance(row) => self.settle_mesh(packet, best, mask, &columns.instances[row as usize]),
             Row::General | Row::Plane(_) | Row::Sphere(_) => self.settle_general(packet, mask, prim),
@@ -94,10 +97,22 @@ impl<S: Simd> Tracer<'_, S> {
 
     #[inline(always)]
     fn settle_flat(&mut self, packet: &Packet<'_, S>, best: &Best<S>, plane: &PlaneRow) -> Settled<S> {
-        let normal = splat_wide(self.s, plane.normal);
+        let (normal, distance) = (splat_wide(self.s, plane.normal), D::splat(self.s, plane.distance));
+        self.settle_on_planes(packet, best, normal, distance)
+    }
+
+    /// Lanes on planes of their own, `normal · p = distance`.
+    #[inline(always)]
+    fn settle_on_planes(
+        &mut self,
+        packet: &Packet<'_, S>,
+        best: &Best<S>,
+        normal: D3<S>,
+        distance: D<S>,
+    ) -> Settled<S> {
         let near = self.near(packet, best);
-        let off = normal.dot(near) - D::splat(self.s, plane.distance);
-        let slope = splat3(self.s, plane.normal32).dot(packet.rays.direction);
+        let off = normal.dot(near) - distance;
+        let slope = narrow3(normal).dot(packet.rays.direction);
         let point = self.step(packet, near, off.narrow(), slope);
         Settled { point, normal, shading: normal }
     }

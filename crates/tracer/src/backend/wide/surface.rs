@@ -57,7 +57,16 @@ impl<S: Simd> Tracer<'_, S> {
                 Surface::flat(point, splat3(self.s, columns.rectangles[row as usize].plane.normal32))
             }
             Row::Sphere(row) => self.surface_of_sphere(packet, best, &columns.spheres[row as usize]),
-            Row::Triangles(..) | Row::Instance(_) | Row::General => {
+            Row::Triangles(first, _) => {
+                let triangles = &columns.triangles[first as usize..];
+                let mut normal = point;
+                for (facet, lanes) in best.facets(mask) {
+                    let own = splat3(self.s, triangles[facet as usize].plane.normal32);
+                    normal = F3::select(lanes, own, normal);
+                }
+                Surface::flat(point, normal)
+            }
+            Row::Instance(_) | Row::General => {
                 let settled = self.settle_facets(packet, best, mask, prim);
                 Surface {
                     point: narrow3(settled.point),
