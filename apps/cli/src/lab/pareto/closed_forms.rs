@@ -67,8 +67,7 @@ pub(super) fn ask(lab: &Lab) -> Result<Vec<Question>> {
     }
     let words = "A floor under one light, each pixel held against the light's formula, evaluated in f64 where the pixel's ray meets the \
                  floor. An ulp is the step between one f32 and the next: the film itself holds f32, so half a step is its best. `wide` \
-                 shades in f32, `scalar` in f64; which surface is seen and what is in shadow both know for certain. There are no \
-                 area lights and no filtered textures yet, so no penumbrae and checker footprints to hold against theirs."
+                 shades in f32, `scalar` in f64; which surface is seen and what is in shadow both know for certain."
         .to_owned();
     let errors = &["mean error, ulp", "largest error, ulp"];
     let time = "ns a pixel";

@@ -1,5 +1,6 @@
 //! `catoptra lab pareto`: what does each way to answer a question cost, and how wrong is it?
 
+mod averages;
 mod closed_forms;
 mod cutoffs;
 mod page;
@@ -32,7 +33,7 @@ pub(crate) struct ParetoArgs {
 /// Answers some questions that have much in common.
 type Ask = fn(&Lab) -> Result<Vec<Question>>;
 
-const QUESTIONS: [Ask; 4] = [visibility::ask, pictures::ask, cutoffs::ask, closed_forms::ask];
+const QUESTIONS: [Ask; 5] = [visibility::ask, pictures::ask, cutoffs::ask, averages::ask, closed_forms::ask];
 
 /// A question with all ways to answer it that were tried.
 pub(super) struct Question {
