@@ -40,6 +40,7 @@ const NO_PRIMARY_RAY: &[Reason] =
 const NO_SHADOW_RAY: &[Reason] = &[
     ("the surface faces away from the light", |skipped| skipped.facing_away),
     ("the point lies outside the light's cone", |skipped| skipped.out_of_cone),
+    ("their whole part of the picture lies outside the cone", |skipped| skipped.unreached),
     ("the light throws no shadows", |skipped| skipped.shadow_off),
     ("the material shows no light of its own", |skipped| skipped.unlit_material),
     ("nothing stands between the tile's surfaces and the light", |skipped| skipped.nothing_between),

@@ -97,13 +97,15 @@ pub struct Skip {
     pub shafts: bool,
     /// Shapes that no ray of a stream of reflected rays can meet are not tested for it.
     pub beams: bool,
+    /// Lights are not asked about parts of the picture that lie outside their cones.
+    pub unreached: bool,
 }
 
 impl Skip {
     /// Everything that can be left out is.
-    pub const ALL: Self = Self { hidden: true, shafts: true, beams: true };
+    pub const ALL: Self = Self { hidden: true, shafts: true, beams: true, unreached: true };
     /// Nothing is left out.
-    pub const NOTHING: Self = Self { hidden: false, shafts: false, beams: false };
+    pub const NOTHING: Self = Self { hidden: false, shafts: false, beams: false, unreached: false };
 }
 
 impl View {

@@ -59,6 +59,11 @@ pub trait Emitter {
         None
     }
 
+    /// Whether anything may arrive within `radius` metres of a point: never false where something does.
+    fn may_reach(&self, _center: DVec3, _radius: f64) -> bool {
+        true
+    }
+
     /// Whether things throw shadows in its light.
     fn shadow(&self) -> bool;
 }
@@ -134,6 +139,12 @@ impl Light {
     #[must_use]
     pub fn direction(&self) -> Option<DVec3> {
         each_light!(self, light => light.direction())
+    }
+
+    /// See [`Emitter::may_reach`].
+    #[must_use]
+    pub fn may_reach(&self, center: DVec3, radius: f64) -> bool {
+        each_light!(self, light => light.may_reach(center, radius))
     }
 
     /// See [`Emitter::shadow`].

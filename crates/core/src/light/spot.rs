@@ -165,6 +165,18 @@ impl Emitter for SpotLight {
         Some(self.axis.vector())
     }
 
+    /// A ball at the distance d is seen from the apex under the angle δ with sin δ = ρ/d to either side. It stays outside
+    /// a cone of half the angle θ where its centre is more than θ + δ off the axis.
+    fn may_reach(&self, center: DVec3, radius: f64) -> bool {
+        let way = center - self.position.vector();
+        let (cosine, sine) = ((self.outer / 2.0).cos(), (self.outer / 2.0).sin());
+        let distance2 = way.length_squared();
+        let beyond_half_turn = cosine < 0.0 && radius * radius >= sine * sine * distance2;
+        let limit = cosine * (distance2 - radius * radius).max(0.0).sqrt() - sine * radius;
+        let outside = radius * radius < distance2 && !beyond_half_turn && way.dot(self.axis.vector()) < limit;
+        !outside
+    }
+
     fn shadow(&self) -> bool {
         self.shadow
     }
@@ -173,4 +185,46 @@ impl Emitter for SpotLight {
 /// Degrees as a person writes them: without the noise of the conversion from radians.
 fn round(degrees: f64) -> f64 {
     (degrees * 1e6).round() / 1e6
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn place() -> impl Strategy<Value = DVec3> {
+        [-3.0..3.0, -3.0..3.0, -3.0..3.0_f64].prop_map(DVec3::from_array)
+    }
+
+    fn spot(direction: DVec3, outer: f64) -> SpotLight {
+        let values = Values::new()
+            .with("position", Value::Vector(DVec3::ZERO))
+            .with("direction", Value::Vector(direction))
+            .with("intensity", Value::Color(crate::Rgb::WHITE))
+            .with("inner", Value::Number(0.0))
+            .with("outer", Value::Number(outer))
+            .with("falloff", Value::Number(1.0));
+        crate::part::make(&values).unwrap()
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_lit_is_within_reach(at in place(), aside in place(), along in place(), outer in 0.01..2.0 * PI) {
+            prop_assume!(along.length() > 0.1);
+            let light = spot(along, outer);
+            let lit = light.arriving(Triple::new(at.x, at.y, at.z)).lit;
+            prop_assert!(!lit || light.may_reach(at + aside, aside.length() * (1.0 + 1e-12)));
+        }
+    }
+
+    #[test]
+    fn balls_beside_and_behind_are_out_of_reach() {
+        let narrow = spot(DVec3::X, 60.0_f64.to_radians());
+        assert!(narrow.may_reach(DVec3::X * 5.0, 0.1) && narrow.may_reach(DVec3::Y, 0.9));
+        assert!(!narrow.may_reach(DVec3::Y * 5.0, 0.1) && !narrow.may_reach(DVec3::X * -5.0, 4.9));
+        let wide = spot(DVec3::X, 300.0_f64.to_radians());
+        assert!(wide.may_reach(DVec3::Y, 0.1) && wide.may_reach(DVec3::X * -1.0, 0.6));
+        assert!(!wide.may_reach(DVec3::X * -5.0, 1.0));
+    }
 }

@@ -51,6 +51,7 @@ pub struct Snapshot {
     constants: [Constant3; 2],
     material_rows: Vec<MaterialRow>,
     light_rows: Vec<LightRow>,
+    has_cones: bool,
 }
 
 impl Snapshot {
@@ -146,6 +147,11 @@ impl Snapshot {
     /// The lights as the SIMD backend reads them.
     pub(crate) fn light_rows(&self) -> &[LightRow] {
         &self.light_rows
+    }
+
+    /// Whether there are lights that do not shine everywhere.
+    pub(crate) fn has_cones(&self) -> bool {
+        self.has_cones
     }
 
     /// The tree over all shapes that have an end; its items are places in [`Columns::bounded`].

@@ -170,6 +170,7 @@ impl Work for Answer<'_, '_, '_> {
             bounce: None,
             found: &mut found,
             between: &mut [],
+            reached: &mut Vec::new(),
             visits: &mut visits,
             chunk: &mut Chunk::new(s),
             spreads: &mut Spreads::nothing(s),

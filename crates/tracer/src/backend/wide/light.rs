@@ -129,7 +129,15 @@ impl<S: Simd> Tracer<'_, S> {
     /// Adds what every light makes of the first `count` packets of the chunk. Compiled apart for each kind of light.
     #[inline(always)]
     pub(super) fn add_lights(&mut self, batch: &impl Batch<S>, count: usize) {
-        for (light, row) in self.frame.snapshot.light_rows().iter().enumerate() {
+        let rows = self.frame.snapshot.light_rows();
+        let unreached = rows.len() - self.reached.len();
+        if unreached > 0 {
+            let lit = self.chunk.lit[..count].iter().map(|lit| lit.count());
+            self.stats.skipped.unreached += lit.sum::<u64>() * unreached as u64;
+        }
+        for place in 0..self.reached.len() {
+            let light = self.reached[place];
+            let row = &rows[light];
             self.s.vectorize(
                 #[inline(always)]
                 || row.light.visit(AddLight { tracer: self, batch, count, light }),

@@ -35,6 +35,7 @@ use super::{Backend, Frame};
 use crate::kernel::mesh::Visits;
 use crate::lanes::{F, F3, splat3};
 use crate::query::{HitSlice, RaySlice};
+use crate::snapshot::LightRow;
 use crate::{Instructions, Region, Size, Snapshot, Stats, Tile, View};
 use ask::Answers;
 use batch::{Batch, Found, Part};
@@ -91,6 +92,8 @@ struct Room {
     /// Every shape, those that may be seen through a tile, and those through parts of it.
     seen: [Shapes; LEVELS],
     between: Vec<Shapes>,
+    /// Lights that reach anything that the batch under way shows.
+    reached: Vec<usize>,
     visits: Visits,
     rays: CameraRays,
 }
@@ -159,11 +162,13 @@ impl Work for TraceTile<'_> {
 #[inline(always)]
 fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
     let grid = frame.view.grid;
-    let Room { next, bounce, found, seen, between, visits, rays } = room;
+    let Room { next, bounce, found, seen, between, reached, visits, rays } = room;
     for queue in [&mut *next, &mut bounce.stream] {
         queue.start_from(frame.snapshot.origin_in_frame());
     }
     between.resize_with(frame.snapshot.lights().len(), Shapes::default);
+    reached.clear();
+    reached.extend(0..frame.snapshot.lights().len());
     let mut tracer = Tracer {
         s,
         frame,
@@ -172,6 +177,7 @@ fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
         bounce: Some(bounce),
         found,
         between,
+        reached,
         visits,
         chunk: &mut Chunk::new(s),
         spreads: &mut Spreads::nothing(s),
@@ -204,6 +210,8 @@ struct Tracer<'a, S: Simd> {
     found: &'a mut Found,
     /// For every light, what may stand between it and what the batch under way shows.
     between: &'a mut [Shapes],
+    /// Lights that reach anything that the batch under way shows.
+    reached: &'a mut Vec<usize>,
     /// Room for walks through trees of meshes.
     visits: &'a mut Visits,
     chunk: &'a mut Chunk<S>,
@@ -256,7 +264,7 @@ impl<S: Simd> Tracer<'_, S> {
             self.trace(part, shapes, tile, 0);
         } else {
             self.stats.rays.primary += part.live();
-            self.plan_shadows(&shapes.places);
+            self.plan_lights(&shapes.places);
             if shapes.filled {
                 self.trace_filled(part, shapes, tile);
             } else {
@@ -338,14 +346,20 @@ impl<S: Simd> Tracer<'_, S> {
         }
         let places: Vec<Place> =
             self.spreads.seen.boxes().map(|(prim, bounds)| Place::new(prim, bounds)).collect();
-        self.plan_shadows(&places);
+        self.plan_lights(&places);
     }
 
-    /// Finds out for every light what may stand between it and the places that a batch shows.
-    fn plan_shadows(&mut self, places: &[Place]) {
-        let snapshot = self.frame.snapshot;
+    /// Finds out for every light whether it reaches the places that a batch shows, and what may stand between.
+    fn plan_lights(&mut self, places: &[Place]) {
+        let (snapshot, skip) = (self.frame.snapshot, self.frame.view.skip);
+        if skip.unreached && snapshot.has_cones() {
+            let reaches = |light: &LightRow| places.iter().any(|place| place.is_reached_by(light));
+            self.reached.clear();
+            let lights = snapshot.light_rows().iter().enumerate();
+            self.reached.extend(lights.filter(|(_, light)| reaches(light)).map(|(i, _)| i));
+        }
         for (shapes, light) in self.between.iter_mut().zip(snapshot.light_rows()) {
-            if self.frame.view.skip.shafts {
+            if skip.shafts {
                 shapes.between(snapshot.columns(), places, light, self.outside);
             } else {
                 shapes.all(snapshot.columns());

@@ -184,6 +184,11 @@ impl Place {
         !(least > PLAN_MARGIN * (row.distance.abs() + self.center.abs().element_sum()))
     }
 
+    /// Whether anything may arrive from a light.
+    pub(super) fn is_reached_by(&self, light: &LightRow) -> bool {
+        light.light.may_reach(self.center, self.radius * (1.0 + PLAN_MARGIN))
+    }
+
     /// Whether the ways from the points to a light may meet a ball.
     fn shaft_meets(&self, light: &LightRow, ball: &Ball) -> bool {
         let to_ball = ball.center - self.center;
