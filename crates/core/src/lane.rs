@@ -162,6 +162,7 @@ pub struct Triple<T> {
 
 impl<T> Triple<T> {
     /// From three numbers.
+    #[inline(always)]
     pub const fn new(x: T, y: T, z: T) -> Self {
         Self { x, y, z }
     }

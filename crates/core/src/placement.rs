@@ -99,18 +99,21 @@ impl Placement {
 
     /// Where `point` goes.
     #[must_use]
+    #[inline]
     pub fn point(&self, point: DVec3) -> DVec3 {
         self.vector(point) + self.translation
     }
 
     /// What becomes of the difference of two points.
     #[must_use]
+    #[inline]
     pub fn vector(&self, vector: DVec3) -> DVec3 {
         self.direction(vector) * self.scale
     }
 
     /// What becomes of a direction or normal: turned, its length kept. Exact where nothing is turned.
     #[must_use]
+    #[inline]
     pub fn direction(&self, direction: DVec3) -> DVec3 {
         if self.rotation == DQuat::IDENTITY { direction } else { self.rotation * direction }
     }

@@ -132,6 +132,10 @@ pub(crate) const FAN_SLOPE: f32 = 2.0 * U;
 /// doubled for the slope.
 pub(crate) const FAN_PAD: f32 = 16.0 * U;
 
+/// How far the slopes at which a box is seen may be off: those that rays below 2 are compared with, by a difference, a
+/// quotient's and a product's roundings, 3u of 2; rounded up.
+pub(crate) const FAN_BOX: f32 = 8.0 * U;
+
 /// Error of an edge value n·(u, v, 1), n = e × p, of rays through one point, relative to L P S with S = 1 + |u| + |v|: as
 /// for [`MEET_EDGE_ERROR`] 7u in each component of n, and u·2·2LP S for two fused products; rounded up.
 pub(crate) const FAN_EDGE: f32 = 12.0 * U;
@@ -145,7 +149,7 @@ pub(crate) const FAN_SPREAD: f32 = 64.0 * U;
 
 /// Most that the slopes of rays may differ by to be traced together: a choice that only costs or saves time, not yet tuned by
 /// measurement.
-pub(crate) const FAN_WIDTH: f32 = 0.25;
+pub(crate) const FAN_WIDTH: f32 = 1.0;
 
 /// Most that the `t` of a triangle may be off, relative to itself, for its plane to be taken at its word: a 64th of what
 /// `f32` can hold.

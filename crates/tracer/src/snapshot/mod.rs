@@ -118,6 +118,7 @@ impl Snapshot {
 
     /// A ray of the world in the snapshot's frame, rounded.
     #[must_use]
+    #[inline]
     pub fn own_ray(&self, ray: &Ray) -> Ray {
         Ray::new(ray.origin - self.frame, ray.direction)
     }

@@ -18,7 +18,7 @@ use crate::kernel::mesh::Visits;
 use crate::lanes::{Bits, D, D3, F, M, U, load_wide3, narrow3, splat_wide, splat3};
 use crate::numeric::{END_ERROR, ORDINARY};
 use crate::query::{HitSlice, RaySlice};
-use crate::snapshot::Row;
+use crate::snapshot::{Instance, Row};
 use crate::{Place, Size, Snapshot, Stats, View};
 
 /// What is asked about some rays.
@@ -26,10 +26,22 @@ pub(super) struct Asked<'a> {
     rays: RaySlice<'a>,
     /// Whether anything they meet will do.
     pub(super) any: bool,
-    snapshot: &'a Snapshot,
+    pub(super) snapshot: &'a Snapshot,
 }
 
 impl Asked<'_> {
+    /// How many rays there are.
+    #[inline(always)]
+    pub(super) fn len(&self) -> usize {
+        self.rays.len()
+    }
+
+    /// A ray in the snapshot's frame, the stretch it is asked about, and the place it leaves from.
+    #[inline]
+    pub(super) fn way(&self, at: usize) -> (Ray, Span, Option<Place>) {
+        (self.ray(at), self.span(at), self.rays.leaving(at))
+    }
+
     /// A ray, in the snapshot's frame.
     pub(super) fn ray(&self, at: usize) -> Ray {
         self.snapshot.own_ray(&self.rays.ray(at))
@@ -47,6 +59,13 @@ impl Asked<'_> {
         let rays = self.rays.rays;
         let origin = splat_wide(s, self.snapshot.origin());
         (load_wide3(s, &rays.origin, at) - origin, load_wide3(s, &rays.direction, at))
+    }
+
+    /// As [`precise`](Self::precise), in a mesh's own space.
+    #[inline(always)]
+    pub(super) fn own_lines<S: Simd>(&self, s: S, at: usize, instance: &Instance) -> (D3<S>, D3<S>) {
+        let (origin, direction) = self.precise(s, at);
+        (instance.own_points(s, origin), instance.own_vectors(s, direction))
     }
 
     /// Where the stretches of the packet at ray `at` begin and end; not finite for those without an end.
@@ -75,29 +94,51 @@ impl Asked<'_> {
         D::load(s, &ends[self.rays.first + at..]).narrow() / inverse_length
     }
 
+    /// Depths between which the stretches begin, and those at which they end and how far these may be off; for rays of so
+    /// much depth per `t`.
+    #[inline(always)]
+    pub(super) fn depths<S: Simd>(&self, s: S, at: usize, scale: F<S>) -> [[F<S>; 2]; 2] {
+        let (from, rays) = (self.rays.first + at, self.rays.rays);
+        let (error, most) = (F::splat(s, END_ERROR), F::splat(s, f32::MAX));
+        let begin = D::load(s, &rays.min[from..]).narrow().max(F::splat(s, 0.0)) * scale;
+        let end = (D::load(s, &rays.max[from..]).narrow() * scale).min(most);
+        let near = end.less(F::splat(s, f32::MAX / 4.0));
+        let off = begin * error;
+        [[begin - off, begin + off], [F::pick(near, end, most), F::pick(near, end * error, F::splat(s, 0.0))]]
+    }
+
+    /// Where the rays of the packet at ray `at` leave from.
+    #[inline(always)]
+    pub(super) fn left<S: Simd>(&self, s: S, at: usize) -> Left<S> {
+        let (from, rays) = (self.rays.first + at, self.rays.rays);
+        if rays.prim.is_empty() {
+            return Left::nothing(s);
+        }
+        Left { prim: U::load(s, &rays.prim[from..]), facet: U::load(s, &rays.facet[from..]), any: true }
+    }
+
+    /// Rays of the packet at ray `at` that kernels may follow; the others are answered one by one.
+    #[inline(always)]
+    pub(super) fn live<S: Simd>(&self, s: S, at: usize) -> M<S> {
+        let (origin, direction) = self.precise(s, at);
+        let (from, count) = (self.rays.first + at, (self.rays.len() - at).min(F::<S>::LANES));
+        let there = M::from_bits(s, u64::MAX >> (64 - count));
+        there & self.in_order(s, from) & self.is_exact(s, from) & is_ordinary(s, origin, direction)
+    }
+
     /// The packet that starts with ray `at`.
     #[inline(always)]
     fn packet<S: Simd>(&self, s: S, at: usize) -> Packet<'_, S> {
         let (origin, direction) = self.precise(s, at);
         let (rays, inverse_length) = kernel_rays(s, narrow3(origin), narrow3(direction));
-        let from = self.rays.first + at;
-        let any = !self.rays.rays.prim.is_empty();
-        let left = if any {
-            let rays = self.rays.rays;
-            Left { prim: U::load(s, &rays.prim[from..]), facet: U::load(s, &rays.facet[from..]), any }
-        } else {
-            Left::nothing(s)
-        };
-        let count = (self.rays.len() - at).min(F::<S>::LANES);
-        let there = M::from_bits(s, u64::MAX >> (64 - count));
         Packet {
             precise: Precise::Asked(self, at),
             rays: rays.drifting(F::splat(s, drift(self.snapshot.origin_in_frame()))),
             inverse_length,
             weight: splat3(s, [1.0; 3]),
             pixel: U::splat(s, 0),
-            left,
-            live: there & self.in_order(s, from) & self.is_exact(s, from) & is_ordinary(s, origin, direction),
+            left: self.left(s, at),
+            live: self.live(s, at),
         }
     }
 
@@ -177,7 +218,10 @@ impl Work for Answer<'_, '_, '_> {
             outside: false,
         };
         let asked = Asked { rays, any: matches!(answers, Answers::Occluded(_)), snapshot };
-        tracer.answer(&asked, &mut answers);
+        match tracer.only_mesh() {
+            Some(mesh) => tracer.answer_of_mesh(&asked, mesh, &mut answers),
+            None => tracer.answer(&asked, &mut answers),
+        }
         tracer.stats
     }
 }
@@ -238,7 +282,20 @@ impl<S: Simd> Tracer<'_, S> {
                 }
             }
         }
-        let odd = !packet.live.bits() & (u64::MAX >> (64 - lanes));
+        self.answer_odd(asked, at, packet.live, answers);
+    }
+
+    /// Answers about the rays of the packet at ray `at` that kernels may not follow.
+    #[inline(always)]
+    pub(super) fn answer_odd(
+        &mut self,
+        asked: &Asked<'_>,
+        at: usize,
+        live: M<S>,
+        answers: &mut Answers<'_, '_>,
+    ) {
+        let lanes = (asked.rays.len() - at).min(F::<S>::LANES);
+        let odd = !live.bits() & (u64::MAX >> (64 - lanes));
         for lane in Bits(odd) {
             answers.set(at + lane, self.plainly(asked, at + lane));
         }
@@ -254,11 +311,12 @@ impl<S: Simd> Tracer<'_, S> {
             let prim = best.prim.lane(left.trailing_zeros() as usize);
             let lanes = M::from_bits(self.s, left) & best.prim.is(prim);
             left &= !lanes.bits();
-            if let (Row::Instance(row), Some(mesh)) =
-                (snapshot.columns().rows[prim as usize], snapshot.mesh_at(prim))
-            {
+            if let Row::Instance(row) = snapshot.columns().rows[prim as usize] {
                 let instance = &snapshot.columns().instances[row as usize];
-                let t = self.settled_t(packet, (instance, mesh), lanes, &best.facet);
+                let triangles = instance.facets(self.s, best.facet, lanes);
+                let lines = self.own_lines(packet, instance);
+                let of_lane = |lane: usize| packet.way(lane);
+                let t = self.settled_t(prim, lines, lanes, &triangles, of_lane);
                 all = D::pick(lanes, t, all);
                 continue;
             }

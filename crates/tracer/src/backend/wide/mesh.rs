@@ -1,7 +1,6 @@
 //! How a packet finds the triangles of a mesh: all lanes together where they go through one point, else lane by lane.
 
-use catoptra_core::geometry::Mesh;
-use catoptra_core::{Arithmetic, Lane, LaneMask};
+use catoptra_core::{Arithmetic, Lane, LaneMask, Ray, Span};
 use fearless_simd::Simd;
 
 use super::Tracer;
@@ -10,7 +9,9 @@ use super::packet::{Packet, Precise, drift};
 use super::search::Best;
 use super::shadow::Ways;
 use super::umpire::{Blocked, Nearest};
-use crate::kernel::mesh::{FanRays, LaneCorners, Lines, Lone, LoneBest, Umpire, Visits};
+use crate::Place;
+use crate::accel::WIDTH;
+use crate::kernel::mesh::{Bundle, Fan, FanRays, LaneTriangles, Lines, Lone, LoneBest, Umpire, Visits};
 use crate::lanes::{Bits, D, D3, F, M, U, splat_wide, widen3};
 use crate::numeric::{END_ERROR, POINT_ERROR};
 use crate::snapshot::{Affine, Instance};
@@ -30,10 +31,6 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     fn walk_mesh_here(&mut self, packet: &Packet<'_, S>, best: &mut Best<S>, instance: &Instance) {
         let Some(mesh) = self.frame.snapshot.mesh_at(instance.prim) else { return };
-        let (origin, direction) = packet.precise(self.s);
-        let (origin, direction) =
-            (instance.own_points(self.s, origin), instance.own_vectors(self.s, direction));
-        let lines = Lines { origin, direction, live: packet.live, off: self.drift(instance) };
         if let Precise::Asked(asked, at) = packet.precise
             && asked.any
         {
@@ -44,21 +41,26 @@ impl<S: Simd> Tracer<'_, S> {
         let mut umpire =
             Nearest { snapshot: self.frame.snapshot, mesh, prim: instance.prim, packet, before: &before };
         let mut visits = std::mem::take(self.visits);
-        let facets = match lines.slopes(self.s, instance.tree.reach) {
-            Some(slopes) => {
+        let reach = self.reach(instance);
+        let (origin, direction) = self.own_lines(packet, instance);
+        let lines = Lines { origin, direction, live: packet.live };
+        let slots = match Bundle::of(self.s, 1, |_| lines, reach) {
+            Some(bundle) => {
+                let slopes = bundle.slopes(0);
                 // From metres to depth.
                 let scale = slopes.scale * packet.inverse_length;
                 let (begin, end) = (self.begin(packet, scale), self.end(best, scale));
-                let mut rays = slopes.rays(self.s, begin, end, packet.live);
-                rays.left = packet.left.facets_of(self.s, instance.prim);
-                slopes.fan.search(self.s, &instance.tree.tree, &mut visits, &mut rays, &mut umpire);
-                instance.facets(&rays)
+                let mut rays = [slopes.rays(self.s, begin, end)];
+                rays[0].left = packet.left.facets_of(self.s, instance.prim);
+                bundle.fan.search(self.s, &instance.tree.tree, &mut visits, &mut rays, &mut umpire);
+                self.stats.settled += rays[0].settled;
+                rays[0].slot
             }
-            None => self.search_each(packet, best, instance, &mut umpire, &mut visits),
+            None => U::load(self.s, &self.search_each(packet, best, instance, &mut umpire, &mut visits)),
         };
         self.count(&mut visits);
         *self.visits = visits;
-        self.take(packet, best, (instance, mesh), &facets);
+        self.take(packet, best, instance, slots);
     }
 
     /// Marks the lanes that meet any triangle of a mesh.
@@ -74,38 +76,36 @@ impl<S: Simd> Tracer<'_, S> {
         let open = packet.live & !best.hits();
         let [start, end] = asked.ends(self.s, at);
         let (start, end) = (instance.own_points(self.s, start), instance.own_points(self.s, end));
-        let (zero, reach) = (F::splat(self.s, 0.0), instance.tree.reach);
+        let (zero, reach) = (F::splat(self.s, 0.0), self.reach(instance));
         let mut umpire =
             Nearest { snapshot: self.frame.snapshot, mesh, prim: instance.prim, packet, before: best };
         let mut visits = std::mem::take(self.visits);
         // Forwards where all start at one point, backwards where all end at one; lone where they do neither.
-        let mut slopes =
-            Lines { origin: start, direction: end - start, live: open, off: self.drift(instance) }
-                .slopes(self.s, reach);
-        if slopes.is_none() {
-            slopes = Lines { origin: end, direction: start - end, live: open, off: self.drift(instance) }
-                .slopes(self.s, reach);
-        }
-        let closed = match slopes {
-            Some(slopes) => {
-                let off = F::splat(self.s, slopes.slack * 2.0 + f32::MIN_POSITIVE);
+        let ahead = Lines { origin: start, direction: end - start, live: open };
+        let back = Lines { origin: end, direction: start - end, live: open };
+        let bundle =
+            Bundle::of(self.s, 1, |_| ahead, reach).or_else(|| Bundle::of(self.s, 1, |_| back, reach));
+        let slots = match bundle {
+            Some(bundle) => {
+                let slopes = bundle.slopes(0);
+                let off = F::splat(self.s, bundle.slack * 2.0 + f32::MIN_POSITIVE);
                 let error = slopes.scale.mul_add(F::splat(self.s, END_ERROR), off);
-                let mut rays = slopes.rays(self.s, [zero - off, off], [slopes.scale, error], open);
-                rays.left = packet.left.facets_of(self.s, instance.prim);
-                slopes.fan.for_any().search(self.s, &instance.tree.tree, &mut visits, &mut rays, &mut umpire);
-                !rays.slot.is(NONE)
+                let mut rays = [slopes.rays(self.s, [zero - off, off], [slopes.scale, error])];
+                rays[0].left = packet.left.facets_of(self.s, instance.prim);
+                let fan = bundle.fan.for_any();
+                fan.search(self.s, &instance.tree.tree, &mut visits, &mut rays, &mut umpire);
+                self.stats.settled += rays[0].settled;
+                rays[0].slot
             }
             None => {
                 let asked = Packet { live: open, ..*packet };
-                let facets = self.search_each(&asked, best, instance, &mut umpire, &mut visits);
-                let bits = (0..16).fold(0, |bits, lane| bits | u64::from(facets[lane] != NONE) << lane);
-                M::from_bits(self.s, bits & open.bits())
+                U::load(self.s, &self.search_each(&asked, best, instance, &mut umpire, &mut visits))
             }
         };
         self.count(&mut visits);
         *self.visits = visits;
         let prim = U::splat(self.s, instance.prim);
-        Best { prim: U::pick(closed & open, prim, best.prim), ..*best }
+        Best { prim: U::pick(open & !slots.is(NONE), prim, best.prim), ..*best }
     }
 
     /// Depths between which the stretches of a packet begin.
@@ -131,7 +131,7 @@ impl<S: Simd> Tracer<'_, S> {
         [F::pick(near, end, most), F::pick(near, error, F::splat(self.s, 0.0))]
     }
 
-    /// The nearest triangle for every lane, one lane after another.
+    /// Places of the nearest triangles in the tree's blocks, one lane after another.
     #[inline(always)]
     fn search_each(
         &mut self,
@@ -141,8 +141,7 @@ impl<S: Simd> Tracer<'_, S> {
         umpire: &mut Nearest<'_, S>,
         visits: &mut Visits,
     ) -> [u32; 16] {
-        let tree = &instance.tree;
-        let mut facets = [NONE; 16];
+        let mut slots = [NONE; 16];
         let left = packet.left.facets_of(self.s, instance.prim);
         for lane in Bits(packet.live.bits()) {
             let Some((ray, span)) = umpire.ray(lane) else { continue };
@@ -153,29 +152,25 @@ impl<S: Simd> Tracer<'_, S> {
             let (t, error) = if met { (metres * length, error) } else { (span.max, 0.0) };
             let any = matches!(packet.precise, Precise::Asked(asked, _) if asked.any);
             let mut found = LoneBest { t, error, slot: None, any, min: span.min };
-            let lone = Lone::new(ray, lane, left.lane(lane), tree.reach);
-            lone.search(self.s, &tree.tree, visits, &mut found, umpire);
-            facets[lane] = found.slot.map_or(NONE, |slot| tree.tree.facet(slot));
+            instance.search_one(self.s, (ray, lane, left.lane(lane)), visits, &mut found, umpire);
+            slots[lane] = found.slot.unwrap_or(NONE);
         }
-        facets
+        slots
     }
 
     /// Takes over triangles that are nearer for certain. Their `t` are functions of ray and triangle alone, however those
     /// were found, so that bits do not depend on which rays were traced together.
     #[inline(always)]
-    fn take(
-        &mut self,
-        packet: &Packet<'_, S>,
-        best: &mut Best<S>,
-        (instance, mesh): (&Instance, &Mesh),
-        facets: &[u32; 16],
-    ) {
-        let facet = U::load(self.s, facets);
-        let taken = packet.live & !facet.is(NONE);
+    fn take(&mut self, packet: &Packet<'_, S>, best: &mut Best<S>, instance: &Instance, slots: U<S>) {
+        let taken = packet.live & !slots.is(NONE);
         if !taken.any() {
             return;
         }
-        let t = self.settled_t(packet, (instance, mesh), taken, &facet).narrow();
+        let triangles = instance.triangles(self.s, slots, taken);
+        let facet = triangles.facet;
+        let lines = self.own_lines(packet, instance);
+        let of_lane = |lane: usize| packet.way(lane);
+        let t = self.settled_t(instance.prim, lines, taken, &triangles, of_lane).narrow();
         let metres = (t / packet.inverse_length).min(F::splat(self.s, f32::MAX.next_down()));
         best.t = F::pick(taken, metres, best.t);
         best.error = F::pick(taken, metres * F::splat(self.s, END_ERROR), best.error);
@@ -187,29 +182,28 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     pub(super) fn settled_t(
         &self,
-        packet: &Packet<'_, S>,
-        (instance, mesh): (&Instance, &Mesh),
+        prim: u32,
+        (origin, direction): (D3<S>, D3<S>),
         lanes: M<S>,
-        facet: &U<S>,
+        triangles: &LaneTriangles<S>,
+        way: impl Fn(usize) -> (Ray, Span, Option<Place>),
     ) -> D<S> {
-        let (triangles, at) = (mesh.triangles().triangles(), mesh.triangles().positions());
-        let mut corners = LaneCorners::NONE;
-        for lane in lanes.lanes() {
-            let [a, b, c] = triangles[facet.lane(lane) as usize];
-            corners.set(lane, &[at[a as usize], at[b as usize], at[c as usize]]);
-        }
-        let (origin, direction) = packet.precise(self.s);
-        let (origin, direction) =
-            (instance.own_points(self.s, origin), instance.own_vectors(self.s, direction));
-        let (mut t, sure) = corners.depths(self.s, origin, direction);
+        let (mut t, sure) = triangles.depths(self.s, origin, direction);
         for lane in Bits((lanes & !sure).bits()) {
-            let (ray, span, leaving) = (packet.ray(lane), packet.span(lane), packet.leaving(lane));
-            let facet = Some(facet.lane(lane));
-            if let Some(hit) = self.frame.snapshot.cross_part(instance.prim, facet, &ray, span, leaving) {
+            let (ray, span, leaving) = way(lane);
+            let facet = Some(triangles.facet.lane(lane));
+            if let Some(hit) = self.frame.snapshot.cross_part(prim, facet, &ray, span, leaving) {
                 t.set(lane, hit.crossing.t);
             }
         }
         t
+    }
+
+    /// The rays of a packet in the mesh's own space.
+    #[inline(always)]
+    pub(super) fn own_lines(&self, packet: &Packet<'_, S>, instance: &Instance) -> (D3<S>, D3<S>) {
+        let (origin, direction) = packet.precise(self.s);
+        (instance.own_points(self.s, origin), instance.own_vectors(self.s, direction))
     }
 
     /// The ways still open once a mesh stands there. Compiled apart.
@@ -241,9 +235,10 @@ impl<S: Simd> Tracer<'_, S> {
         let fan = if ways.target.at_infinity { None } else { self.fan_to_light(ways, open, instance) };
         let closed = match fan {
             Some((fan, mut rays)) => {
-                rays.left = left;
+                rays[0].left = left;
                 fan.search(self.s, &instance.tree.tree, &mut visits, &mut rays, &mut umpire);
-                (!rays.slot.is(NONE) & open).bits()
+                self.stats.settled += rays[0].settled;
+                (!rays[0].slot.is(NONE) & open).bits()
             }
             None => {
                 let mut closed = 0;
@@ -251,8 +246,8 @@ impl<S: Simd> Tracer<'_, S> {
                     let Some((ray, span)) = umpire.ray(lane) else { continue };
                     let mut found =
                         LoneBest { t: span.max, error: 0.0, slot: None, any: true, min: span.min };
-                    let lone = Lone::new(ray, lane, left.lane(lane), instance.tree.reach);
-                    lone.search(self.s, &instance.tree.tree, &mut visits, &mut found, &mut umpire);
+                    let ray = (ray, lane, left.lane(lane));
+                    instance.search_one(self.s, ray, &mut visits, &mut found, &mut umpire);
                     closed |= u64::from(found.slot.is_some()) << lane;
                 }
                 closed
@@ -270,28 +265,30 @@ impl<S: Simd> Tracer<'_, S> {
         ways: &Ways<S>,
         open: M<S>,
         instance: &Instance,
-    ) -> Option<(crate::kernel::mesh::Fan, FanRays<S>)> {
+    ) -> Option<(Fan, [FanRays<S>; 1])> {
         let apex = instance.own_points(self.s, splat_wide(self.s, ways.target.place));
         let start = instance.own_points(self.s, widen3(ways.rays.origin));
-        let lines = Lines { origin: apex, direction: start - apex, live: open, off: self.drift(instance) };
-        let slopes = lines.slopes(self.s, instance.tree.reach)?;
-        let zero = F::splat(self.s, 0.0);
+        let lines = Lines { origin: apex, direction: start - apex, live: open };
+        let bundle = Bundle::of(self.s, 1, |_| lines, self.reach(instance))?;
+        let (slopes, zero) = (bundle.slopes(0), F::splat(self.s, 0.0));
         let off = ways.rays.reach * F::splat(self.s, POINT_ERROR * instance.scale());
         let error = slopes.scale.mul_add(F::splat(self.s, END_ERROR), off);
-        let rays = slopes.rays(self.s, [zero, zero], [slopes.scale, error], open);
-        let steep = slopes.slope_error(self.s, off, open);
-        Some((slopes.fan.for_any().with_slope_error(steep), rays))
+        let rays = slopes.rays(self.s, [zero, zero], [slopes.scale, error]);
+        let steep = slopes.error_where_off(self.s, off);
+        Some((bundle.fan.for_any().with_slope_error(steep), [rays]))
     }
 
-    /// How far origins relative to the snapshot's may be off, metres of the mesh's own space.
-    fn drift(&self, instance: &Instance) -> f32 {
-        drift(self.frame.snapshot.origin_in_frame()) * POINT_ERROR * instance.scale()
+    /// How far origins relative to the snapshot's may be off, metres of the mesh's own space; and the largest coordinate of
+    /// the mesh.
+    pub(super) fn reach(&self, instance: &Instance) -> (f32, f32) {
+        let off = drift(self.frame.snapshot.origin_in_frame()) * POINT_ERROR * instance.scale();
+        (off, instance.tree.reach)
     }
 
     /// Adds up what has been looked at.
     #[inline(always)]
-    fn count(&mut self, visits: &mut Visits) {
-        let eight = crate::accel::WIDTH as u64;
+    pub(super) fn count(&mut self, visits: &mut Visits) {
+        let eight = WIDTH as u64;
         self.stats.tests.boxes += std::mem::take(&mut visits.nodes) * eight;
         self.stats.tests.shapes += std::mem::take(&mut visits.blocks) * eight;
     }
@@ -300,7 +297,7 @@ impl<S: Simd> Tracer<'_, S> {
 impl Instance {
     /// Points of the world in the mesh's own space.
     #[inline(always)]
-    fn own_points<S: Simd>(&self, s: S, points: D3<S>) -> D3<S> {
+    pub(super) fn own_points<S: Simd>(&self, s: S, points: D3<S>) -> D3<S> {
         match &self.to_object {
             Some(affine) => affine.turn(s, points) + splat_wide(s, affine.shift),
             None => points,
@@ -309,7 +306,7 @@ impl Instance {
 
     /// Directions of the world in the mesh's own space.
     #[inline(always)]
-    fn own_vectors<S: Simd>(&self, s: S, vectors: D3<S>) -> D3<S> {
+    pub(super) fn own_vectors<S: Simd>(&self, s: S, vectors: D3<S>) -> D3<S> {
         match &self.to_object {
             Some(affine) => affine.turn(s, vectors),
             None => vectors,
@@ -321,14 +318,47 @@ impl Instance {
         self.to_object.as_ref().map_or(1.0, |affine| affine.matrix[0].length() as f32)
     }
 
-    /// Which triangles rays have found.
+    /// Finds the nearest triangle for the ray of a lane that leaves from a triangle, or any.
     #[inline(always)]
-    fn facets<S: Simd>(&self, rays: &FanRays<S>) -> [u32; 16] {
-        let mut facets = [NONE; 16];
-        for lane in Bits((!rays.slot.is(NONE)).bits()) {
-            facets[lane % 16] = self.tree.tree.facet(rays.slot.lane(lane));
+    pub(super) fn search_one<S: Simd>(
+        &self,
+        s: S,
+        (ray, lane, left): (Ray, usize, u32),
+        visits: &mut Visits,
+        found: &mut LoneBest,
+        umpire: &mut dyn Umpire,
+    ) {
+        Lone::new(ray, lane, left, self.tree.reach).search(s, &self.tree.tree, visits, found, umpire);
+    }
+
+    /// The triangles of the mesh that lanes name.
+    #[inline(always)]
+    pub(super) fn facets<S: Simd>(&self, s: S, facets: U<S>, lanes: M<S>) -> LaneTriangles<S> {
+        let (triangles, at) = (self.tree.mesh().triangles(), self.tree.mesh().positions());
+        let mut all = LaneTriangles::nothing(s);
+        let mut left = lanes;
+        while let Some(lane) = left.lanes().next() {
+            let facet = facets.lane(lane);
+            let same = left & facets.is(facet);
+            left = left & !same;
+            all.set(s, same, facet, &triangles[facet as usize].map(|corner| at[corner as usize]));
         }
-        facets
+        all
+    }
+
+    /// The triangles at places in the tree's blocks.
+    #[inline(always)]
+    pub(super) fn triangles<S: Simd>(&self, s: S, slots: U<S>, lanes: M<S>) -> LaneTriangles<S> {
+        let mut all = LaneTriangles::nothing(s);
+        let mut left = lanes;
+        while let Some(lane) = left.lanes().next() {
+            let slot = slots.lane(lane);
+            let same = left & slots.is(slot);
+            left = left & !same;
+            let block = &self.tree.tree.blocks[slot as usize / WIDTH];
+            all.set(s, same, block.facet[slot as usize % WIDTH], &block.triangle(slot as usize));
+        }
+        all
     }
 }
 

@@ -55,6 +55,11 @@ impl<S: Simd> Packet<'_, S> {
         self.left.lane(lane)
     }
 
+    /// All of these of a lane.
+    pub(super) fn way(&self, lane: usize) -> (Ray, Span, Option<Place>) {
+        (self.ray(lane), self.span(lane), self.leaving(lane))
+    }
+
     /// Points so many metres along the rays.
     #[inline(always)]
     pub(super) fn point(&self, t: F<S>) -> F3<S> {

@@ -4,6 +4,7 @@ use catoptra_core::geometry::Mesh;
 use catoptra_core::{Geometry, Ray, Span};
 use fearless_simd::Simd;
 
+use super::ask::Asked;
 use super::mesh::NONE;
 use super::packet::Packet;
 use super::search::Best;
@@ -39,6 +40,34 @@ impl<S: Simd> Umpire for Nearest<'_, S> {
             (None, prim) => cross(prim, self.before.facet.lane(lane)),
         };
         let way = Way::new(&ray, span, leaving);
+        other.is_none_or(|other| self.snapshot.precedes(&way, &hit, &other)).then_some(hit.crossing.t)
+    }
+}
+
+/// Decides what rays of anyone's choice meet, of a mesh that is all there is.
+pub(super) struct Alone<'a> {
+    pub(super) snapshot: &'a Snapshot,
+    pub(super) mesh: &'a Mesh,
+    pub(super) prim: u32,
+    pub(super) asked: &'a Asked<'a>,
+    /// The ray of lane 0.
+    pub(super) at: usize,
+}
+
+impl Umpire for Alone<'_> {
+    fn ray(&mut self, lane: usize) -> Option<(Ray, Span)> {
+        let (ray, span, _) = self.asked.way(self.at + lane);
+        Some((self.mesh.own_ray(&ray), span))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn decide(&mut self, lane: usize, facet: u32, held: Option<u32>) -> Option<f64> {
+        let (ray, span, leaving) = self.asked.way(self.at + lane);
+        let cross = |facet: u32| self.snapshot.cross_part(self.prim, Some(facet), &ray, span, leaving);
+        let hit = cross(facet)?;
+        let way = Way::new(&ray, span, leaving);
+        let other = held.and_then(cross);
         other.is_none_or(|other| self.snapshot.precedes(&way, &hit, &other)).then_some(hit.crossing.t)
     }
 }

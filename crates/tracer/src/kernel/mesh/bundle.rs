@@ -1,110 +1,185 @@
-//! Which rays of a packet go through one point: those of a camera, and backwards those to a lamp.
+//! Which rays of a group go through one point: those of a camera, and backwards those to a lamp.
 
 use catoptra_core::glam::DVec3;
+use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
+use super::GROUP;
 use super::fan::{Aim, Fan, FanRays};
 use crate::lanes::{D, D3, F, M, U, splat_wide};
 use crate::numeric::{FAN_SLOPE, FAN_SPREAD, FAN_WIDTH};
 
-/// Rays as lines from a point each.
+/// Rays of a packet as lines from a point each.
+#[derive(Clone, Copy)]
 pub(crate) struct Lines<S: Simd> {
     pub(crate) origin: D3<S>,
     pub(crate) direction: D3<S>,
     pub(crate) live: M<S>,
-    /// How far their origins may be off, beyond the roundings of `f64`.
-    pub(crate) off: f32,
 }
 
-/// Slopes of lines through one point.
-pub(crate) struct Slopes<S: Simd> {
+/// Packets of lines through one point.
+pub(crate) struct Bundle<S: Simd> {
     pub(crate) fan: Fan,
-    u: F<S>,
-    v: F<S>,
-    /// Depth per length of a direction.
-    pub(crate) scale: F<S>,
+    slopes: [Slopes<S>; GROUP],
     /// How far the lines pass the point by.
     pub(crate) slack: f32,
 }
 
-impl<S: Simd> Lines<S> {
-    /// Their slopes, if they go through one point and lie close enough together; for a mesh of that reach. Compiled
-    /// apart.
-    pub(crate) fn slopes(&self, s: S, reach: f32) -> Option<Slopes<S>> {
+/// Slopes of a packet of lines; lanes that are none repeat one that is.
+#[derive(Clone, Copy)]
+pub(crate) struct Slopes<S: Simd> {
+    u: F<S>,
+    v: F<S>,
+    /// Depth per length of a direction.
+    pub(crate) scale: F<S>,
+    live: M<S>,
+    /// Box round the slopes.
+    around: [[f32; 2]; 2],
+}
+
+impl<S: Simd> Bundle<S> {
+    /// Of so many packets, if their lines go through one point and lie close enough together; for a mesh of that reach.
+    /// Origins may be `off` by so much, beyond the roundings of `f64`. Compiled apart.
+    #[inline(always)]
+    pub(crate) fn of(
+        s: S,
+        packets: usize,
+        lines: impl Fn(usize) -> Lines<S>,
+        reach: (f32, f32),
+    ) -> Option<Self> {
         s.vectorize(
             #[inline(always)]
-            || self.slopes_here(s, reach),
+            || Self::of_here(s, packets, lines, reach),
         )
     }
 
     #[inline(always)]
-    fn slopes_here(&self, s: S, reach: f32) -> Option<Slopes<S>> {
-        let first = self.live.bits().trailing_zeros() as usize % F::<S>::LANES;
-        let (apex, along) = (one(&self.origin, first), one(&self.direction, first));
+    fn of_here(
+        s: S,
+        packets: usize,
+        lines: impl Fn(usize) -> Lines<S>,
+        (off, reach): (f32, f32),
+    ) -> Option<Self> {
+        let (apex, along) = (0..packets).find_map(|packet| lines(packet).first())?;
         let aim = Aim::of(along);
-        let [u, v, z] = aim.axes;
-        let (du, dv) = (component(&self.direction, u), component(&self.direction, v));
-        let dz = component(&self.direction, z);
-        let depth = dz * D::splat(s, f64::from(aim.sign));
-        let scale = depth.narrow();
-        let (u, v) = ((du / dz).narrow(), (dv / dz).narrow());
-        let apart = self.origin - splat_wide(s, apex);
-        let apart = apart.x.abs().max(apart.y.abs()).max(apart.z.abs()).narrow();
-        let off = F::pick(self.live, apart, F::splat(s, 0.0));
-        let (u, v) = (held(s, self.live, u, first), held(s, self.live, v, first));
-        let least = held(s, self.live, scale, first).0.reduce_min();
-        let low = [u.0.reduce_min(), v.0.reduce_min()];
-        let high = [u.0.reduce_max(), v.0.reduce_max()];
-        let steepest = low[0].abs().max(low[1].abs()).max(high[0].abs()).max(high[1].abs());
-        let slack = (off.0.reduce_max() + self.off) * (1.0 + FAN_SLOPE);
+        let mut slopes = [Slopes::along(s, &aim, along); GROUP];
+        let (mut apart, mut least) = (F::splat(s, 0.0), slopes[0].scale);
+        let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+        for (packet, slopes) in slopes.iter_mut().enumerate().take(packets) {
+            let lines = lines(packet);
+            slopes.become_those_of(s, &aim, &lines);
+            let from = lines.origin - splat_wide(s, apex);
+            let from = from.x.abs().max(from.y.abs()).max(from.z.abs()).narrow();
+            apart = F::pick(lines.live, apart.max(from), apart);
+            // Written so that NaN counts.
+            let spread = slopes.scale * F::splat(s, 2.0 * FAN_SPREAD);
+            let odd = lines.live & !(from.less(spread) & slopes.are_small(s));
+            if odd.any() {
+                return None;
+            }
+            least = least.min(slopes.scale);
+            for axis in 0..2 {
+                low[axis] = low[axis].min(slopes.around[0][axis]);
+                high[axis] = high[axis].max(slopes.around[1][axis]);
+            }
+        }
+        let least = least.0.reduce_min();
+        let slack = (apart.0.reduce_max() + off) * (1.0 + FAN_SLOPE);
         let (width, height) = (high[0] - low[0], high[1] - low[1]);
-        // Written so that NaN ends here.
         let through_one = slack <= FAN_SPREAD * least && least > 0.0;
-        if !(through_one && steepest <= 1.5 && width <= FAN_WIDTH && height <= FAN_WIDTH) {
+        if !(through_one && width <= FAN_WIDTH && height <= FAN_WIDTH) {
             return None;
         }
         let fan = Fan::new(&aim, apex, slack, [low, high], reach).with_slope_error(2.0 * slack / least);
-        Some(Slopes { fan, u, v, scale, slack })
+        Some(Self { fan, slopes, slack })
+    }
+
+    /// The slopes of a packet.
+    #[inline(always)]
+    pub(crate) fn slopes(&self, packet: usize) -> &Slopes<S> {
+        &self.slopes[packet % GROUP]
+    }
+}
+
+impl<S: Simd> Lines<S> {
+    /// Origin and direction of the first of them.
+    #[inline(always)]
+    fn first(&self) -> Option<(DVec3, DVec3)> {
+        let lane = self.live.lanes().next()?;
+        Some((vector_of(&self.origin, lane), vector_of(&self.direction, lane)))
     }
 }
 
 impl<S: Simd> Slopes<S> {
+    /// Of one line in every lane.
+    #[inline(always)]
+    fn along(s: S, aim: &Aim, direction: DVec3) -> Self {
+        let [u, v, z] = aim.axes;
+        let (du, dv, dz) = (direction[u], direction[v], direction[z]);
+        let slope = [(du / dz) as f32, (dv / dz) as f32];
+        Self {
+            u: F::splat(s, slope[0]),
+            v: F::splat(s, slope[1]),
+            scale: F::splat(s, (dz * f64::from(aim.sign)) as f32),
+            live: M::splat(s, false),
+            around: [slope, slope],
+        }
+    }
+
+    /// Takes over the lines that are any.
+    #[inline(always)]
+    fn become_those_of(&mut self, s: S, aim: &Aim, lines: &Lines<S>) {
+        let [u, v, z] = aim.axes;
+        let (du, dv) = (component(&lines.direction, u), component(&lines.direction, v));
+        let dz = component(&lines.direction, z);
+        let live = lines.live;
+        self.u = F::pick(live, (du / dz).narrow(), self.u);
+        self.v = F::pick(live, (dv / dz).narrow(), self.v);
+        self.scale = F::pick(live, (dz * D::splat(s, f64::from(aim.sign))).narrow(), self.scale);
+        self.live = live;
+        let (u, v) = (self.u.0, self.v.0);
+        self.around = [[u.reduce_min(), v.reduce_min()], [u.reduce_max(), v.reduce_max()]];
+    }
+
+    /// Whether a line runs more along the main axis than across it, or nearly so.
+    #[inline(always)]
+    fn are_small(&self, s: S) -> M<S> {
+        let most = F::splat(s, 1.5);
+        self.u.abs().less(most) & self.v.abs().less(most)
+    }
+
     /// Error of the slopes where a point of each line is off by so much.
     #[inline(always)]
-    pub(crate) fn slope_error(&self, s: S, off: F<S>, live: M<S>) -> f32 {
+    pub(crate) fn error_where_off(&self, s: S, off: F<S>) -> f32 {
         // Both coordinates across and the depth, times a slope below 2, count; a quotient and a sum are rounded.
         let most = off * F::splat(s, 3.5) / self.scale;
-        F::pick(live, most, F::splat(s, 0.0)).0.reduce_max()
+        F::pick(self.live, most, F::splat(s, 0.0)).0.reduce_max()
     }
 
     /// The rays along the lines between two depths, each of which is known within a bound.
     #[inline(always)]
-    pub(crate) fn rays(&self, s: S, begin: [F<S>; 2], end: [F<S>; 2], live: M<S>) -> FanRays<S> {
+    pub(crate) fn rays(&self, s: S, begin: [F<S>; 2], end: [F<S>; 2]) -> FanRays<S> {
         FanRays {
             u: self.u,
             v: self.v,
+            slopes: self.around,
             begin,
             z: end[0],
             error: end[1],
             slot: U::splat(s, u32::MAX),
             left: U::splat(s, u32::MAX),
             scale: self.scale,
-            live,
+            live: self.live,
+            settled: 0,
         }
     }
 }
 
 /// The vector of one lane.
 #[inline(always)]
-fn one<S: Simd>(v: &D3<S>, lane: usize) -> DVec3 {
+fn vector_of<S: Simd>(v: &D3<S>, lane: usize) -> DVec3 {
     DVec3::new(v.x.lane(lane), v.y.lane(lane), v.z.lane(lane))
-}
-
-/// The lanes of a mask, the others as one of them.
-#[inline(always)]
-fn held<S: Simd>(s: S, mask: M<S>, v: F<S>, lane: usize) -> F<S> {
-    F::pick(mask, v, F::splat(s, v.lane(lane)))
 }
 
 #[inline(always)]

@@ -33,15 +33,16 @@ impl Fan {
         let (p, q, r) = (self.seen_from_apex(s, a), self.seen_from_apex(s, b), self.seen_from_apex(s, c));
         let size = largest([p, q, r]);
         let planes = [cross(edges[0], q), cross(edges[1], r), cross(edges[2], p)];
-        let spread =
-            1.0 + self.low[0].abs().max(self.high[0].abs()) + self.low[1].abs().max(self.high[1].abs());
+        let slopes = self.widened([self.low, self.high]);
+        let [low, high] = slopes;
+        let spread = 1.0 + low[0].abs().max(high[0].abs()) + low[1].abs().max(high[1].abs());
         let relative = FAN_EDGE * spread + 4.0 * self.slope_error;
         let per_length = size.mul_add_precise(
             f32x8::splat(s, relative),
             f32x8::splat(s, 2.0 * spread * self.slack + f32::MIN_POSITIVE),
         );
         let edge_error = length.mul_add_precise(per_length, f32x8::splat(s, f32::MIN_POSITIVE));
-        let maybe = self.seen(s, &planes, edge_error);
+        let maybe = seen(s, &planes, edge_error, slopes);
         let length2 = length * length;
         let top = p[0].mul_add_precise(normal[0], p[1].mul_add_precise(normal[1], p[2] * normal[2]));
         let per_length2 = size
@@ -62,9 +63,9 @@ impl Fan {
     fn corner<S: Simd>(&self, s: S, block: &Block8, corner: usize) -> Eight3<S> {
         let rows = &block.corners[corner];
         [
-            f32x8::load_array_ref(s, &rows[self.axes[0] % 3]),
-            f32x8::load_array_ref(s, &rows[self.axes[1] % 3]),
-            f32x8::load_array_ref(s, &rows[self.axes[2] % 3]),
+            f32x8::load_array_ref(s, &rows[self.axes[0]]),
+            f32x8::load_array_ref(s, &rows[self.axes[1]]),
+            f32x8::load_array_ref(s, &rows[self.axes[2]]),
         ]
     }
 
@@ -78,32 +79,41 @@ impl Fan {
             p[2].mul_sub_precise(sign, f32x8::splat(s, self.apex[2])),
         ]
     }
+}
 
-    /// The middle of all rays' slopes along an axis, and how far they lie from it.
+impl Prepared {
+    /// Triangles that the rays within a box of slopes are not certain to miss.
     #[inline(always)]
-    fn side<S: Simd>(&self, s: S, which: usize) -> (f32x8<S>, f32x8<S>) {
-        let half = f32x8::splat(s, 0.5);
-        let (low, high) = (f32x8::splat(s, self.low[which]), f32x8::splat(s, self.high[which]));
-        // Half the width is rounded by less than what the edges' doubled errors have room for.
-        ((low + high) * half, (high - low) * half)
+    pub(super) fn seen_by<S: Simd>(&self, s: S, slopes: [[f32; 2]; 2]) -> u64 {
+        let [a, b, c] = &self.edges;
+        let planes = [loaded(s, a), loaded(s, b), loaded(s, c)];
+        seen(s, &planes, f32x8::load_array_ref(s, &self.edge_error), slopes)
     }
+}
 
-    /// Triangles that not all rays are certain to miss: those that no two edges leave all rays on different sides of.
-    #[inline(always)]
-    fn seen<S: Simd>(&self, s: S, planes: &[Eight3<S>; 3], error: f32x8<S>) -> u64 {
-        let doubled = error + error;
-        let ((u, du), (v, dv)) = (self.side(s, 0), self.side(s, 1));
-        let (mut least_high, mut most_low) =
-            (f32x8::splat(s, f32::INFINITY), f32x8::splat(s, f32::NEG_INFINITY));
-        for n in planes {
-            let middle = n[0].mul_add_precise(u, n[1].mul_add_precise(v, n[2]));
-            let radius = n[0].abs().mul_add_precise(du, n[1].abs().mul_add_precise(dv, doubled));
-            least_high = least_high.min(middle + radius);
-            most_low = most_low.max(middle - radius);
-        }
-        let zero = f32x8::splat(s, 0.0);
-        !(least_high.simd_lt(zero) & most_low.simd_gt(zero)).to_bitmask() & 0xff
+/// The middle of slopes along an axis, and how far they lie from it.
+#[inline(always)]
+fn side<S: Simd>(s: S, [low, high]: [[f32; 2]; 2], which: usize) -> (f32x8<S>, f32x8<S>) {
+    let half = f32x8::splat(s, 0.5);
+    let (low, high) = (f32x8::splat(s, low[which]), f32x8::splat(s, high[which]));
+    // Half the width is rounded by less than what the edges' doubled errors have room for.
+    ((low + high) * half, (high - low) * half)
+}
+
+/// Triangles that not all rays are certain to miss: those that no two edges leave all rays on different sides of.
+#[inline(always)]
+fn seen<S: Simd>(s: S, planes: &[Eight3<S>; 3], error: f32x8<S>, slopes: [[f32; 2]; 2]) -> u64 {
+    let doubled = error + error;
+    let ((u, du), (v, dv)) = (side(s, slopes, 0), side(s, slopes, 1));
+    let (mut least_high, mut most_low) = (f32x8::splat(s, f32::INFINITY), f32x8::splat(s, f32::NEG_INFINITY));
+    for n in planes {
+        let middle = n[0].mul_add_precise(u, n[1].mul_add_precise(v, n[2]));
+        let radius = n[0].abs().mul_add_precise(du, n[1].abs().mul_add_precise(dv, doubled));
+        least_high = least_high.min(middle + radius);
+        most_low = most_low.max(middle - radius);
     }
+    let zero = f32x8::splat(s, 0.0);
+    !(least_high.simd_lt(zero) & most_low.simd_gt(zero)).to_bitmask() & 0xff
 }
 
 #[inline(always)]
@@ -131,6 +141,11 @@ fn largest<S: Simd>(v: [Eight3<S>; 3]) -> f32x8<S> {
 #[inline(always)]
 fn longest<S: Simd>(v: Eight3<S>) -> f32x8<S> {
     v[0].abs().max(v[1].abs()).max(v[2].abs())
+}
+
+#[inline(always)]
+fn loaded<S: Simd>(s: S, [x, y, z]: &[[f32; WIDTH]; 3]) -> Eight3<S> {
+    [f32x8::load_array_ref(s, x), f32x8::load_array_ref(s, y), f32x8::load_array_ref(s, z)]
 }
 
 #[inline(always)]

@@ -6,15 +6,14 @@
 //! whether all rays together pass an edge on the outside, is worked out for eight triangles at a time.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, Lane, LaneMask};
+use catoptra_core::{Lane, LaneMask};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::edges::Prepared;
-use super::{Settled, Umpire, Visits, settle};
+use super::{GROUP, Umpire, Visit, Visits, Waiting};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::{Bits, F, M, U};
-use crate::numeric::{FAN_PAD, FAN_SLOPE};
+use crate::numeric::{FAN_BOX, FAN_PAD, FAN_SLOPE};
 
 /// What rays through one point have in common.
 pub(crate) struct Fan {
@@ -28,13 +27,13 @@ pub(crate) struct Fan {
     pub(super) slack: f32,
     /// Error of the slopes.
     pub(super) slope_error: f32,
-    /// Box round the slopes of all rays.
+    /// Box round the slopes of all rays, up to their error.
     pub(super) low: [f32; 2],
     pub(super) high: [f32; 2],
     /// How far boxes are widened.
     pad: f32,
     /// Whether any crossing will do.
-    any: bool,
+    pub(super) any: bool,
 }
 
 /// The rays themselves.
@@ -42,6 +41,8 @@ pub(crate) struct Fan {
 pub(crate) struct FanRays<S: Simd> {
     pub(crate) u: F<S>,
     pub(crate) v: F<S>,
+    /// Box round the slopes.
+    pub(crate) slopes: [[f32; 2]; 2],
     /// Depths between which the stretch begins.
     pub(crate) begin: [F<S>; 2],
     /// Depth of the nearest crossing so far, or of the end of the stretch, within `error`.
@@ -54,15 +55,8 @@ pub(crate) struct FanRays<S: Simd> {
     /// Depth per `t`.
     pub(crate) scale: F<S>,
     pub(crate) live: M<S>,
-}
-
-impl<S: Simd> FanRays<S> {
-    /// Scalar products of a vector and the directions.
-    #[inline(always)]
-    fn value(&self, s: S, n: &[[f32; WIDTH]; 3], at: usize) -> F<S> {
-        let (x, y, z) = (F::splat(s, n[0][at]), F::splat(s, n[1][at]), F::splat(s, n[2][at]));
-        self.u.mul_add(x, self.v.mul_add(y, z))
-    }
+    /// How often a triangle was decided on in `f64`.
+    pub(crate) settled: u64,
 }
 
 /// Where rays go: slopes and the sign along the main axis.
@@ -89,15 +83,12 @@ impl Aim {
     }
 }
 
-/// How far the box round slopes below 2 is widened: by their error, and for the rounding of its own ends.
-const WIDER: f32 = 3.0 * FAN_SLOPE;
-
 impl Fan {
     /// Rays within a box of slopes, each at most 2 in magnitude, that pass a point by at most `slack`; through a mesh
     /// whose corners' coordinates stay within `reach`.
     pub(crate) fn new(aim: &Aim, apex: DVec3, slack: f32, slopes: [[f32; 2]; 2], reach: f32) -> Self {
         let ([u, v, z], sign) = (aim.axes, f64::from(aim.sign));
-        let own = DVec3::new(apex[u % 3] * sign, apex[v % 3] * sign, apex[z % 3] * sign);
+        let own = DVec3::new(apex[u] * sign, apex[v] * sign, apex[z] * sign);
         let rounded = own.as_vec3();
         let off = (own - rounded.as_dvec3()).abs().max_element() as f32;
         let slack = (slack + off).next_up();
@@ -109,8 +100,8 @@ impl Fan {
             apex: rounded.to_array(),
             slack,
             slope_error: FAN_SLOPE,
-            low: [low[0] - WIDER, low[1] - WIDER],
-            high: [high[0] + WIDER, high[1] + WIDER],
+            low,
+            high,
             pad: FAN_PAD * size + 4.0 * slack + f32::MIN_POSITIVE,
             any: false,
         }
@@ -123,21 +114,24 @@ impl Fan {
 
     /// Whose slopes are off by so much more.
     pub(crate) fn with_slope_error(self, more: f32) -> Self {
-        Self {
-            slope_error: self.slope_error + more,
-            low: [self.low[0] - more, self.low[1] - more],
-            high: [self.high[0] + more, self.high[1] + more],
-            ..self
-        }
+        Self { slope_error: self.slope_error + more, ..self }
     }
 
-    /// Finds the nearest triangle for every ray, or any. Compiled apart.
+    /// A box round slopes below 2, widened by their error, and for the rounding of its own ends.
+    #[inline(always)]
+    pub(super) fn widened(&self, [low, high]: [[f32; 2]; 2]) -> [[f32; 2]; 2] {
+        let wider = self.slope_error + 2.0 * FAN_SLOPE;
+        [[low[0] - wider, low[1] - wider], [high[0] + wider, high[1] + wider]]
+    }
+
+    /// Finds the nearest triangle for every ray of up to [`GROUP`] packets, or any. The umpire counts lanes from the
+    /// first packet's on. Compiled apart.
     pub(crate) fn search<S: Simd>(
         &self,
         s: S,
         tree: &WideTree,
         visits: &mut Visits,
-        rays: &mut FanRays<S>,
+        rays: &mut [FanRays<S>],
         umpire: &mut dyn Umpire,
     ) {
         s.vectorize(
@@ -152,25 +146,37 @@ impl Fan {
         s: S,
         tree: &WideTree,
         visits: &mut Visits,
-        rays: &mut FanRays<S>,
+        rays: &mut [FanRays<S>],
         umpire: &mut dyn Umpire,
     ) {
-        let mut far = self.far(s, rays);
-        visits.start();
-        while let Some(visit) = visits.next() {
-            if visit.near > far {
-                continue;
-            }
+        let Some(mut waiting) = visits.start() else { return };
+        let mut far = [f32::NEG_INFINITY; GROUP];
+        for (far, rays) in far.iter_mut().zip(&mut *rays) {
+            *far = self.far(s, rays);
+            rays.slopes = self.widened(rays.slopes);
+        }
+        waiting.push(Visit { near: 0.0, link: 0, count: 0, packets: (1 << rays.len().min(GROUP)) - 1 });
+        let mut farthest = far.into_iter().fold(f32::NEG_INFINITY, f32::max);
+        while let Some(visit) = waiting.pop(farthest) {
             if visit.count == 0 {
-                visits.nodes += 1;
-                self.enter(s, &tree.nodes[visit.link as usize], far, visits);
+                *waiting.nodes += 1;
+                self.enter(
+                    s,
+                    &tree.nodes[visit.link as usize],
+                    (rays, visit.packets, farthest),
+                    &mut waiting,
+                );
                 continue;
             }
-            let (first, count) = (visit.link as usize, visit.count as usize);
-            for block in first / WIDTH..=(first + count - 1) / WIDTH {
-                visits.blocks += 1;
-                if self.pass(s, tree, block, rays, umpire) {
-                    far = self.far(s, rays);
+            for (block, own) in visit.blocks() {
+                *waiting.blocks += 1;
+                let packets = within(visit, &far);
+                let changed = self.pass(s, (tree, block, own), packets, rays, umpire);
+                for packet in Bits(changed) {
+                    far[packet % GROUP] = self.far(s, &rays[packet]);
+                }
+                if changed != 0 {
+                    farthest = far.into_iter().fold(f32::NEG_INFINITY, f32::max);
                 }
             }
         }
@@ -187,144 +193,101 @@ impl Fan {
     #[inline(always)]
     fn row<S: Simd>(&self, s: S, node: &Node8, which: usize, side: usize) -> f32x8<S> {
         let upper = (self.sign > 0.0) == (side == 1);
-        let row = &node.bounds[(self.axes[which] + if upper { 3 } else { 0 }) % 6];
+        let row = &node.bounds[self.axes[which] + if upper { 3 } else { 0 }];
         let start = if side == 0 { self.apex[which] + self.pad } else { self.apex[which] - self.pad };
         f32x8::load_array_ref(s, row).mul_sub_precise(f32x8::splat(s, self.sign), f32x8::splat(s, start))
     }
 
-    /// Adds the children that a ray may enter up to a depth, the nearest last.
+    /// Adds the children that some ray may enter up to a depth, the nearest last.
     #[inline(always)]
-    fn enter<S: Simd>(&self, s: S, node: &Node8, far: f32, visits: &mut Visits) {
-        let zero = f32x8::splat(s, 0.0);
+    fn enter<S: Simd>(
+        &self,
+        s: S,
+        node: &Node8,
+        (rays, packets, far): (&[FanRays<S>], u32, f32),
+        waiting: &mut Waiting<'_>,
+    ) {
+        let (one, zero) = (f32x8::splat(s, 1.0), f32x8::splat(s, 0.0));
         let (near, away) = (self.row(s, node, 2, 0).max(zero), self.row(s, node, 2, 1));
         let mut met = near.simd_le(f32x8::splat(s, far)) & near.simd_le(away);
+        let (of_near, of_away) = (one / near, one / away);
+        let wider = f32x8::splat(s, FAN_BOX + self.slope_error);
+        let mut sides = [[0.0; WIDTH]; 4];
         for which in 0..2 {
-            let (low, high) = (self.low[which], self.high[which]);
-            let most = if high >= 0.0 { away } else { near };
-            let least = if low >= 0.0 { near } else { away };
-            met = met
-                & self.row(s, node, which, 0).simd_le(most * f32x8::splat(s, high))
-                & (least * f32x8::splat(s, low)).simd_le(self.row(s, node, which, 1));
+            let (low, high) = (self.row(s, node, which, 0), self.row(s, node, which, 1));
+            let low = low * low.simd_lt(zero).select(of_near, of_away) - wider;
+            let high = high * high.simd_lt(zero).select(of_away, of_near) + wider;
+            // Written so that NaN, of a box with the point in a face, counts as met.
+            let beside = low.simd_gt(f32x8::splat(s, self.high[which]))
+                | high.simd_lt(f32x8::splat(s, self.low[which]));
+            met &= !beside;
+            (sides[2 * which], sides[2 * which + 1]) = (low.to_array(), high.to_array());
         }
-        let there = (1_u64 << node.children) - 1;
-        visits.add_children(node, met.to_bitmask() & there, near.to_array());
+        let (near, first) = (near.to_array(), waiting.depth);
+        for child in Bits(met.to_bitmask() & ((1 << node.children) - 1)) {
+            let child = child % WIDTH;
+            let seen = [sides[0][child], sides[1][child], sides[2][child], sides[3][child]];
+            let packets = entering(s, rays, packets, (seen, near[child]));
+            if packets != 0 {
+                waiting.insert(first, Visit { packets, ..Visit::child(node, child, near[child]) });
+            }
+        }
     }
 
-    /// Tests all rays against a block; whether any has changed.
+    /// Tests the rays of some packets against triangles of a block; which packets have changed.
     #[inline(always)]
     fn pass<S: Simd>(
         &self,
         s: S,
-        tree: &WideTree,
-        block: usize,
-        rays: &mut FanRays<S>,
+        (tree, block, own): (&WideTree, usize, u64),
+        packets: u64,
+        rays: &mut [FanRays<S>],
         umpire: &mut dyn Umpire,
-    ) -> bool {
-        let (prepared, maybe) = self.prepare(s, &tree.blocks[block]);
-        let mut changed = false;
-        for at in Bits(maybe) {
-            let at = at % WIDTH;
-            let facet = tree.blocks[block].facet[at];
-            changed |= self.weigh(s, (tree, &prepared), ((block * WIDTH + at) as u32, facet), rays, umpire);
+    ) -> u64 {
+        let (prepared, seen) = self.prepare(s, &tree.blocks[block]);
+        let seen = seen & own;
+        let mut changed = 0;
+        if seen == 0 {
+            return 0;
+        }
+        for packet in Bits(packets) {
+            let Some(packet_rays) = rays.get_mut(packet) else { continue };
+            let seen =
+                if seen & (seen - 1) == 0 { seen } else { seen & prepared.seen_by(s, packet_rays.slopes) };
+            for at in Bits(seen) {
+                let at = at % WIDTH;
+                let facet = tree.blocks[block].facet[at];
+                let slot = (block * WIDTH + at) as u32;
+                let met = self.weigh(s, (tree, &prepared), (slot, facet), (packet_rays, packet), umpire);
+                changed |= u64::from(met) << packet;
+            }
         }
         changed
     }
-
-    /// Takes over a triangle where it is nearer; whether it is for any ray.
-    #[inline(always)]
-    fn weigh<S: Simd>(
-        &self,
-        s: S,
-        (tree, prepared): (&WideTree, &Prepared),
-        (slot, facet): (u32, u32),
-        rays: &mut FanRays<S>,
-        umpire: &mut dyn Umpire,
-    ) -> bool {
-        let at = slot as usize % WIDTH;
-        let [a, b, c] = &prepared.edges;
-        let (a, b, c) = (rays.value(s, a, at), rays.value(s, b, at), rays.value(s, c, at));
-        let error = F::splat(s, prepared.edge_error[at]);
-        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        let candidate = rays.live & !(low.less(-error) & error.less(high)) & !rays.left.is(facet);
-        if !candidate.any() {
-            return false;
-        }
-        let inside = error.less(low) | high.less(-error);
-        let slope = rays.value(s, &prepared.normal, at);
-        let slope_error = F::splat(s, prepared.slope_error[at]);
-        let inverse = F::splat(s, 1.0) / slope;
-        let z = F::splat(s, prepared.top[at]) * inverse;
-        let doubt = z.abs().mul_add(slope_error, F::splat(s, prepared.top_error[at])) * inverse.abs();
-        // Three quarters of a slope that is certain are certain; and a few roundings of z.
-        let z_error = z.abs().mul_add(F::splat(s, FAN_SLOPE + FAN_SLOPE), doubt * F::splat(s, 1.5));
-        let steep = (slope_error * F::splat(s, 4.0)).less(slope.abs());
-        let behind = (rays.z + rays.error).less(z - z_error) | (z + z_error).less(rays.begin[0]);
-        let nearer = (z + z_error).less(rays.z - rays.error) & rays.begin[1].less(z - z_error);
-        let take = candidate & inside & steep & nearer;
-        let open = candidate & !take & !(steep & behind);
-        if take.any() {
-            rays.z = F::pick(take, z, rays.z);
-            rays.error = F::pick(take, z_error, rays.error);
-            rays.slot = U::pick(take, U::splat(s, slot), rays.slot);
-            if self.any {
-                rays.live = rays.live & !take;
-            }
-        }
-        if open.any() {
-            self.settle(tree, open.bits(), (slot, facet), rays, umpire);
-        }
-        (take | open).any()
-    }
-
-    /// Decides lane by lane what `f32` leaves open.
-    #[cold]
-    #[inline(never)]
-    fn settle<S: Simd>(
-        &self,
-        tree: &WideTree,
-        lanes: u64,
-        (slot, facet): (u32, u32),
-        rays: &mut FanRays<S>,
-        umpire: &mut dyn Umpire,
-    ) {
-        for lane in Bits(lanes) {
-            let other = rays.slot.lane(lane);
-            let held = (other != u32::MAX).then(|| tree.facet(other));
-            if held == Some(facet) {
-                continue;
-            }
-            let Some(t) = self.nearer(tree, lane, (slot, facet), rays, umpire) else { continue };
-            let z = t as f32 * rays.scale.lane(lane);
-            rays.z.set(lane, z);
-            rays.error.set(lane, z.abs() * (FAN_SLOPE + FAN_SLOPE));
-            rays.slot.set(lane, slot);
-            if self.any {
-                let s = rays.slot.0.token();
-                rays.live = rays.live & !M::from_bits(s, 1 << lane);
-            }
-        }
-    }
 }
 
-impl Fan {
-    /// At which `t` the ray of a lane meets a triangle in front of all that it has met, if it does.
-    fn nearer<S: Simd>(
-        &self,
-        tree: &WideTree,
-        lane: usize,
-        (slot, facet): (u32, u32),
-        rays: &FanRays<S>,
-        umpire: &mut dyn Umpire,
-    ) -> Option<f64> {
-        let (ray, span) = umpire.ray(lane)?;
-        let other = Some(rays.slot.lane(lane)).filter(|&slot| slot != u32::MAX);
-        // Two roundings of a sum and a quotient, towards smaller numbers.
-        let least = (rays.z.lane(lane) - rays.error.lane(lane)) * (1.0 - 4.0 * FAN_SLOPE);
-        let before = if self.any { f64::INFINITY } else { f64::from(least / rays.scale.lane(lane)) };
-        match settle(&tree.triangle(slot), other.map(|slot| tree.triangle(slot)), before, (&ray, span)) {
-            Settled::Not => None,
-            Settled::Nearer(t) => Some(t),
-            Settled::Open => umpire.decide(lane, facet, other.map(|slot| tree.facet(slot))),
-        }
+/// Which packets of a visit still look as far as that.
+#[inline(always)]
+fn within(visit: Visit, far: &[f32; GROUP]) -> u64 {
+    Bits(u64::from(visit.packets))
+        .filter(|packet| visit.near <= far[packet % GROUP])
+        .map(|packet| 1 << packet)
+        .sum()
+}
+
+/// Which of some packets have a ray whose slopes lie within a box, and that still looks as far as that.
+#[inline(always)]
+fn entering<S: Simd>(s: S, rays: &[FanRays<S>], packets: u32, (slopes, near): ([f32; 4], f32)) -> u32 {
+    let [low_u, high_u, low_v, high_v] = slopes;
+    let mut entering = 0;
+    for packet in Bits(u64::from(packets)) {
+        let Some(rays) = rays.get(packet) else { continue };
+        let beside = rays.u.less(F::splat(s, low_u))
+            | F::splat(s, high_u).less(rays.u)
+            | rays.v.less(F::splat(s, low_v))
+            | F::splat(s, high_v).less(rays.v);
+        let behind = (rays.z + rays.error).less(F::splat(s, near));
+        entering |= u32::from((rays.live & !(beside | behind)).any()) << packet;
     }
+    entering
 }

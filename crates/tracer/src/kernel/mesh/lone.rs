@@ -7,7 +7,7 @@ use catoptra_core::Ray;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::{Umpire, Verdict, Visits, meet};
+use super::{Umpire, Verdict, Visit, Visits, Waiting, meet};
 use crate::accel::{Block8, Node8, WIDTH, WideTree};
 use crate::lanes::Bits;
 use crate::numeric::{BOX_STRETCH, LONE_FLOOR, LONE_PAD, LONE_SHARE, LONE_SPREAD};
@@ -124,56 +124,70 @@ impl Lone {
         best: &mut LoneBest,
         umpire: &mut dyn Umpire,
     ) {
+        let Some(mut waiting) = visits.start() else { return };
         let mut far = best.far();
-        visits.start();
-        while let Some(visit) = visits.next() {
-            if visit.near > far {
-                continue;
-            }
+        let mut visit = Visit { near: 0.0, link: 0, count: 0, packets: 1 };
+        loop {
             if visit.count == 0 {
-                visits.nodes += 1;
+                *waiting.nodes += 1;
                 let node = &tree.nodes[visit.link as usize];
-                self.enter(s, node, far, visits);
-                continue;
-            }
-            let (first, count) = (visit.link as usize, visit.count as usize);
-            for block in first / WIDTH..=(first + count - 1) / WIDTH {
-                visits.blocks += 1;
-                let block_first = (block * WIDTH) as u32;
-                let maybe = self.pass(s, &tree.blocks[block]);
-                for at in Bits(maybe) {
-                    self.weigh(tree, block_first + at as u32, best, umpire);
+                let (met, near) = self.enter(s, node, far);
+                if met != 0 {
+                    visit = waiting.nearest_of(node, met, &near);
+                    continue;
                 }
-                if maybe != 0 {
-                    far = best.far();
-                    if best.any && best.slot.is_some() {
-                        return;
-                    }
+            } else if self.visit_leaf(s, (tree, visit), &mut waiting, best, umpire) {
+                far = best.far();
+                if best.any && best.slot.is_some() {
+                    return;
                 }
             }
+            let Some(next) = waiting.pop(far) else { return };
+            visit = next;
         }
+    }
+
+    /// Tests the triangles of a leaf; whether there were any that the ray is not certain to miss.
+    #[inline(always)]
+    fn visit_leaf<S: Simd>(
+        &self,
+        s: S,
+        (tree, leaf): (&WideTree, Visit),
+        waiting: &mut Waiting<'_>,
+        best: &mut LoneBest,
+        umpire: &mut dyn Umpire,
+    ) -> bool {
+        let mut met = false;
+        for (block, own) in leaf.blocks() {
+            *waiting.blocks += 1;
+            let maybe = self.pass(s, &tree.blocks[block]) & own;
+            for at in Bits(maybe) {
+                self.weigh(tree, (block * WIDTH + at) as u32, best, umpire);
+            }
+            met |= maybe != 0;
+        }
+        met
     }
 
     /// Where the ray crosses the nearer (side 0) or farther sides of the boxes along an axis.
     #[inline(always)]
     fn plane<S: Simd>(&self, s: S, node: &Node8, side: usize, axis: usize) -> f32x8<S> {
-        let row = f32x8::load_array_ref(s, &node.bounds[self.rows[side][axis] % 6]);
+        let row = f32x8::load_array_ref(s, &node.bounds[self.rows[side][axis]]);
         (row - f32x8::splat(s, self.origins[side][axis])) * f32x8::splat(s, self.inverses[side][axis])
     }
 
-    /// Adds the children that the ray may enter up to `far`, the nearest last.
+    /// The children that the ray may enter up to `far`, and where it enters them.
     #[inline(always)]
-    fn enter<S: Simd>(&self, s: S, node: &Node8, far: f32, visits: &mut Visits) {
+    fn enter<S: Simd>(&self, s: S, node: &Node8, far: f32) -> (u64, [f32; WIDTH]) {
         let mut enter = f32x8::splat(s, 0.0);
         let mut leave = f32x8::splat(s, far);
         for axis in 0..3 {
-            // NaN, from a ray within a face, counts as inside.
-            enter = self.plane(s, node, 0, axis).max_precise(enter);
-            leave = self.plane(s, node, 1, axis).min_precise(leave);
+            enter = self.plane(s, node, 0, axis).max(enter);
+            leave = self.plane(s, node, 1, axis).min(leave);
         }
-        let there = (1_u64 << node.children) - 1;
-        let met = enter.simd_le(leave).to_bitmask() & there;
-        visits.add_children(node, met, enter.to_array());
+        // NaN, from a ray within a face, counts as inside, whether it has come through the sums or not.
+        let missed = enter.simd_gt(leave).to_bitmask();
+        (!missed & ((1 << node.children) - 1), enter.to_array())
     }
 
     /// Corners across the ray, sheared so that it becomes an axis; `most` grows to their largest coordinate.
@@ -190,7 +204,7 @@ impl Lone {
 
     #[inline(always)]
     fn seen_from_origin<S: Simd>(&self, s: S, rows: &[[f32; WIDTH]; 3], axis: usize) -> f32x8<S> {
-        f32x8::load_array_ref(s, &rows[axis % 3]) - f32x8::splat(s, self.origin[axis % 3])
+        f32x8::load_array_ref(s, &rows[axis]) - f32x8::splat(s, self.origin[axis])
     }
 
     /// Triangles of a block that the ray is not certain to miss.
@@ -240,4 +254,35 @@ impl Lone {
 #[inline(always)]
 fn edge<S: Simd>(v: (f32x8<S>, f32x8<S>), w: (f32x8<S>, f32x8<S>)) -> f32x8<S> {
     v.0.mul_sub_precise(w.1, v.1 * w.0)
+}
+
+impl Waiting<'_> {
+    /// The nearest of some children of a node; the others wait, the nearer ones first.
+    #[inline(always)]
+    fn nearest_of(&mut self, node: &Node8, children: u64, near: &[f32; WIDTH]) -> Visit {
+        let child = |bits: u64| {
+            let child = bits.trailing_zeros() as usize % WIDTH;
+            Visit::child(node, child, near[child])
+        };
+        let first = child(children);
+        let others = children & (children - 1);
+        if others == 0 {
+            return first;
+        }
+        let second = child(others);
+        let rest = others & (others - 1);
+        let (mut nearest, other) = if second.near < first.near { (second, first) } else { (first, second) };
+        let from = self.depth;
+        self.push(other);
+        for at in Bits(rest) {
+            let next = Visit::child(node, at, near[at % WIDTH]);
+            if next.near < nearest.near {
+                self.push(nearest);
+                nearest = next;
+            } else {
+                self.insert(from, next);
+            }
+        }
+        nearest
+    }
 }

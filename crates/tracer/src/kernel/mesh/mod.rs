@@ -8,16 +8,16 @@ mod edges;
 mod fan;
 mod lone;
 mod precise;
+mod weigh;
 
 use catoptra_core::{Ray, Span};
 
-use crate::accel::{Node8, WIDTH};
-use crate::lanes::Bits;
+use crate::accel::{MAX_DEPTH, Node8, WIDTH};
 
-pub(crate) use bundle::Lines;
+pub(crate) use bundle::{Bundle, Lines};
 pub(crate) use fan::{Fan, FanRays};
 pub(crate) use lone::{Lone, LoneBest};
-pub(crate) use precise::LaneCorners;
+pub(crate) use precise::LaneTriangles;
 
 use precise::{Verdict, depth, meet};
 
@@ -71,17 +71,44 @@ fn settle(
     }
 }
 
+/// Packets of rays that walk a tree together at most.
+pub(crate) const GROUP: usize = 4;
+
 /// A child that is still to be visited.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Visit {
+struct Visit {
     /// At most the depth at which rays enter its box.
     near: f32,
     link: u32,
     /// Triangles of a leaf; 0 for a node.
     count: u32,
+    /// Which packets of a group may enter it, bit by bit.
+    packets: u32,
 }
 
-/// Children to be visited, the next one last.
+impl Visit {
+    #[inline(always)]
+    fn child(node: &Node8, child: usize, near: f32) -> Self {
+        let child = child % WIDTH;
+        Self { near, link: node.link[child], count: u32::from(node.count[child]), packets: 1 }
+    }
+
+    /// Blocks of a leaf, and which of each block's triangles are the leaf's.
+    #[inline(always)]
+    fn blocks(&self) -> impl Iterator<Item = (usize, u64)> {
+        let (first, end) = (self.link as usize, self.link as usize + self.count as usize);
+        (first / WIDTH..end.div_ceil(WIDTH)).map(move |block| {
+            let (low, high) = (first.saturating_sub(block * WIDTH), (end - block * WIDTH).min(WIDTH));
+            (block, (1 << high) - (1 << low))
+        })
+    }
+}
+
+/// Room for the children that wait: fewer than eight for each of [`MAX_DEPTH`] levels; a power of two.
+const ROOM: usize = 512;
+const _: () = assert!(ROOM > MAX_DEPTH * (WIDTH - 1));
+
+/// Room for walks, kept from walk to walk.
 #[derive(Default)]
 pub(crate) struct Visits {
     stack: Vec<Visit>,
@@ -91,38 +118,54 @@ pub(crate) struct Visits {
 }
 
 impl Visits {
-    /// The root alone, in room that is kept from ray to ray.
+    /// Room for children to be visited; none are.
     #[inline(always)]
-    fn start(&mut self) {
-        self.stack.clear();
-        self.stack.push(Visit { near: 0.0, link: 0, count: 0 });
-    }
-
-    #[inline(always)]
-    fn next(&mut self) -> Option<Visit> {
-        self.stack.pop()
-    }
-
-    /// Adds some children of a node, entered at `near`, the nearest last.
-    #[inline(always)]
-    fn add_children(&mut self, node: &Node8, children: u64, near: [f32; WIDTH]) {
-        let first = self.stack.len();
-        for child in Bits(children) {
-            let child = child % WIDTH;
-            let (link, count) = (node.link[child], u32::from(node.count[child]));
-            self.add(first, Visit { near: near[child], link, count });
+    fn start(&mut self) -> Option<Waiting<'_>> {
+        if self.stack.is_empty() {
+            self.stack.resize(ROOM, Visit::default());
         }
+        let stack = self.stack.first_chunk_mut()?;
+        Some(Waiting { stack, depth: 0, nodes: &mut self.nodes, blocks: &mut self.blocks })
+    }
+}
+
+/// Children to be visited, the next one last.
+struct Waiting<'a> {
+    stack: &'a mut [Visit; ROOM],
+    depth: usize,
+    nodes: &'a mut u64,
+    blocks: &'a mut u64,
+}
+
+impl Waiting<'_> {
+    #[inline(always)]
+    fn push(&mut self, visit: Visit) {
+        self.stack[self.depth % ROOM] = visit;
+        self.depth += 1;
+    }
+
+    /// The next child that is entered up to a depth.
+    #[inline(always)]
+    fn pop(&mut self, far: f32) -> Option<Visit> {
+        while self.depth > 0 {
+            self.depth -= 1;
+            let visit = self.stack[self.depth % ROOM];
+            if visit.near <= far {
+                return Some(visit);
+            }
+        }
+        None
     }
 
     /// Adds a child below the nearer ones of its siblings, which begin at `first`.
     #[inline(always)]
-    fn add(&mut self, first: usize, visit: Visit) {
-        let mut at = self.stack.len();
-        self.stack.push(visit);
-        while at > first && self.stack[at - 1].near < visit.near {
-            self.stack[at] = self.stack[at - 1];
+    fn insert(&mut self, first: usize, visit: Visit) {
+        let mut at = self.depth;
+        while at > first && self.stack[(at - 1) % ROOM].near < visit.near {
+            self.stack[at % ROOM] = self.stack[(at - 1) % ROOM];
             at -= 1;
         }
-        self.stack[at] = visit;
+        self.stack[at % ROOM] = visit;
+        self.depth += 1;
     }
 }

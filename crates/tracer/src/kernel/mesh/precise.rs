@@ -7,7 +7,7 @@ use catoptra_core::glam::DVec3;
 use fearless_simd::Simd;
 
 use crate::kernel::cross;
-use crate::lanes::{D, D3, F, M};
+use crate::lanes::{D, D3, F3, M, U, splat3, widen3};
 use crate::numeric::{DEPTH_ERROR, MEET_EDGE_ERROR, MEET_SLOPE_ERROR, MEET_TOP_ERROR};
 
 /// What is certain of a ray and a triangle.
@@ -60,36 +60,38 @@ pub(crate) fn depth(corners: &[[f32; 3]; 3], ray: &Ray) -> (f64, f64) {
     (t, if certain { error } else { f64::INFINITY })
 }
 
-/// Corners of a triangle in every lane: x, y and z of the first, the second and the third.
-pub(crate) struct LaneCorners([[f32; MOST_LANES]; 9]);
+/// A triangle in every lane.
+#[derive(Clone, Copy)]
+pub(crate) struct LaneTriangles<S: Simd> {
+    a: F3<S>,
+    b: F3<S>,
+    c: F3<S>,
+    /// Which of its mesh's triangles it is.
+    pub(crate) facet: U<S>,
+}
 
-/// Most lanes that any packet has.
-const MOST_LANES: usize = 16;
-
-impl LaneCorners {
-    pub(crate) const NONE: Self = Self([[0.0; MOST_LANES]; 9]);
-
+impl<S: Simd> LaneTriangles<S> {
+    /// All corners in one point.
     #[inline(always)]
-    pub(crate) fn set(&mut self, lane: usize, corners: &[[f32; 3]; 3]) {
-        let lane = lane % MOST_LANES;
-        for (row, coordinate) in self.0.iter_mut().zip(corners.as_flattened()) {
-            row[lane] = *coordinate;
-        }
+    pub(crate) fn nothing(s: S) -> Self {
+        let zero = splat3(s, [0.0; 3]);
+        Self { a: zero, b: zero, c: zero, facet: U::splat(s, 0) }
     }
 
+    /// Puts a triangle into some lanes.
     #[inline(always)]
-    fn corner<S: Simd>(&self, s: S, first: usize) -> D3<S> {
-        let rows = &self.0;
-        let x = F::load(s, &rows[3 * first]).widen();
-        let y = F::load(s, &rows[3 * first + 1]).widen();
-        D3::new(x, y, F::load(s, &rows[3 * first + 2]).widen())
+    pub(crate) fn set(&mut self, s: S, lanes: M<S>, facet: u32, corners: &[[f32; 3]; 3]) {
+        self.a = F3::select(lanes, splat3(s, corners[0]), self.a);
+        self.b = F3::select(lanes, splat3(s, corners[1]), self.b);
+        self.c = F3::select(lanes, splat3(s, corners[2]), self.c);
+        self.facet = U::pick(lanes, U::splat(s, facet), self.facet);
     }
 
     /// As [`depth`], for rays in every lane; and where the bound on the error is below [`DEPTH_ERROR`] of it.
     #[inline(always)]
-    pub(crate) fn depths<S: Simd>(&self, s: S, origin: D3<S>, direction: D3<S>) -> (D<S>, M<S>) {
-        let a = self.corner(s, 0);
-        let (e, f) = (self.corner(s, 1) - a, self.corner(s, 2) - a);
+    pub(crate) fn depths(&self, s: S, origin: D3<S>, direction: D3<S>) -> (D<S>, M<S>) {
+        let a = widen3(self.a);
+        let (e, f) = (widen3(self.b) - a, widen3(self.c) - a);
         let (normal, from) = (cross(e, f), a - origin);
         let length = largest(e).max(largest(f));
         let length2 = length * length;

@@ -1,0 +1,258 @@
+//! What rays of anyone's choice meet where one mesh is all there is: groups of packets walk its tree together, and nothing
+//! is worked out that only other shapes need.
+
+use catoptra_core::geometry::Mesh;
+use catoptra_core::{Arithmetic, LaneMask};
+use fearless_simd::Simd;
+
+use super::Tracer;
+use super::ask::{Answers, Asked};
+use super::mesh::NONE;
+use super::umpire::Alone;
+use crate::film::NOTHING;
+use crate::kernel::mesh::{Bundle, GROUP, Lines, LoneBest, Umpire};
+use crate::lanes::{Bits, F, M, U};
+use crate::numeric::END_ERROR;
+use crate::snapshot::{Instance, Row};
+
+/// The mesh that is all there is.
+#[derive(Clone, Copy)]
+pub(super) struct Only<'a> {
+    instance: &'a Instance,
+    mesh: &'a Mesh,
+}
+
+/// Packets that stand side by side.
+#[derive(Clone, Copy)]
+struct Group<S: Simd> {
+    /// The first ray.
+    at: usize,
+    packets: usize,
+    /// Rays to be followed.
+    live: [M<S>; GROUP],
+}
+
+impl<S: Simd> Group<S> {
+    /// The first ray of one of the packets.
+    #[inline(always)]
+    fn start(&self, packet: usize) -> usize {
+        self.at + packet * F::<S>::LANES
+    }
+
+    /// One of the packets.
+    #[inline(always)]
+    fn packet(&self, s: S, packet: usize) -> Self {
+        let mut live = [M::splat(s, false); GROUP];
+        live[0] = self.live[packet % GROUP];
+        Self { at: self.start(packet), packets: 1, live }
+    }
+}
+
+impl<'a, S: Simd> Tracer<'a, S> {
+    /// The mesh that is all there is, if so.
+    pub(super) fn only_mesh(&self) -> Option<Only<'a>> {
+        let snapshot = self.frame.snapshot;
+        let [Row::Instance(row)] = snapshot.columns().rows[..] else { return None };
+        let instance = &snapshot.columns().instances[row as usize];
+        Some(Only { instance, mesh: snapshot.mesh_at(instance.prim)? })
+    }
+
+    /// Answers about rays where a mesh is all there is.
+    pub(super) fn answer_of_mesh(
+        &mut self,
+        asked: &Asked<'_>,
+        only: Only<'_>,
+        answers: &mut Answers<'_, '_>,
+    ) {
+        let mut backwards = false;
+        for at in (0..asked.len()).step_by(GROUP * F::<S>::LANES) {
+            let packets = (asked.len() - at).div_ceil(F::<S>::LANES).min(GROUP);
+            let mut group = Group { at, packets, live: [M::splat(self.s, false); GROUP] };
+            for packet in 0..packets {
+                group.live[packet] = asked.live(self.s, at + packet * F::<S>::LANES);
+            }
+            self.s.vectorize(
+                #[inline(always)]
+                || self.answer_group(asked, only, &group, (answers, &mut backwards)),
+            );
+        }
+    }
+
+    #[inline(always)]
+    fn answer_group(
+        &mut self,
+        asked: &Asked<'_>,
+        only: Only<'_>,
+        group: &Group<S>,
+        (answers, backwards): (&mut Answers<'_, '_>, &mut bool),
+    ) {
+        let mut slots = [U::splat(self.s, NONE); GROUP];
+        if !self.find_together(asked, only, group, (&mut slots, backwards)) {
+            for (packet, slot) in slots.iter_mut().enumerate().take(group.packets) {
+                let (one, slots) = (group.packet(self.s, packet), std::slice::from_mut(slot));
+                if !self.find_together(asked, only, &one, (slots, backwards)) {
+                    *slot = self.find_each(asked, only, &one);
+                }
+            }
+        }
+        for (packet, slots) in slots.into_iter().enumerate().take(group.packets) {
+            self.store_packet(asked, only, (&group.packet(self.s, packet), slots), answers);
+        }
+    }
+
+    /// Finds triangles for all rays of a group at once, if they go through one point; whether they do.
+    #[inline(always)]
+    fn find_together(
+        &mut self,
+        asked: &Asked<'_>,
+        only: Only<'_>,
+        group: &Group<S>,
+        (slots, backwards): (&mut [U<S>], &mut bool),
+    ) -> bool {
+        let bundle = if asked.any {
+            // The way that went well last is tried first.
+            let mut bundle = self.bundle_of_ways(asked, only, group, *backwards);
+            if bundle.is_none() && group.packets == 1 {
+                bundle = self.bundle_of_ways(asked, only, group, !*backwards);
+                *backwards ^= bundle.is_some();
+            }
+            bundle
+        } else {
+            self.bundle_of_rays(asked, only, group)
+        };
+        let Some(bundle) = bundle else { return false };
+        let none = [F::splat(self.s, 0.0); 2];
+        let mut rays = [bundle.slopes(0).rays(self.s, none, none); GROUP];
+        for (packet, rays) in rays.iter_mut().enumerate().take(group.packets) {
+            let at = group.start(packet);
+            let slopes = bundle.slopes(packet);
+            let [begin, end] = if asked.any {
+                ends_of_ways(self.s, slopes.scale, bundle.slack)
+            } else {
+                asked.depths(self.s, at, slopes.scale)
+            };
+            *rays = slopes.rays(self.s, begin, end);
+            rays.left = asked.left(self.s, at).facets_of(self.s, only.instance.prim);
+        }
+        let mut umpire = self.umpire(asked, only, group);
+        let fan = if asked.any { bundle.fan.for_any() } else { bundle.fan };
+        let mut visits = std::mem::take(self.visits);
+        fan.search(self.s, &only.instance.tree.tree, &mut visits, &mut rays[..group.packets], &mut umpire);
+        self.count(&mut visits);
+        *self.visits = visits;
+        for (slot, rays) in slots.iter_mut().zip(&rays[..group.packets]) {
+            *slot = rays.slot;
+            self.stats.settled += rays.settled;
+        }
+        true
+    }
+
+    #[inline(always)]
+    fn bundle_of_rays(&self, asked: &Asked<'_>, only: Only<'_>, group: &Group<S>) -> Option<Bundle<S>> {
+        Bundle::of(
+            self.s,
+            group.packets,
+            #[inline(always)]
+            |packet| {
+                let (origin, direction) = asked.own_lines(self.s, group.start(packet), only.instance);
+                Lines { origin, direction, live: group.live[packet % GROUP] }
+            },
+            self.reach(only.instance),
+        )
+    }
+
+    /// The stretches of rays as lines from where they begin, or backwards from where they end.
+    #[inline(always)]
+    fn bundle_of_ways(
+        &self,
+        asked: &Asked<'_>,
+        only: Only<'_>,
+        group: &Group<S>,
+        backwards: bool,
+    ) -> Option<Bundle<S>> {
+        Bundle::of(
+            self.s,
+            group.packets,
+            #[inline(always)]
+            |packet| {
+                let [start, end] = asked.ends(self.s, group.start(packet));
+                let start = only.instance.own_points(self.s, start);
+                let end = only.instance.own_points(self.s, end);
+                let (origin, other) = if backwards { (end, start) } else { (start, end) };
+                Lines { origin, direction: other - origin, live: group.live[packet % GROUP] }
+            },
+            self.reach(only.instance),
+        )
+    }
+
+    /// Finds triangles for the rays of a packet, one after another.
+    #[inline(always)]
+    fn find_each(&mut self, asked: &Asked<'_>, only: Only<'_>, packet: &Group<S>) -> U<S> {
+        let mut slots = [NONE; 16];
+        let left = asked.left(self.s, packet.at).facets_of(self.s, only.instance.prim);
+        let mut umpire = self.umpire(asked, only, packet);
+        let mut visits = std::mem::take(self.visits);
+        for lane in Bits(packet.live[0].bits()) {
+            let Some((ray, span)) = umpire.ray(lane) else { continue };
+            let mut found = LoneBest { t: span.max, error: 0.0, slot: None, any: asked.any, min: span.min };
+            only.instance.search_one(
+                self.s,
+                (ray, lane, left.lane(lane)),
+                &mut visits,
+                &mut found,
+                &mut umpire,
+            );
+            slots[lane % 16] = found.slot.unwrap_or(NONE);
+        }
+        self.count(&mut visits);
+        *self.visits = visits;
+        U::load(self.s, &slots)
+    }
+
+    #[inline(always)]
+    fn umpire<'b>(&self, asked: &'b Asked<'b>, only: Only<'b>, group: &Group<S>) -> Alone<'b> {
+        Alone { snapshot: asked.snapshot, mesh: only.mesh, prim: only.instance.prim, asked, at: group.at }
+    }
+
+    /// Keeps what a packet has found.
+    #[inline(always)]
+    fn store_packet(
+        &mut self,
+        asked: &Asked<'_>,
+        only: Only<'_>,
+        (packet, slots): (&Group<S>, U<S>),
+        answers: &mut Answers<'_, '_>,
+    ) {
+        let (at, instance) = (packet.at, only.instance);
+        let taken = packet.live[0] & !slots.is(NONE);
+        match answers {
+            Answers::Nearest(hits) => {
+                let (prim, nothing) = (U::splat(self.s, instance.prim), U::splat(self.s, NOTHING));
+                U::pick(taken, prim, nothing).store(&mut hits.prim[at..]);
+                if taken.any() {
+                    let triangles = instance.triangles(self.s, slots, taken);
+                    let lines = asked.own_lines(self.s, at, instance);
+                    let of_lane = |lane: usize| asked.way(at + lane);
+                    let t = self.settled_t(instance.prim, lines, taken, &triangles, of_lane);
+                    triangles.facet.store(&mut hits.facet[at..]);
+                    t.store(&mut hits.t[at..]);
+                }
+            }
+            Answers::Occluded(occluded) => {
+                let bits = taken.bits();
+                for (lane, occluded) in occluded[at..].iter_mut().enumerate().take(F::<S>::LANES) {
+                    *occluded = bits >> lane & 1 == 1;
+                }
+            }
+        }
+        self.answer_odd(asked, at, packet.live[0], answers);
+    }
+}
+
+/// Where ways begin and end that run one length of their directions, as depths, and within which bounds.
+#[inline(always)]
+fn ends_of_ways<S: Simd>(s: S, scale: F<S>, slack: f32) -> [[F<S>; 2]; 2] {
+    let off = F::splat(s, slack * 2.0 + f32::MIN_POSITIVE);
+    let error = scale.mul_add(F::splat(s, END_ERROR), off);
+    [[F::splat(s, 0.0) - off, off], [scale, error]]
+}
