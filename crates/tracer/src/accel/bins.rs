@@ -2,74 +2,100 @@
 
 use catoptra_core::TriangleMesh;
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x4};
+use fearless_simd::{Simd, f32x4, f32x8, i32x4, mask32x8};
 
 use super::Box32;
 
-/// A triangle's box; the last number of the lower corner is the bits of the triangle's own.
+/// A triangle's box: its lower corner, the bits of the triangle's number, and its upper corner with other signs, so that
+/// boxes are united by one minimum.
 #[derive(Clone, Copy)]
-pub(super) struct Item {
-    pub(super) low: [f32; 4],
-    pub(super) high: [f32; 4],
-}
+#[repr(align(32))]
+pub(super) struct Item([f32; 8]);
+
+/// Added to the bits of a triangle's number: subnormal numbers would slow down all sums they stand beside.
+const PLAIN: u32 = 1 << 30;
 
 impl Item {
+    /// Takes up room.
+    pub(super) const NONE: Self = Self([f32::INFINITY; 8]);
+
     pub(super) fn new(mesh: &TriangleMesh, id: u32) -> Self {
         let [a, b, c] = mesh.triangles()[id as usize].map(|i| mesh.positions()[i as usize]);
-        let (mut low, mut high) = ([f32::from_bits(id); 4], [0.0; 4]);
+        let mut numbers = [0.0; 8];
         for axis in 0..3 {
-            low[axis] = a[axis].min(b[axis]).min(c[axis]);
-            high[axis] = a[axis].max(b[axis]).max(c[axis]);
+            numbers[axis] = a[axis].min(b[axis]).min(c[axis]);
+            numbers[axis + 4] = -a[axis].max(b[axis]).max(c[axis]);
         }
-        Self { low, high }
+        numbers[3] = f32::from_bits(id.wrapping_add(PLAIN));
+        Self(numbers)
+    }
+
+    /// Which triangle it is.
+    pub(super) fn id(&self) -> u32 {
+        self.0[3].to_bits().wrapping_sub(PLAIN)
     }
 }
 
-/// A box in registers; the fourth numbers mean nothing.
+/// A box in registers, as in an [`Item`]; the fourth and the last number mean nothing.
 #[derive(Clone, Copy)]
-pub(super) struct Extent<S: Simd> {
-    pub(super) low: f32x4<S>,
-    pub(super) high: f32x4<S>,
-}
+pub(super) struct Extent<S: Simd>(f32x8<S>);
 
 impl<S: Simd> Extent<S> {
     #[inline(always)]
     pub(super) fn empty(s: S) -> Self {
-        Self { low: f32x4::splat(s, f32::INFINITY), high: f32x4::splat(s, f32::NEG_INFINITY) }
+        Self(f32x8::splat(s, f32::INFINITY))
     }
 
     #[inline(always)]
     pub(super) fn of(s: S, item: &Item) -> Self {
-        Self { low: f32x4::load_array_ref(s, &item.low), high: f32x4::load_array_ref(s, &item.high) }
+        Self(f32x8::load_array_ref(s, &item.0))
+    }
+
+    #[inline(always)]
+    pub(super) fn store(self, item: &mut Item) {
+        self.0.store_array(&mut item.0);
     }
 
     #[inline(always)]
     pub(super) fn union(self, o: Self) -> Self {
-        Self { low: self.low.min(o.low), high: self.high.max(o.high) }
+        Self(self.0.min(o.0))
+    }
+
+    /// Itself where that holds, else nothing.
+    #[inline(always)]
+    pub(super) fn only_if(self, s: S, holds: bool) -> Self {
+        Self(mask32x8::splat(s, holds).select(self.0, f32x8::splat(s, f32::INFINITY)))
     }
 
     /// Twice the centre; the order of centres is all that counts.
     #[inline(always)]
     pub(super) fn centre2(self) -> f32x4<S> {
-        self.low + self.high
+        let (low, minus_high) = self.0.split();
+        low - minus_high
+    }
+
+    #[inline(always)]
+    fn size(self) -> f32x4<S> {
+        let (low, minus_high) = self.0.split();
+        -(minus_high + low)
     }
 
     /// The box of one point.
     #[inline(always)]
     pub(super) fn point(at: f32x4<S>) -> Self {
-        Self { low: at, high: at }
+        Self(at.combine(-at))
     }
 
     /// Half the surface area; 0 when empty.
     #[inline(always)]
     pub(super) fn half_area(self) -> f32 {
-        let [x, y, z, _] = (self.high - self.low).to_array();
+        let [x, y, z, _] = self.size().to_array();
         if x < 0.0 { 0.0 } else { x * y + y * z + z * x }
     }
 
     pub(super) fn bounds(self) -> Box32 {
-        let corner = |[x, y, z, _]: [f32; 4]| [x, y, z];
-        Box32 { min: corner(self.low.to_array()), max: corner(self.high.to_array()) }
+        let [x, y, z, _, u, v, w, _] = self.0.to_array();
+        Box32 { min: [x, y, z], max: [-u, -v, -w] }
     }
 }
 
@@ -84,61 +110,169 @@ pub(super) struct Set<S: Simd> {
 }
 
 impl<S: Simd> Set<S> {
-    pub(super) fn empty(s: S, first: usize) -> Self {
-        Self { first, count: 0, around: Extent::empty(s), centres: Extent::empty(s), leaf: false }
+    /// Of all that stands from a place on.
+    pub(super) fn of(s: S, items: &[Item], first: usize) -> Self {
+        let empty = Extent::empty(s);
+        let mut set = Self { first, count: items.len(), around: empty, centres: empty, leaf: false };
+        s.vectorize(
+            #[inline(always)]
+            || {
+                for item in items {
+                    let extent = Extent::of(s, item);
+                    set.around = set.around.union(extent);
+                    set.centres = set.centres.union(Extent::point(extent.centre2()));
+                }
+            },
+        );
+        set
+    }
+
+    /// This and what stands right after it.
+    pub(super) fn with(self, o: Self) -> Self {
+        Self {
+            count: self.count + o.count,
+            around: self.around.union(o.around),
+            centres: self.centres.union(o.centres),
+            ..self
+        }
+    }
+}
+
+/// How centres fall into bins.
+#[derive(Clone, Copy)]
+pub(super) struct Scale<S: Simd> {
+    low: f32x4<S>,
+    scale: f32x4<S>,
+    bins: usize,
+}
+
+impl<S: Simd> Scale<S> {
+    #[inline(always)]
+    pub(super) fn new(s: S, centres: Extent<S>, bins: usize) -> Self {
+        let extent = centres.size();
+        let most = f32x4::splat(s, bins as f32 * 0.999);
+        let some = extent.simd_gt(f32x4::splat(s, f32::MIN_POSITIVE));
+        let scale = some.select(most / extent, f32x4::splat(s, 0.0));
+        Self { low: centres.0.split().0, scale, bins }
     }
 
     #[inline(always)]
-    pub(super) fn add(&mut self, extent: Extent<S>) {
-        self.count += 1;
-        self.around = self.around.union(extent);
-        self.centres = self.centres.union(Extent::point(extent.centre2()));
+    fn bins_of(&self, extent: Extent<S>) -> [i32; 4] {
+        self.places_of(extent).to_array()
+    }
+
+    #[inline(always)]
+    fn places_of(&self, extent: Extent<S>) -> i32x4<S> {
+        ((extent.centre2() - self.low) * self.scale).to_int()
+    }
+
+    /// 1 for what lies before a plane, else 0.
+    #[inline(always)]
+    pub(super) fn lies_before(&self, extent: Extent<S>, plane: &Plane) -> usize {
+        let before = self.places_of(extent).simd_lt(plane.bin).to_bitmask();
+        (before >> plane.axis & 1) as usize
     }
 }
 
 /// Where a set is split: before a bin along an axis.
 #[derive(Clone, Copy)]
 pub(super) struct Plane {
-    pub(super) axis: usize,
-    pub(super) bin: i32,
-    pub(super) cost: f32,
+    axis: usize,
+    bin: i32,
+    cost: f32,
+    /// How many triangles lie before it.
+    pub(super) count: usize,
 }
 
-/// How centres fall into bins.
-#[derive(Clone, Copy)]
-pub(super) struct Scale<S: Simd> {
-    pub(super) low: f32x4<S>,
-    pub(super) scale: f32x4<S>,
-    pub(super) bins: usize,
+/// Most bins along an axis that any preset has.
+pub(super) const MOST_BINS: usize = 32;
+
+/// What falls into each bin along each axis.
+#[derive(Clone)]
+pub(super) struct Bins {
+    around: [[Item; MOST_BINS]; 3],
+    count: [[u32; MOST_BINS]; 3],
 }
 
-impl<S: Simd> Scale<S> {
+impl Bins {
+    /// Of some triangles.
     #[inline(always)]
-    pub(super) fn new(s: S, centres: Extent<S>, bins: usize) -> Self {
-        let extent = centres.high - centres.low;
-        let most = f32x4::splat(s, bins as f32 * 0.999);
-        let some = extent.simd_gt(f32x4::splat(s, f32::MIN_POSITIVE));
-        let scale = some.select(most / extent, f32x4::splat(s, 0.0));
-        Self { low: centres.low, scale, bins }
+    pub(super) fn of<S: Simd>(s: S, items: &[Item], scale: &Scale<S>) -> Self {
+        let mut bins = Self { around: [[Item::NONE; MOST_BINS]; 3], count: [[0; MOST_BINS]; 3] };
+        for item in items {
+            let extent = Extent::of(s, item);
+            let places = scale.bins_of(extent);
+            let bins = bins.around.iter_mut().zip(&mut bins.count);
+            for ((around, count), place) in bins.zip(places) {
+                let place = place as usize % MOST_BINS;
+                let bin = &mut around[place];
+                Extent::of(s, bin).union(extent).store(bin);
+                count[place] += 1;
+            }
+        }
+        bins
     }
 
+    /// Of these and other triangles.
     #[inline(always)]
-    pub(super) fn bins_of(&self, extent: Extent<S>) -> [i32; 4] {
-        let place = (extent.centre2() - self.low) * self.scale;
-        place.to_int::<fearless_simd::i32x4<S>>().to_array()
+    pub(super) fn with<S: Simd>(mut self, s: S, o: &Self) -> Self {
+        for axis in 0..3 {
+            for bin in 0..MOST_BINS {
+                let around = &mut self.around[axis][bin];
+                Extent::of(s, around).union(Extent::of(s, &o.around[axis][bin])).store(around);
+                self.count[axis][bin] += o.count[axis][bin];
+            }
+        }
+        self
     }
-}
 
-/// What falls into a bin.
-#[derive(Clone, Copy)]
-pub(super) struct Bin {
-    pub(super) around: Item,
-    pub(super) count: u32,
-}
-
-impl Default for Bin {
+    /// The cheapest of the planes between bins, and the boxes round both parts.
     #[inline(always)]
-    fn default() -> Self {
-        Self { around: Item { low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4] }, count: 0 }
+    pub(super) fn best_plane<S: Simd>(&self, s: S, scale: &Scale<S>) -> Option<(Plane, [Extent<S>; 2])> {
+        let mut best = Plane { axis: 0, bin: 0, cost: f32::INFINITY, count: 0 };
+        for axis in 0..3 {
+            self.sweep(s, axis, scale.bins.min(MOST_BINS), &mut best);
+        }
+        if best.count == 0 {
+            return None;
+        }
+        Some((best, self.parts(s, scale.bins.min(MOST_BINS), &best)))
+    }
+
+    /// Sweeps the bins of an axis from both ends.
+    #[inline(always)]
+    fn sweep<S: Simd>(&self, s: S, axis: usize, bins: usize, best: &mut Plane) {
+        let (boxes, counts) = (&self.around[axis], &self.count[axis]);
+        let mut costs = [0.0; MOST_BINS];
+        let (mut around, mut count) = (Extent::empty(s), 0);
+        for at in (1..bins).rev() {
+            around = around.union(Extent::of(s, &boxes[at]));
+            count += counts[at];
+            costs[at] = around.half_area() * count as f32;
+        }
+        let all = count + counts[0];
+        (around, count) = (Extent::empty(s), 0);
+        for at in 1..bins {
+            around = around.union(Extent::of(s, &boxes[at - 1]));
+            count += counts[at - 1];
+            let cost = around.half_area() * count as f32 + costs[at];
+            if count != 0 && count != all && cost < best.cost {
+                *best = Plane { axis, bin: at as i32, cost, count: count as usize };
+            }
+        }
+    }
+
+    /// Boxes round what lies before a plane and what does not.
+    #[inline(always)]
+    fn parts<S: Simd>(&self, s: S, bins: usize, plane: &Plane) -> [Extent<S>; 2] {
+        let (below, above) = self.around[plane.axis][..bins].split_at(plane.bin as usize);
+        let mut parts = [Extent::empty(s); 2];
+        for bin in below {
+            parts[0] = parts[0].union(Extent::of(s, bin));
+        }
+        for bin in above {
+            parts[1] = parts[1].union(Extent::of(s, bin));
+        }
+        parts
     }
 }

@@ -4,19 +4,16 @@
 //! "Getting rid of packets", IEEE RT 2008, for the eight children: the largest is split until there are eight.
 
 use catoptra_core::TriangleMesh;
-use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch};
 use rayon::prelude::*;
 
-use super::bins::{Bin, Extent, Item, Plane, Scale, Set};
+use super::bins::{Bins, Extent, Item, Plane, Scale, Set};
 use super::wide_tree::{Block8, Node8, WIDTH, WideTree};
 use super::{MAX_DEPTH, Preset};
 
-/// Most bins along an axis that any preset has.
-const MOST_BINS: usize = 32;
 /// Most triangles of a leaf of a node that has no room for two: a node of two leaves costs more to visit than two blocks.
 const FULL_LEAF: usize = 12;
-/// Stretches longer than this are shared out among threads.
+/// Stretches longer than this are shared out among threads, so many triangles at a time.
 const PARALLEL: usize = 8192;
 /// A leaf has at most this many triangles, and never fewer than could be split: a block is tested in one go, so two
 /// smaller leaves would cost more.
@@ -26,7 +23,7 @@ const HALVE: usize = MAX_DEPTH - 32;
 
 /// Builds the tree on the threads of the pool it is called in.
 pub(super) fn grow(mesh: &TriangleMesh, preset: Preset) -> WideTree {
-    dispatch!(Level::baseline(), s => Grower { s, preset }.grow(mesh))
+    dispatch!(Level::new(), s => Grower { s, preset }.grow(mesh))
 }
 
 struct Grower<S: Simd> {
@@ -47,25 +44,31 @@ impl<S: Simd> Grower<S> {
         let count = mesh.triangles().len();
         let mut items: Vec<Item> =
             (0..count as u32).into_par_iter().with_min_len(PARALLEL).map(|id| Item::new(mesh, id)).collect();
-        let mut root = Set::empty(self.s, 0);
-        for item in &items {
-            root.add(Extent::of(self.s, item));
-        }
+        let mut scratch = vec![Item::NONE; count];
+        let root = self.measured(&items, 0);
         let mut nodes = Vec::with_capacity(count / 8 + 1);
-        self.node(&mut items, 0, root, 0, &mut nodes);
+        self.node((&mut items, &mut scratch), 0, root, 0, &mut nodes);
         let blocks =
             items.par_chunks(WIDTH).with_min_len(PARALLEL / WIDTH).map(|items| block(mesh, items)).collect();
         WideTree { nodes, blocks }
     }
 
     /// Appends the node over `items`, which stand from `base` on in the order of all, and those below it.
-    fn node(self, items: &mut [Item], base: usize, set: Set<S>, depth: usize, nodes: &mut Vec<Node8>) {
+    fn node(
+        self,
+        (items, scratch): Room<'_>,
+        base: usize,
+        set: Set<S>,
+        depth: usize,
+        nodes: &mut Vec<Node8>,
+    ) {
         let mut sets = [set; WIDTH];
-        let children = self.children(items, &mut sets, depth);
+        let children = self.children((items, scratch), &mut sets, depth);
         let sets = &mut sets[..children];
         sets.sort_unstable_by_key(|set| set.first);
         let parallel = items.len() > PARALLEL;
-        let mut subtrees = if parallel { self.subtrees(items, base, sets, depth) } else { Vec::new() };
+        let mut subtrees =
+            if parallel { self.subtrees((items, scratch), base, sets, depth) } else { Vec::new() };
         let at = nodes.len();
         let mut node = Node8::EMPTY;
         nodes.push(Node8::EMPTY);
@@ -79,7 +82,8 @@ impl<S: Simd> Grower<S> {
             if parallel {
                 append(nodes, std::mem::take(&mut subtrees[child]));
             } else {
-                let part = &mut items[set.first..set.first + set.count];
+                let own = set.first..set.first + set.count;
+                let part = (&mut items[own.clone()], &mut scratch[own]);
                 self.node(part, base + set.first, Set { first: 0, ..*set }, depth + 1, nodes);
             }
         }
@@ -87,16 +91,20 @@ impl<S: Simd> Grower<S> {
     }
 
     /// The trees over all sets, each with links that count from its own start; empty for leaves.
-    fn subtrees(self, items: &mut [Item], base: usize, sets: &[Set<S>], depth: usize) -> Vec<Vec<Node8>> {
-        let mut rest = items;
+    fn subtrees(
+        self,
+        (mut items, mut scratch): Room<'_>,
+        base: usize,
+        sets: &[Set<S>],
+        depth: usize,
+    ) -> Vec<Vec<Node8>> {
         let mut parts = Vec::with_capacity(sets.len());
         for set in sets {
-            let (part, after) = rest.split_at_mut(set.count);
-            rest = after;
-            parts.push((part, *set));
+            let (part, own) = (items.split_off_mut(..set.count), scratch.split_off_mut(..set.count));
+            parts.extend(part.zip(own).map(|part| (part, *set)));
         }
-        let grown = |(part, set): (&mut [Item], Set<S>)| {
-            let mut nodes = Vec::new();
+        let grown = |(part, set): (Room<'_>, Set<S>)| {
+            let mut nodes = Vec::with_capacity(set.count / WIDTH);
             if !set.leaf {
                 self.node(part, base + set.first, Set { first: 0, ..set }, depth + 1, &mut nodes);
             }
@@ -107,7 +115,7 @@ impl<S: Simd> Grower<S> {
 
     /// Splits the largest of the sets until there are eight or none is worth it; how many there are. The first is
     /// given.
-    fn children(self, items: &mut [Item], sets: &mut [Set<S>; WIDTH], depth: usize) -> usize {
+    fn children(self, (items, scratch): Room<'_>, sets: &mut [Set<S>; WIDTH], depth: usize) -> usize {
         let mut count = 1;
         while count < WIDTH {
             let areas = sets[..count].iter().map(|set| if set.leaf { -1.0 } else { set.around.half_area() });
@@ -115,7 +123,7 @@ impl<S: Simd> Grower<S> {
             if sets[largest].leaf {
                 break;
             }
-            match self.split(items, &sets[largest], depth) {
+            match self.split((items, scratch), &sets[largest], depth) {
                 Some([a, b]) => {
                     (sets[largest], sets[count]) = (a, b);
                     count += 1;
@@ -130,115 +138,110 @@ impl<S: Simd> Grower<S> {
     }
 
     /// Sorts the triangles of a set into two; `None` where a leaf is better.
-    fn split(self, items: &mut [Item], set: &Set<S>, depth: usize) -> Option<[Set<S>; 2]> {
+    fn split(self, (items, scratch): Room<'_>, set: &Set<S>, depth: usize) -> Option<[Set<S>; 2]> {
         if set.count <= LEAF {
             return None;
         }
-        let items = &mut items[set.first..set.first + set.count];
+        let own = set.first..set.first + set.count;
+        let (items, scratch) = (&mut items[own.clone()], &mut scratch[own]);
         let scale = Scale::new(self.s, set.centres, self.preset.bins(set.count));
         let plane = if depth < HALVE { self.best_plane(items, &scale) } else { None };
-        let Some(plane) = plane else {
+        let Some((plane, around)) = plane else {
             // Centres in one place, or too deep for anything else: any halves do.
-            return Some(self.halves(items, set.first));
+            let (a, b) = items.split_at(items.len() / 2);
+            return Some([self.measured(a, set.first), self.measured(b, set.first + a.len())]);
         };
-        let [a, b] = self.partition(items, set.first, &scale, plane);
-        if a.count == 0 || b.count == 0 {
-            return Some(self.halves(items, set.first));
-        }
-        Some([a, b])
+        let centres = self.partition((items, scratch), &scale, &plane);
+        let counts = [plane.count, set.count - plane.count];
+        let firsts = [set.first, set.first + plane.count];
+        Some([0, 1].map(|part| Set {
+            first: firsts[part],
+            count: counts[part],
+            around: around[part],
+            centres: centres[part],
+            leaf: false,
+        }))
     }
 
-    /// The cheapest of the planes between bins.
-    fn best_plane(self, items: &[Item], scale: &Scale<S>) -> Option<Plane> {
-        let mut best = None;
+    /// The cheapest of the planes between bins, and the boxes round both parts.
+    fn best_plane(self, items: &[Item], scale: &Scale<S>) -> Option<(Plane, [Extent<S>; 2])> {
+        if items.len() <= PARALLEL {
+            return self.s.vectorize(
+                #[inline(always)]
+                || Bins::of(self.s, items, scale).best_plane(self.s, scale),
+            );
+        }
+        let bins = |items: &[Item]| {
+            self.s.vectorize(
+                #[inline(always)]
+                || Bins::of(self.s, items, scale),
+            )
+        };
+        let all = items.par_chunks(PARALLEL).map(bins).reduce_with(|a, b| a.with(self.s, &b))?;
+        all.best_plane(self.s, scale)
+    }
+
+    /// Brings what lies before the plane to the front; the boxes round the centres of both parts.
+    fn partition(self, (items, scratch): Room<'_>, scale: &Scale<S>, plane: &Plane) -> [Extent<S>; 2] {
+        if items.len() <= PARALLEL {
+            let (_, centres) = self.sort_into(items, scratch, scale, plane);
+            items.copy_from_slice(scratch);
+            return centres;
+        }
+        let shares = items.par_chunks(PARALLEL).zip(scratch.par_chunks_mut(PARALLEL));
+        let sorted: Vec<(usize, [Extent<S>; 2])> =
+            shares.map(|(items, scratch)| self.sort_into(items, scratch, scale, plane)).collect();
+        let (mut below, mut above) = items.split_at_mut(plane.count);
+        let mut parts = Vec::with_capacity(2 * sorted.len());
+        for (share, (count, _)) in scratch.chunks(PARALLEL).zip(&sorted) {
+            let (first, second) = share.split_at(*count);
+            parts.extend(below.split_off_mut(..first.len()).map(|to| (to, first)));
+            parts.extend(above.split_off_mut(..second.len()).map(|to| (to, second)));
+        }
+        parts.into_par_iter().for_each(|(to, from)| to.copy_from_slice(from));
+        let nothing = [Extent::empty(self.s); 2];
+        sorted.iter().fold(nothing, |a, (_, b)| [a[0].union(b[0]), a[1].union(b[1])])
+    }
+
+    /// Copies what lies before the plane to the front, the rest from the end on, without a branch that could go either way;
+    /// how many lie before it, and the boxes round the centres of both.
+    fn sort_into(
+        self,
+        items: &[Item],
+        to: &mut [Item],
+        scale: &Scale<S>,
+        plane: &Plane,
+    ) -> (usize, [Extent<S>; 2]) {
+        let (mut count, mut below, mut above) = (0, Extent::empty(self.s), Extent::empty(self.s));
+        let to = &mut to[..items.len()];
         self.s.vectorize(
             #[inline(always)]
             || {
-                let mut bins = [[Bin::default(); MOST_BINS]; 3];
-                self.fill(items, scale, &mut bins);
-                for (axis, bins) in bins.iter().enumerate() {
-                    self.sweep(axis, &bins[..scale.bins], &mut best);
+                for (at, item) in items.iter().enumerate() {
+                    let extent = Extent::of(self.s, item);
+                    let first = scale.lies_before(extent, plane);
+                    let from_end = items.len() - 1 - (at - count);
+                    let place = from_end ^ ((from_end ^ count) & first.wrapping_neg());
+                    to[place] = *item;
+                    count += first;
+                    let centre = Extent::point(extent.centre2());
+                    below = below.union(centre.only_if(self.s, first == 1));
+                    above = above.union(centre.only_if(self.s, first == 0));
                 }
             },
         );
-        best
+        (count, [below, above])
     }
 
-    /// Gathers what falls into each bin, along each axis.
-    #[inline(always)]
-    fn fill(self, items: &[Item], scale: &Scale<S>, bins: &mut [[Bin; MOST_BINS]; 3]) {
-        for item in items {
-            let extent = Extent::of(self.s, item);
-            let places = scale.bins_of(extent);
-            for (axis, bins) in bins.iter_mut().enumerate() {
-                let bin = &mut bins[places[axis] as usize % MOST_BINS];
-                let around = Extent::of(self.s, &bin.around).union(extent);
-                around.low.store_array(&mut bin.around.low);
-                around.high.store_array(&mut bin.around.high);
-                bin.count += 1;
-            }
-        }
-    }
-
-    /// Sweeps the bins of an axis from both ends.
-    #[inline(always)]
-    fn sweep(self, axis: usize, bins: &[Bin], best: &mut Option<Plane>) {
-        let mut above = [0.0; MOST_BINS];
-        let (mut around, mut count) = (Extent::empty(self.s), 0);
-        for at in (1..bins.len()).rev() {
-            (around, count) = (around.union(Extent::of(self.s, &bins[at].around)), count + bins[at].count);
-            above[at] = around.half_area() * count as f32;
-        }
-        let all = count + bins[0].count;
-        (around, count) = (Extent::empty(self.s), 0);
-        for at in 1..bins.len() {
-            let bin = &bins[at - 1];
-            (around, count) = (around.union(Extent::of(self.s, &bin.around)), count + bin.count);
-            if count == 0 || count == all {
-                continue;
-            }
-            let cost = around.half_area() * count as f32 + above[at];
-            if best.is_none_or(|best| cost < best.cost) {
-                *best = Some(Plane { axis, bin: at as i32, cost });
-            }
-        }
-    }
-
-    /// Brings what lies before the plane to the front, and measures both parts.
-    fn partition(self, items: &mut [Item], first: usize, scale: &Scale<S>, plane: Plane) -> [Set<S>; 2] {
-        self.s.vectorize(
-            #[inline(always)]
-            || {
-                let (mut below, mut above) = (Set::empty(self.s, first), Set::empty(self.s, 0));
-                let (mut at, mut end) = (0, items.len());
-                while at < end {
-                    let extent = Extent::of(self.s, &items[at]);
-                    if scale.bins_of(extent)[plane.axis] < plane.bin {
-                        below.add(extent);
-                        at += 1;
-                    } else {
-                        above.add(extent);
-                        end -= 1;
-                        items.swap(at, end);
-                    }
-                }
-                above.first = first + below.count;
-                [below, above]
-            },
-        )
-    }
-
-    /// The first and the second half of the triangles.
-    fn halves(self, items: &[Item], first: usize) -> [Set<S>; 2] {
-        let middle = items.len() / 2;
-        let measured = |items: &[Item], first: usize| {
-            let mut set = Set::empty(self.s, first);
-            items.iter().for_each(|item| set.add(Extent::of(self.s, item)));
-            set
-        };
-        [measured(&items[..middle], first), measured(&items[middle..], first + middle)]
+    /// A set of all that stands from a place on.
+    fn measured(self, items: &[Item], first: usize) -> Set<S> {
+        let parts = items.par_chunks(PARALLEL).map(|items| Set::of(self.s, items, first));
+        parts.reduce_with(Set::with).unwrap_or_else(|| Set::of(self.s, items, first))
     }
 }
+
+/// Triangles, and as much room to sort them.
+type Room<'a> = (&'a mut [Item], &'a mut [Item]);
 
 /// Appends a subtree whose inner links count from its own start.
 fn append(nodes: &mut Vec<Node8>, subtree: Vec<Node8>) {
@@ -257,7 +260,7 @@ fn append(nodes: &mut Vec<Node8>, subtree: Vec<Node8>) {
 fn block(mesh: &TriangleMesh, items: &[Item]) -> Block8 {
     let mut block = Block8 { corners: [[[0.0; WIDTH]; 3]; 3], facet: [0; WIDTH] };
     for lane in 0..WIDTH {
-        let id = items[lane.min(items.len() - 1)].low[3].to_bits();
+        let id = items[lane.min(items.len() - 1)].id();
         block.facet[lane] = id;
         for (corner, place) in mesh.triangles()[id as usize].iter().enumerate() {
             for axis in 0..3 {
