@@ -1,5 +1,7 @@
 //! Questions about rays of anyone's choice, answered by the code that finds what pictures show.
 
+mod alone;
+
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Camera, Lane, Ray, Span};
 use fearless_simd::{Level, Simd};

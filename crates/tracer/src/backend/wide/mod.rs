@@ -6,7 +6,6 @@
 //! then they gather their light. Every lane computes on its own,
 //! so a pixel's bits depend on neither the number of lanes nor its neighbours.
 
-mod alone;
 mod ask;
 mod batch;
 mod beam;

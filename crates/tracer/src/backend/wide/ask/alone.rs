@@ -5,10 +5,10 @@ use catoptra_core::geometry::Mesh;
 use catoptra_core::{Arithmetic, LaneMask};
 use fearless_simd::Simd;
 
-use super::Tracer;
-use super::ask::{Answers, Asked};
-use super::mesh::NONE;
-use super::umpire::Alone;
+use super::{Answers, Asked};
+use crate::backend::wide::Tracer;
+use crate::backend::wide::mesh::NONE;
+use crate::backend::wide::umpire::Alone;
 use crate::film::NOTHING;
 use crate::kernel::mesh::{Bundle, GROUP, Lines, LoneBest, Umpire};
 use crate::lanes::{Bits, F, M, U};
