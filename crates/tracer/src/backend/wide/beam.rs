@@ -4,6 +4,7 @@ use catoptra_core::Aabb;
 use catoptra_core::glam::DVec3;
 use fearless_simd::Simd;
 
+use super::plan::Place;
 use super::spread::Spreads;
 use crate::kernel::PlaneRow;
 use crate::numeric::PLAN_MARGIN;
@@ -19,6 +20,16 @@ pub(super) struct Beam {
     /// Middle of the unit directions.
     axis: DVec3,
     half_spread: DVec3,
+}
+
+/// Where the rays of a beam meet a plane.
+pub(super) enum Crosses {
+    /// Nowhere.
+    Never,
+    /// In no other place.
+    Within(Place),
+    /// Perhaps without an end.
+    Anywhere,
 }
 
 impl Beam {
@@ -83,15 +94,31 @@ impl Beam {
 
     /// Whether a ray may meet a plane.
     pub(super) fn may_cross(&self, row: &PlaneRow) -> bool {
+        !matches!(self.crosses(row), Crosses::Never)
+    }
+
+    /// Where rays meet a plane.
+    pub(super) fn crosses(&self, row: &PlaneRow) -> Crosses {
         if self.prim == row.prim {
-            return false;
+            return Crosses::Never;
         }
         let size = row.normal.abs();
         let behind = row.distance - row.normal.dot(self.center);
         let slope = row.normal.dot(self.axis);
         let margin = PLAN_MARGIN * (row.distance.abs() + self.center.abs().element_sum());
         let (off, lean) = (size.dot(self.half) + margin, size.dot(self.half_spread));
-        let away = (behind > off && slope < -lean) || (behind < -off && slope > lean);
-        !away
+        if (behind > off && slope < -lean) || (behind < -off && slope > lean) {
+            return Crosses::Never;
+        }
+        let slowest = slope.abs() - lean;
+        if !(slowest > 0.0) {
+            return Crosses::Anywhere;
+        }
+        let longest = (behind.abs() + off) / slowest;
+        let (shortest, middle) = ((behind.abs() - off).max(0.0) / (slope.abs() + lean), longest / 2.0);
+        let middle = middle + shortest / 2.0;
+        let reach = self.half + self.axis.abs() * (longest - middle) + self.half_spread * longest;
+        let center = self.center + self.axis * middle;
+        Crosses::Within(Place::new(row.prim, Aabb { min: center - reach, max: center + reach }))
     }
 }

@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 
 use super::batch::Batch;
 use super::chunk::CHUNK;
-use super::packet::Packet;
+use super::packet::{Packet, kernel_rays};
 use super::plan::Shapes;
 use super::queue::Leaving;
 use super::search::Best;
@@ -324,9 +324,15 @@ impl<S: Simd> Tracer<'_, S> {
         } else {
             geometric
         };
+        let (rays, inverse_length) = kernel_rays(self.s, narrow3(settled.point), narrow3(direction));
+        self.spreads.starts.add(on, best.prim, rays.origin);
+        self.spreads.units.add(on, best.prim, rays.direction);
         let leaving = Leaving {
             origin: settled.point,
             direction,
+            start: rays.origin,
+            unit: rays.direction,
+            inverse_length,
             weight,
             pixel: packet.pixel,
             prim: best.prim,

@@ -300,7 +300,12 @@ impl<S: Simd> Tracer<'_, S> {
         let Bounce { stream, beams, met } = bounce;
         self.s.vectorize(
             #[inline(always)]
-            || stream.make_rays(self.s, self.spreads, beams),
+            || {
+                beams.clear();
+                beams.extend(Beam::all(self.spreads));
+                self.spreads.starts.clear();
+                self.spreads.units.clear();
+            },
         );
         let snapshot = self.frame.snapshot;
         if self.frame.view.skip.beams {
@@ -311,9 +316,25 @@ impl<S: Simd> Tracer<'_, S> {
         let nothing = met.is_empty() && snapshot.columns().general_unbounded.is_empty();
         if nothing && snapshot.background() == Rgb::BLACK {
             self.stats.skipped.nothing_ahead += stream.len() as u64;
+        } else if self.plan_ahead(beams, met) {
+            self.stats.rays.reflection += stream.len() as u64;
+            self.s.vectorize(
+                #[inline(always)]
+                || self.shade(&*stream, &&*met, tile, depth),
+            );
         } else {
             self.trace(&*stream, met, tile, depth);
         }
+    }
+
+    /// Finds out what may stand between lights and all that the rays of some beams may meet, if that has an end.
+    fn plan_ahead(&mut self, beams: &[Beam], met: &mut Shapes) -> bool {
+        let snapshot = self.frame.snapshot;
+        let planned = snapshot.light_rows().is_empty() || met.find_places_of(snapshot.columns(), beams);
+        if planned {
+            self.plan_lights(&met.places);
+        }
+        planned
     }
 
     /// Finds what the rays of a batch meet, then adds the light that arrives along them.

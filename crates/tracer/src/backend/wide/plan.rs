@@ -4,7 +4,7 @@
 use catoptra_core::Aabb;
 use catoptra_core::glam::DVec3;
 
-use super::beam::Beam;
+use super::beam::{Beam, Crosses};
 use super::search::FEW;
 use super::window::Window;
 use crate::kernel::PlaneRow;
@@ -141,6 +141,23 @@ impl Shapes {
             self.places.push(place);
         }
         self.filled |= self.near.is_empty() && self.planes.len() == 1;
+    }
+
+    /// Finds out where the points lie that the rays of some beams may meet; false where they may have no end.
+    pub(super) fn find_places_of(&mut self, columns: &Columns, beams: &[Beam]) -> bool {
+        self.places.clear();
+        let bounds = |(&prim, &near): (&u32, &u32)| Place::new(prim, columns.balls[near as usize].bounds());
+        self.places.extend(self.bounded.iter().zip(&self.near).map(bounds));
+        for &row in &self.planes {
+            for beam in beams {
+                match beam.crosses(&columns.planes[row as usize]) {
+                    Crosses::Never => {}
+                    Crosses::Within(place) => self.places.push(place),
+                    Crosses::Anywhere => return false,
+                }
+            }
+        }
+        !self.tree && columns.general_unbounded.is_empty()
     }
 
     /// Shapes that may stand between what has been seen and a light.

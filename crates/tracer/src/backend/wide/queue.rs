@@ -5,11 +5,9 @@ use catoptra_core::glam::DVec3;
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::beam::Beam;
-use super::packet::{Left, Packet, Precise, drift, kernel_rays};
-use super::spread::Spreads;
+use super::packet::{Left, Packet, Precise, drift};
 use crate::kernel::{Rays, magnitude};
-use crate::lanes::{D3, F, F3, M, U, load_wide3, load3, narrow3};
+use crate::lanes::{D3, F, F3, M, U, load_wide3, load3};
 
 /// Columns of rays; each has room for one more packet than there are rays.
 #[derive(Default)]
@@ -23,8 +21,8 @@ pub(super) struct Queue {
     pixel: Vec<u32>,
     prim: Vec<u32>,
     facet: Vec<u32>,
-    /// The rays as kernels see them, once they are [made](Self::make_rays): origins, unit directions, and 1 over the
-    /// lengths of the directions that they were made from.
+    /// The rays as kernels see them: origins, unit directions, and 1 over the lengths of the directions that they were
+    /// made from.
     start: [Vec<f32>; 3],
     unit: [Vec<f32>; 3],
     inverse_length: Vec<f32>,
@@ -34,6 +32,10 @@ pub(super) struct Queue {
 pub(super) struct Leaving<S: Simd> {
     pub(super) origin: D3<S>,
     pub(super) direction: D3<S>,
+    /// Origin and direction as kernels see them.
+    pub(super) start: F3<S>,
+    pub(super) unit: F3<S>,
+    pub(super) inverse_length: F<S>,
     pub(super) weight: F3<S>,
     pub(super) pixel: U<S>,
     pub(super) prim: U<S>,
@@ -69,9 +71,13 @@ impl Queue {
         {
             v.compress(mask, &mut column[at..]);
         }
-        for (column, v) in self.weight.iter_mut().zip([rays.weight.x, rays.weight.y, rays.weight.z]) {
-            F::<S>(v.0.compress(mask.0)).store(&mut column[at..]);
+        let triples = [(&mut self.weight, rays.weight), (&mut self.start, rays.start), (&mut self.unit, rays.unit)];
+        for (columns, v) in triples {
+            for (column, v) in columns.iter_mut().zip([v.x, v.y, v.z]) {
+                F::<S>(v.0.compress(mask.0)).store(&mut column[at..]);
+            }
         }
+        F::<S>(rays.inverse_length.0.compress(mask.0)).store(&mut self.inverse_length[at..]);
         for (column, v) in
             [(&mut self.pixel, rays.pixel), (&mut self.prim, rays.prim), (&mut self.facet, rays.facet)]
         {
@@ -90,30 +96,6 @@ impl Queue {
     pub(super) fn ray(&self, at: usize) -> Ray {
         let vector = |[x, y, z]: &[Vec<f64>; 3]| DVec3::new(x[at], y[at], z[at]);
         Ray::new(vector(&self.origin) + self.zero, vector(&self.direction))
-    }
-
-    /// Makes the rays as kernels see them, and the beams in which they run.
-    #[inline(always)]
-    pub(super) fn make_rays<S: Simd>(&mut self, s: S, spreads: &mut Spreads<S>, beams: &mut Vec<Beam>) {
-        spreads.starts.clear();
-        spreads.units.clear();
-        for at in (0..self.length).step_by(F::<S>::LANES) {
-            let (origin, direction) = self.precise(s, at);
-            let (rays, inverse_length) = kernel_rays(s, narrow3(origin), narrow3(direction));
-            let (start, unit) = (rays.origin, rays.direction);
-            for (column, v) in self.start.iter_mut().zip([start.x, start.y, start.z]) {
-                v.store(&mut column[at..]);
-            }
-            for (column, v) in self.unit.iter_mut().zip([unit.x, unit.y, unit.z]) {
-                v.store(&mut column[at..]);
-            }
-            inverse_length.store(&mut self.inverse_length[at..]);
-            let (live, prim) = (self.live_lanes(s, at), U::load(s, &self.prim[at..]));
-            spreads.starts.add(live, prim, start);
-            spreads.units.add(live, prim, unit);
-        }
-        beams.clear();
-        beams.extend(Beam::all(spreads));
     }
 
     /// The packet that starts with ray `at`.
