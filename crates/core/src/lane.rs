@@ -92,6 +92,9 @@ pub trait Lane: Arithmetic + Div<Output = Self> {
     #[inline(always)]
     #[must_use]
     fn power(self, exponent: Coefficient) -> Self {
+        if exponent.wide == 1.0 {
+            return self;
+        }
         let whole = exponent.wide as u32;
         if whole > MAX_PRODUCT_POWER || f64::from(whole) != exponent.wide {
             return self.real_power(exponent);
