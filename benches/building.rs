@@ -5,7 +5,7 @@ use std::sync::Arc;
 use catoptra_benches::{criterion, scene};
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Rgb, Scene, geometry::Sphere, material::Matte};
-use catoptra_lab::scenes::wavy_ball;
+use catoptra_lab::scenes::{placed_mesh, wavy_ball};
 use catoptra_tracer::{MeshTree, Preset, Snapshot};
 use criterion::{BenchmarkId, Criterion, Throughput};
 
@@ -48,9 +48,23 @@ fn extraction(c: &mut Criterion) {
     group.finish();
 }
 
+/// What an edit costs: trees of meshes that are still there are taken over, the tree over all shapes is made anew.
+fn after_an_edit(c: &mut Criterion) {
+    let mut group = c.benchmark_group("extract after an edit");
+    let meshes = placed_mesh(224).expect("a scene of meshes");
+    for (name, scene) in [("a mesh of 100352 triangles, twice", meshes), ("1000 spheres", balls(10))] {
+        let earlier = Snapshot::extract(&scene);
+        group.bench_function(BenchmarkId::from_parameter(name), |b| {
+            b.iter(|| Snapshot::extract_after(&scene, Some(&earlier)));
+        });
+    }
+    group.finish();
+}
+
 fn main() {
     let mut criterion = criterion();
     trees(&mut criterion);
     extraction(&mut criterion);
+    after_an_edit(&mut criterion);
     criterion.final_summary();
 }

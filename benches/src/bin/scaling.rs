@@ -27,7 +27,6 @@ type Line = (String, Vec<(f64, f64)>);
 
 fn main() -> Result<(), Failure> {
     let folder = std::env::args().nth(1).map_or_else(|| PathBuf::from("benches"), PathBuf::from);
-    // One pool for all that runs on one thread: the clock of the processor must not lose a thread meanwhile.
     let alone = Pool::new(1)?;
     let lights = powers(2, 11);
     write(

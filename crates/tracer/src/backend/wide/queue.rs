@@ -71,7 +71,8 @@ impl Queue {
         {
             v.compress(mask, &mut column[at..]);
         }
-        let triples = [(&mut self.weight, rays.weight), (&mut self.start, rays.start), (&mut self.unit, rays.unit)];
+        let triples =
+            [(&mut self.weight, rays.weight), (&mut self.start, rays.start), (&mut self.unit, rays.unit)];
         for (columns, v) in triples {
             for (column, v) in columns.iter_mut().zip([v.x, v.y, v.z]) {
                 F::<S>(v.0.compress(mask.0)).store(&mut column[at..]);
