@@ -44,7 +44,14 @@ impl Emitter for AmbientLight {
     #[inline(always)]
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
         let zero = Triple::splat(point.x.number(0.0));
-        Arrival { towards: zero, distance: zero.x, strength: zero.x, lit: zero.x.less(zero.x) }
+        Arrival {
+            towards: zero,
+            way: zero,
+            nearness: zero.x,
+            distance: zero.x,
+            strength: zero.x,
+            lit: zero.x.less(zero.x),
+        }
     }
 
     fn color(&self) -> &Constant3 {

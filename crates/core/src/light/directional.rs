@@ -66,8 +66,11 @@ impl Emitter for DirectionalLight {
     #[inline(always)]
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
         let like = point.x;
+        let towards = Triple::of(like, &self.towards);
         Arrival {
-            towards: Triple::of(like, &self.towards),
+            towards,
+            way: towards,
+            nearness: like.number(1.0),
             distance: like.number(f64::INFINITY),
             strength: like.number(1.0),
             lit: like.number(0.0).less(like.number(1.0)),

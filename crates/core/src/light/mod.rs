@@ -22,6 +22,10 @@ use crate::{Constant3, Field, FieldKind, Lane, Placement, Rgb, Triple, Value};
 pub struct Arrival<L: Lane> {
     /// Unit vector from the point to the light.
     pub towards: Triple<L>,
+    /// The whole way from the point to the light; a unit vector for a light at infinity.
+    pub way: Triple<L>,
+    /// 1 over the length of the way.
+    pub nearness: L,
     /// Metres to the light; infinite for a light at infinity.
     pub distance: L,
     /// Irradiance on a surface that faces the light, in parts of the light's [colour](Emitter::color).
@@ -30,8 +34,19 @@ pub struct Arrival<L: Lane> {
     pub lit: L::Mask,
 }
 
+impl<L: Lane> Arrival<L> {
+    /// The cosine between a unit normal and the way to the light.
+    #[inline(always)]
+    pub fn cosine(&self, normal: Triple<L>) -> L {
+        self.way.dot(normal) * self.nearness
+    }
+}
+
 /// What the tracer and the editor ask of a light.
 pub trait Emitter {
+    /// Whether there are directions in which it does not shine.
+    const HAS_CONE: bool = false;
+
     /// What would arrive at `point`.
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L>;
 
@@ -141,6 +156,15 @@ impl Light {
         each_light!(self, light => light.direction())
     }
 
+    /// See [`Emitter::HAS_CONE`].
+    #[must_use]
+    pub fn has_cone(&self) -> bool {
+        fn has_cone<E: Emitter>(_: &E) -> bool {
+            E::HAS_CONE
+        }
+        each_light!(self, light => has_cone(light))
+    }
+
     /// See [`Emitter::may_reach`].
     #[must_use]
     pub fn may_reach(&self, center: DVec3, radius: f64) -> bool {
@@ -168,6 +192,8 @@ fn from_point<L: Lane>(position: Triple<L>, point: Triple<L>) -> Arrival<L> {
     let inverse = distance.number(1.0) / distance;
     Arrival {
         towards: way.scale(inverse),
+        way,
+        nearness: inverse,
         distance,
         strength: inverse * inverse,
         lit: distance2.number(0.0).less(distance2),

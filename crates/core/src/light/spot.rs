@@ -131,6 +131,8 @@ impl Part for SpotLight {
 }
 
 impl Emitter for SpotLight {
+    const HAS_CONE: bool = true;
+
     #[inline(always)]
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
         let like = point.x;

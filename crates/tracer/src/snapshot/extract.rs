@@ -67,7 +67,7 @@ impl Snapshot {
             constants: [ambient.into(), scene.settings().background().into()],
             material_rows: materials.iter().map(MaterialRow::new).collect(),
             light_rows: lights.iter().map(|light| LightRow::new(light, origin - frame, &planes)).collect(),
-            has_cones: lights.iter().any(|light| matches!(light, Light::SpotLight(_))),
+            has_cones: lights.iter().any(Light::has_cone),
             columns,
             tree: Tree::build(&boxes),
             entities: placed.iter().map(|(id, ..)| *id).collect(),

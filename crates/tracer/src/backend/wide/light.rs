@@ -18,6 +18,8 @@ struct AddLight<'t, 'a, S: Simd, B> {
     tracer: &'t mut Tracer<'a, S>,
     batch: &'t B,
     count: usize,
+    /// How many of their lanes answer lights.
+    lit: u64,
     /// Which light.
     light: usize,
 }
@@ -29,8 +31,9 @@ impl<S: Simd, B: Batch<S>> LightVisitor for AddLight<'_, '_, S, B> {
         let smooth = self.tracer.frame.snapshot.columns().smooth;
         let faced = if open && !smooth { self.add_open(light) } else { self.add(light, open, smooth) };
         let stats = &mut self.tracer.stats;
-        stats.skipped.out_of_cone += faced.lit - faced.in_cone;
-        stats.skipped.facing_away += faced.in_cone - faced.facing;
+        let in_cone = if E::HAS_CONE { faced.in_cone } else { self.lit };
+        stats.skipped.out_of_cone += self.lit - in_cone;
+        stats.skipped.facing_away += in_cone - faced.facing;
         *match (light.shadow(), open) {
             (false, _) => &mut stats.skipped.shadow_off,
             (true, true) => &mut stats.skipped.nothing_between,
@@ -39,10 +42,9 @@ impl<S: Simd, B: Batch<S>> LightVisitor for AddLight<'_, '_, S, B> {
     }
 }
 
-/// How many lanes answer lights, how many of them lie in a light's cone, and how many of those face it.
+/// How many lanes that answer lights lie in a light's cone, and how many of those face it.
 #[derive(Default)]
 struct Faced {
-    lit: u64,
     in_cone: u64,
     facing: u64,
 }
@@ -112,15 +114,17 @@ fn face<S: Simd, E: Emitter>(
     let lit = chunk.lit[packet];
     let arrival = light.arriving(chunk.point[packet]);
     let zero = arrival.strength.number(0.0);
-    let in_cone = lit & arrival.lit;
-    let mut cosine = arrival.towards.dot(chunk.normal[packet]);
+    // Where the light itself is, the cosine is NaN, which faces nothing.
+    let in_cone = if E::HAS_CONE { lit & arrival.lit } else { lit };
+    let mut cosine = arrival.cosine(chunk.normal[packet]);
     let mut lanes = in_cone & zero.less(cosine);
     if smooth {
-        cosine = arrival.towards.dot(chunk.smooth[packet]);
+        cosine = arrival.cosine(chunk.smooth[packet]);
         lanes = lanes & zero.less(cosine);
     }
-    faced.lit += lit.count();
-    faced.in_cone += in_cone.count();
+    if E::HAS_CONE {
+        faced.in_cone += in_cone.count();
+    }
     faced.facing += lanes.count();
     Facing { arrival, cosine, lanes }
 }
@@ -130,17 +134,14 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     pub(super) fn add_lights(&mut self, batch: &impl Batch<S>, count: usize) {
         let rows = self.frame.snapshot.light_rows();
-        let unreached = rows.len() - self.reached.len();
-        if unreached > 0 {
-            let lit = self.chunk.lit[..count].iter().map(|lit| lit.count());
-            self.stats.skipped.unreached += lit.sum::<u64>() * unreached as u64;
-        }
+        let lit = self.chunk.lit[..count].iter().map(|lit| lit.count()).sum();
+        self.stats.skipped.unreached += lit * (rows.len() - self.reached.len()) as u64;
         for place in 0..self.reached.len() {
             let light = self.reached[place];
             let row = &rows[light];
             self.s.vectorize(
                 #[inline(always)]
-                || row.light.visit(AddLight { tracer: self, batch, count, light }),
+                || row.light.visit(AddLight { tracer: self, batch, count, lit, light }),
             );
         }
     }
