@@ -37,7 +37,7 @@ pub use light::{Arrival, Emitter, Light};
 pub use material::{Material, ShadingPoint, Surface};
 pub use part::{Field, FieldKind, Kind, MeshSource, Part, Value, Values};
 pub use placement::Placement;
-pub use ray::{Crossing, Ray, Span};
+pub use ray::{Crossing, Ray, Span, order_of_roots};
 pub use scene::{
     Change, ChangeKind, Content, Edit, EntityId, History, MaterialId, Members, Name, Node, Parent, Role,
     Scene, SceneError, Settings, Subject, Subtree,

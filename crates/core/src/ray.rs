@@ -112,9 +112,18 @@ impl Crossing {
         } else if other.t + other.error < self.t - self.error {
             Ordering::Greater
         } else {
-            decide(|| compare(bounded()), || compare(exact())).unwrap_or(Ordering::Equal)
+            order_of_roots(bounded, exact)
         }
     }
+}
+
+/// How two roots compare: in numbers that know their error, and where those cannot tell, in exact ones. `Equal` where one
+/// is missing.
+pub fn order_of_roots(
+    bounded: impl FnOnce() -> [Verdict<Option<Root<Bounded>>>; 2],
+    exact: impl FnOnce() -> [Verdict<Option<Root<Dyadic>>>; 2],
+) -> Ordering {
+    decide(|| compare(bounded()), || compare(exact())).unwrap_or(Ordering::Equal)
 }
 
 /// How two roots compare, if there are two.

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 
 use catoptra_core::exact::{Number, Root, Verdict};
 use catoptra_core::geometry::Mesh;
-use catoptra_core::{Crossing, Geometry, Ray, Shape, Span};
+use catoptra_core::{Crossing, Geometry, Ray, Shape, Span, order_of_roots};
 
 use super::Snapshot;
 use super::origin::{is_exact, relative};
@@ -118,10 +118,16 @@ impl Snapshot {
             || [a, b].map(|hit| self.root(way, hit.place)),
             || [a, b].map(|hit| self.root(way, hit.place)),
         );
-        match order {
-            Ordering::Equal => (a.place.prim, a.place.facet) < (b.place.prim, b.place.facet),
-            order => order.is_lt(),
-        }
+        comes_first(order, a.place, b.place)
+    }
+
+    /// As [`precedes`](Self::precedes), of hits that are known to be ones, wherever they are.
+    pub(crate) fn place_precedes(&self, way: &Way<'_>, a: Place, b: Place) -> bool {
+        let order = order_of_roots(
+            || [a, b].map(|place| self.root(way, place)),
+            || [a, b].map(|place| self.root(way, place)),
+        );
+        comes_first(order, a, b)
     }
 
     fn root<N: Number>(&self, way: &Way<'_>, place: Place) -> Verdict<Option<Root<N>>> {
@@ -189,6 +195,11 @@ impl<'a> Way<'a> {
         let max = best.map_or(self.span.max, |hit| hit.crossing.latest().min(self.span.max));
         Self { span: Span { max, ..self.span }, ..*self }
     }
+}
+
+/// Whether one place comes before another on a ray, by their order there, and of places in one by their numbers.
+fn comes_first(order: Ordering, a: Place, b: Place) -> bool {
+    order.then((a.prim, a.facet).cmp(&(b.prim, b.facet))).is_lt()
 }
 
 /// The nearest crossing of a ray in a mesh's own space with its triangles; of crossings in one place, that of the lowest.

@@ -7,6 +7,7 @@ use super::Tracer;
 use super::batch::Found;
 use super::packet::{Packet, Precise};
 use super::plan::Shapes;
+use crate::Place;
 use crate::film::NOTHING;
 use crate::kernel::Proposal;
 use crate::lanes::{Bits, F, M, U};
@@ -262,25 +263,34 @@ impl<S: Simd> Tracer<'_, S> {
             self.stats.settled += 1;
             let (ray, span, leaving) = (packet.ray(lane), packet.span(lane), packet.leaving(lane));
             let way = Way::new(&ray, span, leaving);
-            let Some(hit) = snapshot.cross_part(prim, facet, &ray, span, leaving) else { continue };
-            let other = best.prim.lane(lane);
-            let held = (other != NOTHING)
-                .then(|| snapshot.cross_part(other, Some(best.facet.lane(lane)), &ray, span, leaving))
-                .flatten();
-            if held.is_some_and(|held| !snapshot.precedes(&way, &hit, &held)) {
-                continue;
-            }
-            // What a kernel found where it was certain stays, whatever it had to compete with.
-            let metres = (hit.crossing.t * ray.direction.length()) as f32;
             let known = doubtful.known.bits() >> lane & 1 == 1;
-            let t = if known { doubtful.t.lane(lane) } else { metres.min(f32::MAX.next_down()) };
+            let other = best.prim.lane(lane);
+            let held = (other != NOTHING).then(|| Place { prim: other, facet: best.facet.lane(lane) });
+            let first = match (facet, held) {
+                // Both are met for certain: only which is first is asked, unless the stretch may begin behind one.
+                (Some(facet), Some(held)) if known && !matches!(packet.precise, Precise::Asked(..)) => {
+                    snapshot.place_precedes(&way, Place { prim, facet }, held).then_some((facet, 0.0))
+                }
+                _ => {
+                    let cross = |prim, facet| snapshot.cross_part(prim, facet, &ray, span, leaving);
+                    let hit = cross(prim, facet);
+                    let held = held.and_then(|held| cross(held.prim, Some(held.facet)));
+                    let hit = hit.filter(|hit| held.is_none_or(|held| snapshot.precedes(&way, hit, &held)));
+                    hit.map(|hit| (hit.place.facet, hit.crossing.t * ray.direction.length()))
+                }
+            };
+            let Some((facet, metres)) = first else { continue };
+            // What a kernel found where it was certain stays, whatever it had to compete with.
+            let (t, error) = if known {
+                (doubtful.t.lane(lane), doubtful.error.lane(lane))
+            } else {
+                let metres = metres as f32;
+                (metres.min(f32::MAX.next_down()), metres * SETTLED_ERROR + f32::MIN_POSITIVE)
+            };
             best.t.set(lane, t);
-            best.error.set(
-                lane,
-                if known { doubtful.error.lane(lane) } else { metres * SETTLED_ERROR + f32::MIN_POSITIVE },
-            );
+            best.error.set(lane, error);
             best.prim.set(lane, prim);
-            best.facet.set(lane, hit.place.facet);
+            best.facet.set(lane, facet);
         }
     }
 }
