@@ -124,6 +124,18 @@ pub(crate) const LONE_SHARE: f32 = 24.0 * U;
 /// As [`LONE_SPREAD`].
 pub(crate) const LONE_FLOOR: f32 = 12.0 * U;
 
+/// Error of the depth z of a crossing along a lone ray, beside the [`LONE_SHARE`] of H that corners are off by (6u), their
+/// differences, products and sum, at most 2H each (6u), a sum of edge values, a quotient and a product (8u) and the last sum
+/// (u): in units of E D / A, E the error of an edge value, D the corners' spread along the ray, A the three edge values' sum.
+///
+/// A is off by 3E, so where it is beyond twice this many E three quarters of it are certain; of the depth's two terms each
+/// is off by ED and A's own error by 3ED: 5ED over three quarters of A, rounded up.
+pub(crate) const LONE_STEEP: f32 = 8.0;
+
+/// Error of `t` from that depth, relative to itself: two roundings; and of a `t` that is rounded to `f32`, of the ends of a
+/// stretch, and of a sum of these: rounded up.
+pub(crate) const LONE_DEPTH: f32 = 8.0 * U;
+
 /// Error of the slopes of rays through one point, relative to 1: computed in `f64` and rounded once; they are below 2.
 pub(crate) const FAN_SLOPE: f32 = 2.0 * U;
 

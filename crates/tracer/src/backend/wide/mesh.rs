@@ -145,13 +145,14 @@ impl<S: Simd> Tracer<'_, S> {
         let left = packet.left.facets_of(self.s, instance.prim);
         for lane in Bits(packet.live.bits()) {
             let Some((ray, span)) = umpire.ray(lane) else { continue };
-            let metres = f64::from(best.t.lane(lane));
-            let length = f64::from(packet.inverse_length.lane(lane));
-            let error = (f64::from(best.error.lane(lane)) + metres * f64::from(END_ERROR)) * length;
-            let met = best.prim.lane(lane) != NONE;
-            let (t, error) = if met { (metres * length, error) } else { (span.max, 0.0) };
+            let mut found = LoneBest::nothing_on(span);
+            if best.prim.lane(lane) != NONE {
+                let (metres, length) = (best.t.lane(lane), packet.inverse_length.lane(lane));
+                let error = best.error.lane(lane) + metres * END_ERROR;
+                found = found.before((metres * length, error * length));
+            }
             let any = matches!(packet.precise, Precise::Asked(asked, _) if asked.any);
-            let mut found = LoneBest { t, error, slot: None, any, min: span.min };
+            found = found.for_any(any);
             instance.search_one(self.s, (ray, lane, left.lane(lane)), visits, &mut found, umpire);
             slots[lane] = found.slot.unwrap_or(NONE);
         }
@@ -244,8 +245,7 @@ impl<S: Simd> Tracer<'_, S> {
                 let mut closed = 0;
                 for lane in Bits(open.bits()) {
                     let Some((ray, span)) = umpire.ray(lane) else { continue };
-                    let mut found =
-                        LoneBest { t: span.max, error: 0.0, slot: None, any: true, min: span.min };
+                    let mut found = LoneBest::nothing_on(span).for_any(true);
                     let ray = (ray, lane, left.lane(lane));
                     instance.search_one(self.s, ray, &mut visits, &mut found, &mut umpire);
                     closed |= u64::from(found.slot.is_some()) << lane;

@@ -3,14 +3,16 @@
 //! Boxes after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013; triangles after Woop, Benthin and Wald, "Watertight
 //! Ray/Triangle Intersection", JCGT 2(1), 2013, with bounds.
 
-use catoptra_core::Ray;
+use catoptra_core::{Ray, Span};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::{Umpire, Verdict, Visit, Visits, Waiting, meet};
-use crate::accel::{Block8, Node8, WIDTH, WideTree};
+use super::{Settled, Umpire, Visit, Visits, Waiting, settle};
+use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::Bits;
-use crate::numeric::{BOX_STRETCH, LONE_FLOOR, LONE_PAD, LONE_SHARE, LONE_SPREAD};
+use crate::numeric::{
+    BOX_STRETCH, LONE_DEPTH, LONE_FLOOR, LONE_PAD, LONE_SHARE, LONE_SPREAD, LONE_STEEP,
+};
 
 /// A ray in a mesh's own space.
 pub(crate) struct Lone {
@@ -28,6 +30,8 @@ pub(crate) struct Lone {
     origin: [f32; 3],
     /// Directions along the first two axes over the last.
     shear: [f32; 2],
+    /// Lengths of the direction per length along the last axis.
+    along: f32,
     /// Error of an edge value per unit of the sheared corners, and where there are none.
     slack: f32,
     floor: f32,
@@ -37,21 +41,44 @@ pub(crate) struct Lone {
 #[derive(Clone, Copy)]
 pub(crate) struct LoneBest {
     /// Where it is, in lengths of the ray's direction, and within which bound.
-    pub(crate) t: f64,
-    pub(crate) error: f64,
+    t: f32,
+    error: f32,
     /// Which triangle of the tree's blocks, if it is one of this mesh.
     pub(crate) slot: Option<u32>,
     /// Whether any crossing will do.
-    pub(crate) any: bool,
-    /// Where the stretch begins.
-    pub(crate) min: f64,
+    any: bool,
+    /// The stretch that is asked about, and between what it begins in `f32`.
+    span: Span,
+    begin: [f32; 2],
 }
 
 impl LoneBest {
+    /// Nothing on a stretch.
+    #[inline(always)]
+    pub(crate) fn nothing_on(span: Span) -> Self {
+        let (min, t) = (span.min as f32, span.max as f32);
+        let finite = t < f32::MAX;
+        let error = if finite { t.abs() * LONE_DEPTH } else { 0.0 };
+        let begin = [min - min * LONE_DEPTH, min + min * LONE_DEPTH];
+        Self { t: if finite { t } else { f32::MAX }, error, slot: None, any: false, span, begin }
+    }
+
+    /// Where something else has been met, at a `t` that is known within a bound.
+    #[inline(always)]
+    pub(crate) fn before(self, (t, error): (f32, f32)) -> Self {
+        Self { t, error, ..self }
+    }
+
+    /// Asked for any crossing rather than the nearest.
+    #[inline(always)]
+    pub(crate) fn for_any(self, any: bool) -> Self {
+        Self { any, ..self }
+    }
+
     /// At least how far it is still worth looking, as the near sides of boxes are rounded.
     #[inline(always)]
     fn far(&self) -> f32 {
-        ((self.t + self.error) as f32) * BOX_STRETCH
+        (self.t + self.error) * BOX_STRETCH
     }
 }
 
@@ -83,6 +110,7 @@ impl Lone {
             axes,
             origin: origin.to_array(),
             shear: [shear[0] as f32, shear[1] as f32],
+            along: (1.0 / direction[last]) as f32,
             slack: LONE_SHARE * reach,
             floor: (LONE_FLOOR * reach) * (LONE_FLOOR * reach) + f32::MIN_POSITIVE,
         };
@@ -160,11 +188,7 @@ impl Lone {
         let mut met = false;
         for (block, own) in leaf.blocks() {
             *waiting.blocks += 1;
-            let maybe = self.pass(s, &tree.blocks[block]) & own;
-            for at in Bits(maybe) {
-                self.weigh(tree, (block * WIDTH + at) as u32, best, umpire);
-            }
-            met |= maybe != 0;
+            met |= self.pass(s, (tree, block, own), best, umpire);
         }
         met
     }
@@ -190,16 +214,17 @@ impl Lone {
         (!missed & ((1 << node.children) - 1), enter.to_array())
     }
 
-    /// Corners across the ray, sheared so that it becomes an axis; `most` grows to their largest coordinate.
+    /// A corner of every triangle, sheared so that the ray becomes an axis.
     #[inline(always)]
-    fn corner<S: Simd>(&self, s: S, rows: &[[f32; WIDTH]; 3], most: &mut f32x8<S>) -> (f32x8<S>, f32x8<S>) {
+    fn corner<S: Simd>(&self, s: S, rows: &[[f32; WIDTH]; 3]) -> Corner<S> {
         let [x, y, z] = self.axes;
         let z = self.seen_from_origin(s, rows, z);
         let (x, y) = (self.seen_from_origin(s, rows, x), self.seen_from_origin(s, rows, y));
-        let x = z.mul_add_precise(f32x8::splat(s, -self.shear[0]), x);
-        let y = z.mul_add_precise(f32x8::splat(s, -self.shear[1]), y);
-        *most = most.max(x.abs()).max(y.abs());
-        (x, y)
+        Corner {
+            x: z.mul_add_precise(f32x8::splat(s, -self.shear[0]), x),
+            y: z.mul_add_precise(f32x8::splat(s, -self.shear[1]), y),
+            z,
+        }
     }
 
     #[inline(always)]
@@ -207,53 +232,118 @@ impl Lone {
         f32x8::load_array_ref(s, &rows[axis]) - f32x8::splat(s, self.origin[axis])
     }
 
-    /// Triangles of a block that the ray is not certain to miss.
+    /// Tests the ray against triangles of a block; whether there are any that it is not certain to miss.
     #[inline(always)]
-    fn pass<S: Simd>(&self, s: S, block: &Block8) -> u64 {
-        let mut most = f32x8::splat(s, 0.0);
-        let a = self.corner(s, &block.corners[0], &mut most);
-        let b = self.corner(s, &block.corners[1], &mut most);
-        let c = self.corner(s, &block.corners[2], &mut most);
-        let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
+    fn pass<S: Simd>(
+        &self,
+        s: S,
+        (tree, block, own): (&WideTree, usize, u64),
+        best: &mut LoneBest,
+        umpire: &mut dyn Umpire,
+    ) -> bool {
+        let corners = &tree.blocks[block].corners;
+        let (a, b, c) =
+            (self.corner(s, &corners[0]), self.corner(s, &corners[1]), self.corner(s, &corners[2]));
+        let most = a.across().max(b.across()).max(c.across());
+        let (u, v, w) = (edge(&c, &b), edge(&a, &c), edge(&b, &a));
         let spread = most.mul_add_precise(f32x8::splat(s, LONE_SPREAD), f32x8::splat(s, self.slack));
         let error = most.mul_add_precise(spread, f32x8::splat(s, self.floor));
         let (low, high) = (u.min(v).min(w), u.max(v).max(w));
-        !(low.simd_lt(-error) & high.simd_gt(error)).to_bitmask() & 0xff
+        let maybe = !(low.simd_lt(-error) & high.simd_gt(error)).to_bitmask() & own;
+        if maybe == 0 {
+            return false;
+        }
+        let area = u + v + w;
+        let inverse = f32x8::splat(s, 1.0) / area;
+        let (e, f) = (b.z - a.z, c.z - a.z);
+        let z = e.mul_add_precise(v, f * w).mul_add_precise(inverse, a.z);
+        let steep = error * f32x8::splat(s, LONE_STEEP);
+        let z_error = (steep * inverse.abs()).mul_add_precise(e.abs().max(f.abs()), f32x8::splat(s, self.slack));
+        let t = z * f32x8::splat(s, self.along);
+        let t_error = t.abs().mul_add_precise(
+            f32x8::splat(s, LONE_DEPTH),
+            z_error * f32x8::splat(s, self.along.abs()),
+        );
+        let known = (low.simd_gt(error) | high.simd_lt(-error)) & area.abs().simd_gt(steep + steep);
+        let past = (t - t_error).simd_gt(best.t + best.error) | (t + t_error).simd_lt(best.begin[0]);
+        let open = maybe & !(known & past).to_bitmask();
+        let (known, t, t_error) = (known.to_bitmask(), t.to_array(), t_error.to_array());
+        for at in Bits(open) {
+            let at = at % WIDTH;
+            let crossing = (known >> at & 1 == 1).then_some((t[at], t_error[at]));
+            self.weigh(tree, (block * WIDTH + at) as u32, crossing, best, umpire);
+        }
+        true
     }
 
-    /// Takes over a triangle where it is nearer.
+    /// Takes over a triangle where it is nearer; where it is crossed, if that is known.
     #[inline(always)]
-    fn weigh(&self, tree: &WideTree, slot: u32, best: &mut LoneBest, umpire: &mut dyn Umpire) {
-        let facet = tree.facet(slot);
-        if facet == self.left {
+    fn weigh(
+        &self,
+        tree: &WideTree,
+        slot: u32,
+        crossing: Option<(f32, f32)>,
+        best: &mut LoneBest,
+        umpire: &mut dyn Umpire,
+    ) {
+        if tree.facet(slot) == self.left {
             return;
         }
-        match meet(&tree.triangle(slot), &self.ray) {
-            Verdict::Miss => return,
-            Verdict::Hit(t, error) => {
-                if t + error < best.min || t - error > best.t + best.error {
-                    return;
-                }
-                if t - error > best.min && t + error < best.t - best.error {
-                    (best.t, best.error, best.slot) = (t, error, Some(slot));
-                    return;
-                }
+        if let Some((t, error)) = crossing {
+            if t - error > best.t + best.error {
+                return;
             }
-            Verdict::Open => {}
+            if t - error > best.begin[1] && t + error < best.t - best.error {
+                (best.t, best.error, best.slot) = (t, error, Some(slot));
+                return;
+            }
         }
-        let held = best.slot.map(|slot| tree.facet(slot));
-        if held != Some(facet)
-            && let Some(t) = umpire.decide(self.lane, facet, held)
-        {
-            (best.t, best.error, best.slot) = (t, t.abs() * f64::EPSILON, Some(slot));
+        self.settle(tree, slot, best, umpire);
+    }
+
+    /// Decides what `f32` leaves open.
+    #[cold]
+    #[inline(never)]
+    fn settle(&self, tree: &WideTree, slot: u32, best: &mut LoneBest, umpire: &mut dyn Umpire) {
+        let (facet, held) = (tree.facet(slot), best.slot);
+        if held == Some(slot) {
+            return;
         }
+        // A rounding of the difference, towards smaller numbers.
+        let least = f64::from((best.t - best.error) * (1.0 - LONE_DEPTH));
+        let before = if best.any { f64::INFINITY } else { least };
+        let held_triangle = held.map(|slot| tree.triangle(slot));
+        let t = match settle(&tree.triangle(slot), held_triangle, before, (&self.ray, best.span)) {
+            Settled::Not => None,
+            Settled::Nearer(t) => Some(t),
+            Settled::Open => umpire.decide(self.lane, facet, held.map(|slot| tree.facet(slot))),
+        };
+        if let Some(t) = t {
+            let t = t as f32;
+            (best.t, best.error, best.slot) = (t, t.abs() * LONE_DEPTH, Some(slot));
+        }
+    }
+}
+
+/// Corners of eight triangles: across the ray and along it.
+struct Corner<S: Simd> {
+    x: f32x8<S>,
+    y: f32x8<S>,
+    z: f32x8<S>,
+}
+
+impl<S: Simd> Corner<S> {
+    /// The larger coordinate across.
+    #[inline(always)]
+    fn across(&self) -> f32x8<S> {
+        self.x.abs().max(self.y.abs())
     }
 }
 
 /// Which side of the line through two points of a plane its origin lies on.
 #[inline(always)]
-fn edge<S: Simd>(v: (f32x8<S>, f32x8<S>), w: (f32x8<S>, f32x8<S>)) -> f32x8<S> {
-    v.0.mul_sub_precise(w.1, v.1 * w.0)
+fn edge<S: Simd>(v: &Corner<S>, w: &Corner<S>) -> f32x8<S> {
+    v.x.mul_sub_precise(w.y, v.y * w.x)
 }
 
 impl Waiting<'_> {

@@ -194,7 +194,7 @@ impl<'a, S: Simd> Tracer<'a, S> {
         let mut visits = std::mem::take(self.visits);
         for lane in Bits(packet.live[0].bits()) {
             let Some((ray, span)) = umpire.ray(lane) else { continue };
-            let mut found = LoneBest { t: span.max, error: 0.0, slot: None, any: asked.any, min: span.min };
+            let mut found = LoneBest::nothing_on(span).for_any(asked.any);
             only.instance.search_one(
                 self.s,
                 (ray, lane, left.lane(lane)),
