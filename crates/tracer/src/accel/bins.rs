@@ -202,15 +202,19 @@ impl Bins {
         for item in items {
             let extent = Extent::of(s, item);
             let places = scale.bins_of(extent);
-            let bins = bins.around.iter_mut().zip(&mut bins.count);
-            for ((around, count), place) in bins.zip(places) {
-                let place = place as usize % MOST_BINS;
-                let bin = &mut around[place];
-                Extent::of(s, bin).union(extent).store(bin);
-                count[place] += 1;
-            }
+            bins.add(s, 0, places[0], extent);
+            bins.add(s, 1, places[1], extent);
+            bins.add(s, 2, places[2], extent);
         }
         bins
+    }
+
+    #[inline(always)]
+    fn add<S: Simd>(&mut self, s: S, axis: usize, place: i32, extent: Extent<S>) {
+        let place = place as usize % MOST_BINS;
+        let bin = &mut self.around[axis][place];
+        Extent::of(s, bin).union(extent).store(bin);
+        self.count[axis][place] += 1;
     }
 
     /// Of these and other triangles.
