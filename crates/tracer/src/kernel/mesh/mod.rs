@@ -72,7 +72,7 @@ fn settle(
 }
 
 /// Packets of rays that walk a tree together at most.
-pub(crate) const GROUP: usize = 4;
+pub(crate) const GROUP: usize = 16;
 
 /// A child that is still to be visited.
 #[derive(Clone, Copy, Default)]

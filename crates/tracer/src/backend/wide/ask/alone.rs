@@ -39,12 +39,12 @@ impl<S: Simd> Group<S> {
         self.at + packet * F::<S>::LANES
     }
 
-    /// One of the packets.
+    /// Some of the packets.
     #[inline(always)]
-    fn packet(&self, s: S, packet: usize) -> Self {
+    fn part(&self, s: S, first: usize, packets: usize) -> Self {
         let mut live = [M::splat(s, false); GROUP];
-        live[0] = self.live[packet % GROUP];
-        Self { at: self.start(packet), packets: 1, live }
+        live[..packets].copy_from_slice(&self.live[first..first + packets]);
+        Self { at: self.start(first), packets, live }
     }
 }
 
@@ -87,16 +87,22 @@ impl<'a, S: Simd> Tracer<'a, S> {
         (answers, backwards): (&mut Answers<'_, '_>, &mut bool),
     ) {
         let mut slots = [U::splat(self.s, NONE); GROUP];
-        if !self.find_together(asked, only, group, (&mut slots, backwards)) {
-            for (packet, slot) in slots.iter_mut().enumerate().take(group.packets) {
-                let (one, slots) = (group.packet(self.s, packet), std::slice::from_mut(slot));
-                if !self.find_together(asked, only, &one, (slots, backwards)) {
-                    *slot = self.find_each(asked, only, &one);
-                }
+        // What does not go together is halved; what does doubles what is tried next.
+        let (mut first, mut size) = (0, group.packets);
+        while first < group.packets {
+            let part = group.part(self.s, first, size.min(group.packets - first));
+            if self.find_together(asked, only, &part, (&mut slots[first..], backwards)) {
+                (first, size) = (first + part.packets, 2 * part.packets);
+            } else if part.packets == 1 {
+                slots[first] = self.find_each(asked, only, &part);
+                first += 1;
+            } else {
+                size = part.packets.div_ceil(2);
             }
         }
         for (packet, slots) in slots.into_iter().enumerate().take(group.packets) {
-            self.store_packet(asked, only, (&group.packet(self.s, packet), slots), answers);
+            let part = group.part(self.s, packet, 1);
+            self.store_packet(asked, only, (&part, slots), answers);
         }
     }
 
