@@ -12,7 +12,7 @@ use super::wide_tree::{Block8, Node8, WIDTH, WideTree};
 use super::{MAX_DEPTH, Preset};
 
 /// Most triangles of a leaf of a node that has no room for two: a node of two leaves costs more to visit than two blocks.
-const FULL_LEAF: usize = 12;
+const FULL_LEAF: usize = 20;
 /// Stretches longer than this are shared out among threads, so many triangles at a time.
 const PARALLEL: usize = 8192;
 /// A leaf has at most this many triangles, and never fewer than could be split: a block is tested in one go, so two
