@@ -10,9 +10,7 @@ use fearless_simd::{Simd, f32x8};
 use super::{Settled, Umpire, Visit, Visits, Waiting, settle};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::Bits;
-use crate::numeric::{
-    BOX_STRETCH, LONE_DEPTH, LONE_FLOOR, LONE_PAD, LONE_SHARE, LONE_SPREAD, LONE_STEEP,
-};
+use crate::numeric::{BOX_STRETCH, LONE_DEPTH, LONE_FLOOR, LONE_PAD, LONE_SHARE, LONE_SPREAD, LONE_STEEP};
 
 /// A ray in a mesh's own space.
 pub(crate) struct Lone {
@@ -99,7 +97,8 @@ impl Lone {
         let largest = origin.abs().max_element();
         let pad = largest * LONE_PAD + f32::MIN_POSITIVE;
         let reach = reach + largest;
-        let shear = [direction[axes[0]] / direction[last], direction[axes[1]] / direction[last]];
+        let along = 1.0 / direction[last];
+        let shear = [direction[axes[0]] * along, direction[axes[1]] * along];
         let mut lone = Self {
             ray,
             lane,
@@ -110,7 +109,7 @@ impl Lone {
             axes,
             origin: origin.to_array(),
             shear: [shear[0] as f32, shear[1] as f32],
-            along: (1.0 / direction[last]) as f32,
+            along: along as f32,
             slack: LONE_SHARE * reach,
             floor: (LONE_FLOOR * reach) * (LONE_FLOOR * reach) + f32::MIN_POSITIVE,
         };
@@ -258,12 +257,11 @@ impl Lone {
         let (e, f) = (b.z - a.z, c.z - a.z);
         let z = e.mul_add_precise(v, f * w).mul_add_precise(inverse, a.z);
         let steep = error * f32x8::splat(s, LONE_STEEP);
-        let z_error = (steep * inverse.abs()).mul_add_precise(e.abs().max(f.abs()), f32x8::splat(s, self.slack));
+        let z_error =
+            (steep * inverse.abs()).mul_add_precise(e.abs().max(f.abs()), f32x8::splat(s, self.slack));
         let t = z * f32x8::splat(s, self.along);
-        let t_error = t.abs().mul_add_precise(
-            f32x8::splat(s, LONE_DEPTH),
-            z_error * f32x8::splat(s, self.along.abs()),
-        );
+        let t_error =
+            t.abs().mul_add_precise(f32x8::splat(s, LONE_DEPTH), z_error * f32x8::splat(s, self.along.abs()));
         let known = (low.simd_gt(error) | high.simd_lt(-error)) & area.abs().simd_gt(steep + steep);
         let past = (t - t_error).simd_gt(best.t + best.error) | (t + t_error).simd_lt(best.begin[0]);
         let open = maybe & !(known & past).to_bitmask();
