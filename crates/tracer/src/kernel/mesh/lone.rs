@@ -7,7 +7,7 @@ use catoptra_core::{Ray, Span};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::{Settled, Umpire, Visit, Visits, Waiting, settle};
+use super::{Edges, Settled, Umpire, Visit, Visits, Waiting, settle};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::Bits;
 use crate::numeric::{BOX_STRETCH, LONE_DEPTH, LONE_FLOOR, LONE_PAD, LONE_SHARE, LONE_SPREAD, LONE_STEEP};
@@ -311,7 +311,8 @@ impl Lone {
         let least = f64::from((best.t - best.error) * (1.0 - LONE_DEPTH));
         let before = if best.any { f64::INFINITY } else { least };
         let held_triangle = held.map(|slot| tree.triangle(slot));
-        let t = match settle(&tree.triangle(slot), held_triangle, before, (&self.ray, best.span)) {
+        let next = (&tree.triangle(slot), Edges::Open);
+        let t = match settle(next, held_triangle, before, (&self.ray, best.span)) {
             Settled::Not => None,
             Settled::Nearer(t) => Some(t),
             Settled::Open => umpire.decide(self.lane, facet, held.map(|slot| tree.facet(slot))),

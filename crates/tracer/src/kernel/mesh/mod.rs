@@ -19,7 +19,7 @@ pub(crate) use fan::{Fan, FanRays};
 pub(crate) use lone::{Lone, LoneBest};
 pub(crate) use precise::LaneTriangles;
 
-use precise::{Verdict, depth, meet};
+use precise::{Verdict, crossing, depth, meet};
 
 /// Decides for certain what bounds leave open.
 pub(crate) trait Umpire {
@@ -40,14 +40,26 @@ enum Settled {
     Open,
 }
 
+/// What is known of a ray and a triangle's edges.
+#[derive(Clone, Copy)]
+enum Edges {
+    /// The ray passes within all of them.
+    Inside,
+    Open,
+}
+
 /// Compares a triangle with the one a ray has met, or with the least `t` at which it may have met anything else.
 fn settle(
-    next: &[[f32; 3]; 3],
+    (next, edges): (&[[f32; 3]; 3], Edges),
     held: Option<[[f32; 3]; 3]>,
     before: f64,
     (ray, span): (&Ray, Span),
 ) -> Settled {
-    let (t, error) = match meet(next, ray) {
+    let verdict = match edges {
+        Edges::Inside => crossing(next, ray),
+        Edges::Open => meet(next, ray),
+    };
+    let (t, error) = match verdict {
         Verdict::Miss => return Settled::Not,
         Verdict::Open => return Settled::Open,
         Verdict::Hit(t, error) => (t, error),

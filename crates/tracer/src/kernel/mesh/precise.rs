@@ -39,6 +39,12 @@ pub(crate) fn meet(corners: &[[f32; 3]; 3], ray: &Ray) -> Verdict {
     if !(low > edge_error || high < -edge_error) {
         return Verdict::Open;
     }
+    crossing(corners, ray)
+}
+
+/// Where a ray meets a triangle that it passes within all edges of.
+#[inline(always)]
+pub(crate) fn crossing(corners: &[[f32; 3]; 3], ray: &Ray) -> Verdict {
     let (t, error) = depth(corners, ray);
     if error.is_finite() { Verdict::Hit(t, error) } else { Verdict::Open }
 }

@@ -5,7 +5,7 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
 use super::edges::Prepared;
-use super::{Fan, FanRays, Settled, Umpire, settle};
+use super::{Edges, Fan, FanRays, Settled, Umpire, settle};
 use crate::accel::{WIDTH, WideTree};
 use crate::lanes::{Bits, F, M, U};
 use crate::numeric::FAN_SLOPE;
@@ -61,18 +61,18 @@ impl Fan {
             }
         }
         if open.any() {
-            self.settle(tree, open.bits(), (slot, facet), (rays, packet), umpire);
+            self.settle(tree, [open.bits(), inside.bits()], (slot, facet), (rays, packet), umpire);
         }
         (take | open).any()
     }
 
-    /// Decides lane by lane what `f32` leaves open.
+    /// Decides lane by lane what `f32` leaves open; some pass within all edges for certain.
     #[cold]
     #[inline(never)]
     fn settle<S: Simd>(
         &self,
         tree: &WideTree,
-        lanes: u64,
+        [lanes, inside]: [u64; 2],
         (slot, facet): (u32, u32),
         (rays, packet): (&mut FanRays<S>, usize),
         umpire: &mut dyn Umpire,
@@ -84,7 +84,10 @@ impl Fan {
                 continue;
             }
             rays.settled += 1;
-            let Some(t) = self.nearer(tree, lane, (slot, facet), (rays, packet), umpire) else { continue };
+            let edges = if inside >> lane & 1 == 1 { Edges::Inside } else { Edges::Open };
+            let Some(t) = self.nearer(tree, (lane, edges), (slot, facet), (rays, packet), umpire) else {
+                continue;
+            };
             let z = t as f32 * rays.scale.lane(lane);
             rays.z.set(lane, z);
             rays.error.set(lane, z.abs() * (FAN_SLOPE + FAN_SLOPE));
@@ -102,7 +105,7 @@ impl Fan {
     fn nearer<S: Simd>(
         &self,
         tree: &WideTree,
-        lane: usize,
+        (lane, edges): (usize, Edges),
         (slot, facet): (u32, u32),
         (rays, packet): (&FanRays<S>, usize),
         umpire: &mut dyn Umpire,
@@ -113,7 +116,8 @@ impl Fan {
         // Two roundings of a sum and a quotient, towards smaller numbers.
         let least = (rays.z.lane(lane) - rays.error.lane(lane)) * (1.0 - 4.0 * FAN_SLOPE);
         let before = if self.any { f64::INFINITY } else { f64::from(least / rays.scale.lane(lane)) };
-        match settle(&tree.triangle(slot), other.map(|slot| tree.triangle(slot)), before, (&ray, span)) {
+        let (next, held) = (tree.triangle(slot), other.map(|slot| tree.triangle(slot)));
+        match settle((&next, edges), held, before, (&ray, span)) {
             Settled::Not => None,
             Settled::Nearer(t) => Some(t),
             Settled::Open => umpire.decide(of_all, facet, other.map(|slot| tree.facet(slot))),
