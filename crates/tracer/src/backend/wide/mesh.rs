@@ -44,7 +44,7 @@ impl<S: Simd> Tracer<'_, S> {
         let reach = self.reach(instance);
         let (origin, direction) = self.own_lines(packet, instance);
         let lines = Lines { origin, direction, live: packet.live };
-        let slots = match Bundle::of(self.s, 1, |_| lines, reach) {
+        let slots = match Bundle::<S, 1>::of(self.s, 1, |_| lines, reach) {
             Some(bundle) => {
                 let slopes = bundle.slopes(0);
                 // From metres to depth.
@@ -83,8 +83,8 @@ impl<S: Simd> Tracer<'_, S> {
         // Forwards where all start at one point, backwards where all end at one; lone where they do neither.
         let ahead = Lines { origin: start, direction: end - start, live: open };
         let back = Lines { origin: end, direction: start - end, live: open };
-        let bundle =
-            Bundle::of(self.s, 1, |_| ahead, reach).or_else(|| Bundle::of(self.s, 1, |_| back, reach));
+        let bundle = Bundle::<S, 1>::of(self.s, 1, |_| ahead, reach)
+            .or_else(|| Bundle::of(self.s, 1, |_| back, reach));
         let slots = match bundle {
             Some(bundle) => {
                 let slopes = bundle.slopes(0);
@@ -269,7 +269,7 @@ impl<S: Simd> Tracer<'_, S> {
         let apex = instance.own_points(self.s, splat_wide(self.s, ways.target.place));
         let start = instance.own_points(self.s, widen3(ways.rays.origin));
         let lines = Lines { origin: apex, direction: start - apex, live: open };
-        let bundle = Bundle::of(self.s, 1, |_| lines, self.reach(instance))?;
+        let bundle = Bundle::<S, 1>::of(self.s, 1, |_| lines, self.reach(instance))?;
         let (slopes, zero) = (bundle.slopes(0), F::splat(self.s, 0.0));
         let off = ways.rays.reach * F::splat(self.s, POINT_ERROR * instance.scale());
         let error = slopes.scale.mul_add(F::splat(self.s, END_ERROR), off);

@@ -5,7 +5,6 @@ use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::GROUP;
 use super::fan::{Aim, Fan, FanRays};
 use crate::lanes::{D, D3, F, M, U, splat_wide};
 use crate::numeric::{FAN_SLOPE, FAN_SPREAD, FAN_WIDTH};
@@ -18,10 +17,10 @@ pub(crate) struct Lines<S: Simd> {
     pub(crate) live: M<S>,
 }
 
-/// Packets of lines through one point.
-pub(crate) struct Bundle<S: Simd> {
+/// Packets of lines through one point, up to so many.
+pub(crate) struct Bundle<S: Simd, const MOST: usize> {
     pub(crate) fan: Fan,
-    slopes: [Slopes<S>; GROUP],
+    slopes: [Slopes<S>; MOST],
     /// How far the lines pass the point by.
     pub(crate) slack: f32,
 }
@@ -38,7 +37,7 @@ pub(crate) struct Slopes<S: Simd> {
     around: [[f32; 2]; 2],
 }
 
-impl<S: Simd> Bundle<S> {
+impl<S: Simd, const MOST: usize> Bundle<S, MOST> {
     /// Of so many packets, if their lines go through one point and lie close enough together; for a mesh of that reach.
     /// Origins may be `off` by so much, beyond the roundings of `f64`. Compiled apart.
     #[inline(always)]
@@ -63,7 +62,7 @@ impl<S: Simd> Bundle<S> {
     ) -> Option<Self> {
         let (apex, along) = (0..packets).find_map(|packet| lines(packet).first())?;
         let aim = Aim::of(along);
-        let mut slopes = [Slopes::along(s, &aim, along); GROUP];
+        let mut slopes = [Slopes::along(s, &aim, along); MOST];
         let (mut apart, mut least) = (F::splat(s, 0.0), slopes[0].scale);
         let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
         for (packet, slopes) in slopes.iter_mut().enumerate().take(packets) {
@@ -98,7 +97,7 @@ impl<S: Simd> Bundle<S> {
     /// The slopes of a packet.
     #[inline(always)]
     pub(crate) fn slopes(&self, packet: usize) -> &Slopes<S> {
-        &self.slopes[packet % GROUP]
+        &self.slopes[packet % MOST]
     }
 }
 

@@ -154,7 +154,12 @@ impl<'a, S: Simd> Tracer<'a, S> {
     }
 
     #[inline(always)]
-    fn bundle_of_rays(&self, asked: &Asked<'_>, only: Only<'_>, group: &Group<S>) -> Option<Bundle<S>> {
+    fn bundle_of_rays(
+        &self,
+        asked: &Asked<'_>,
+        only: Only<'_>,
+        group: &Group<S>,
+    ) -> Option<Bundle<S, GROUP>> {
         Bundle::of(
             self.s,
             group.packets,
@@ -175,7 +180,7 @@ impl<'a, S: Simd> Tracer<'a, S> {
         only: Only<'_>,
         group: &Group<S>,
         backwards: bool,
-    ) -> Option<Bundle<S>> {
+    ) -> Option<Bundle<S, GROUP>> {
         Bundle::of(
             self.s,
             group.packets,
