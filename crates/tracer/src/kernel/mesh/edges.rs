@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::Fan;
+use super::{Fan, bound_eight};
 use crate::accel::{Block8, WIDTH};
 use crate::numeric::{FAN_EDGE, FAN_TOP};
 
@@ -41,7 +41,8 @@ impl Fan {
             f32x8::splat(s, relative),
             f32x8::splat(s, 2.0 * spread * self.slack + f32::MIN_POSITIVE),
         );
-        let edge_error = length.mul_add_precise(per_length, f32x8::splat(s, f32::MIN_POSITIVE));
+        let edge_error =
+            bound_eight(s, length.mul_add_precise(per_length, f32x8::splat(s, f32::MIN_POSITIVE)));
         let maybe = seen(s, &planes, edge_error, slopes);
         let length2 = length * length;
         let top = p[0].mul_add_precise(normal[0], p[1].mul_add_precise(normal[1], p[2] * normal[2]));

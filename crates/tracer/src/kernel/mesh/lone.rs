@@ -7,7 +7,7 @@ use catoptra_core::{Ray, Span};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::{Edges, Settled, Umpire, Visit, Visits, Waiting, settle};
+use super::{Edges, Settled, Umpire, Visit, Visits, Waiting, bound_eight, settle};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::Bits;
 use crate::numeric::{BOX_STRETCH, LONE_DEPTH, LONE_FLOOR, LONE_PAD, LONE_SHARE, LONE_SPREAD, LONE_STEEP};
@@ -246,7 +246,7 @@ impl Lone {
         let most = a.across().max(b.across()).max(c.across());
         let (u, v, w) = (edge(&c, &b), edge(&a, &c), edge(&b, &a));
         let spread = most.mul_add_precise(f32x8::splat(s, LONE_SPREAD), f32x8::splat(s, self.slack));
-        let error = most.mul_add_precise(spread, f32x8::splat(s, self.floor));
+        let error = bound_eight(s, most.mul_add_precise(spread, f32x8::splat(s, self.floor)));
         let (low, high) = (u.min(v).min(w), u.max(v).max(w));
         let maybe = !(low.simd_lt(-error) & high.simd_gt(error)).to_bitmask() & own;
         if maybe == 0 {
@@ -262,6 +262,7 @@ impl Lone {
         let t = z * f32x8::splat(s, self.along);
         let t_error =
             t.abs().mul_add_precise(f32x8::splat(s, LONE_DEPTH), z_error * f32x8::splat(s, self.along.abs()));
+        let t_error = bound_eight(s, t_error);
         let known = (low.simd_gt(error) | high.simd_lt(-error)) & area.abs().simd_gt(steep + steep);
         let past = (t - t_error).simd_gt(best.t + best.error) | (t + t_error).simd_lt(best.begin[0]);
         let open = maybe & !(known & past).to_bitmask();

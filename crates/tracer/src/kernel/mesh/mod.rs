@@ -11,8 +11,11 @@ mod precise;
 mod weigh;
 
 use catoptra_core::{Ray, Span};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x8};
 
 use crate::accel::{MAX_DEPTH, Node8, WIDTH};
+use crate::numeric::CERTAIN;
 
 pub(crate) use bundle::{Bundle, Lines};
 pub(crate) use fan::{Fan, FanRays};
@@ -20,6 +23,12 @@ pub(crate) use lone::{Lone, LoneBest};
 pub(crate) use precise::LaneTriangles;
 
 use precise::{Verdict, crossing, depth, meet};
+
+/// As [`bound`](super::bound), of eight triangles.
+#[inline(always)]
+fn bound_eight<S: Simd>(s: S, error: f32x8<S>) -> f32x8<S> {
+    if CERTAIN { error } else { f32x8::splat(s, 0.0) }
+}
 
 /// Decides for certain what bounds leave open.
 pub(crate) trait Umpire {

@@ -7,6 +7,7 @@ use fearless_simd::prelude::*;
 use super::edges::Prepared;
 use super::{Edges, Fan, FanRays, Settled, Umpire, settle};
 use crate::accel::{WIDTH, WideTree};
+use crate::kernel::bound;
 use crate::lanes::{Bits, F, M, U};
 use crate::numeric::FAN_SLOPE;
 
@@ -33,7 +34,7 @@ impl Fan {
         let at = slot as usize % WIDTH;
         let [a, b, c] = &prepared.edges;
         let (a, b, c) = (rays.value(s, a, at), rays.value(s, b, at), rays.value(s, c, at));
-        let error = F::splat(s, prepared.edge_error[at]);
+        let error = bound(s, F::splat(s, prepared.edge_error[at]));
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         let candidate = rays.live & !(low.less(-error) & error.less(high)) & !rays.left.is(facet);
         if !candidate.any() {
@@ -41,12 +42,12 @@ impl Fan {
         }
         let inside = error.less(low) | high.less(-error);
         let slope = rays.value(s, &prepared.normal, at);
-        let slope_error = F::splat(s, prepared.slope_error[at]);
+        let slope_error = bound(s, F::splat(s, prepared.slope_error[at]));
         let inverse = F::splat(s, 1.0) / slope;
         let z = F::splat(s, prepared.top[at]) * inverse;
         let doubt = z.abs().mul_add(slope_error, F::splat(s, prepared.top_error[at])) * inverse.abs();
         // Three quarters of a slope that is certain are certain; and a few roundings of z.
-        let z_error = z.abs().mul_add(F::splat(s, FAN_SLOPE + FAN_SLOPE), doubt * F::splat(s, 1.5));
+        let z_error = bound(s, z.abs().mul_add(F::splat(s, FAN_SLOPE + FAN_SLOPE), doubt * F::splat(s, 1.5)));
         let steep = (slope_error * F::splat(s, 4.0)).less(slope.abs());
         let behind = (rays.z + rays.error).less(z - z_error) | (z + z_error).less(rays.begin[0]);
         let nearer = (z + z_error).less(rays.z - rays.error) & rays.begin[1].less(z - z_error);
