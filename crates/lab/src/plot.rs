@@ -71,9 +71,13 @@ impl Plot<'_> {
                 .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], color.stroke_width(2)));
             chart.draw_series(points.map(|at| Circle::new(at, 3, color.filled())))?;
         }
+        // The corner that the lines leave free.
+        let rising = self.lines.iter().any(|(_, points)| {
+            points.first().zip(points.last()).is_some_and(|(first, last)| last.1 > first.1)
+        });
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
+            .position(if rising { SeriesLabelPosition::UpperLeft } else { SeriesLabelPosition::UpperRight })
             .background_style(WHITE.mix(0.85))
             .border_style(BLACK)
             .draw()?;
