@@ -269,6 +269,22 @@ impl<S: Simd> Lane for F<S> {
 static COUNTED: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 impl<S: Simd> U<S> {
+    /// The numbers in the lanes of a mask, each with all lanes that hold it.
+    #[inline(always)]
+    pub(crate) fn groups(self, mask: M<S>) -> impl Iterator<Item = (u32, M<S>)> {
+        let mut left = mask;
+        std::iter::from_fn(
+            #[inline(always)]
+            move || {
+                let bits = left.bits();
+                let number = (bits != 0).then(|| self.lane(bits.trailing_zeros() as usize))?;
+                let lanes = left & self.is(number);
+                left = left & !lanes;
+                Some((number, lanes))
+            },
+        )
+    }
+
     #[inline(always)]
     pub(crate) fn splat(s: S, v: u32) -> Self {
         Self(S::u32s::splat(s, v))

@@ -336,11 +336,7 @@ impl Instance {
     pub(super) fn facets<S: Simd>(&self, s: S, facets: U<S>, lanes: M<S>) -> LaneTriangles<S> {
         let (triangles, at) = (self.tree.mesh().triangles(), self.tree.mesh().positions());
         let mut all = LaneTriangles::nothing(s);
-        let mut left = lanes;
-        while let Some(lane) = left.lanes().next() {
-            let facet = facets.lane(lane);
-            let same = left & facets.is(facet);
-            left = left & !same;
+        for (facet, same) in facets.groups(lanes) {
             all.set(s, same, facet, &triangles[facet as usize].map(|corner| at[corner as usize]));
         }
         all
@@ -350,11 +346,7 @@ impl Instance {
     #[inline(always)]
     pub(super) fn triangles<S: Simd>(&self, s: S, slots: U<S>, lanes: M<S>) -> LaneTriangles<S> {
         let mut all = LaneTriangles::nothing(s);
-        let mut left = lanes;
-        while let Some(lane) = left.lanes().next() {
-            let slot = slots.lane(lane);
-            let same = left & slots.is(slot);
-            left = left & !same;
+        for (slot, same) in slots.groups(lanes) {
             let block = &self.tree.tree.blocks[slot as usize / WIDTH];
             all.set(s, same, block.facet[slot as usize % WIDTH], &block.triangle(slot as usize));
         }

@@ -62,22 +62,6 @@ impl<S: Simd> Best<S> {
         self.facet.store(&mut found.facet[at..]);
     }
 
-    /// The facets that the lanes of `mask` meet, each with its lanes.
-    #[inline(always)]
-    pub(super) fn facets(&self, mask: M<S>) -> impl Iterator<Item = (u32, M<S>)> {
-        let (facets, mut left) = (self.facet, mask);
-        std::iter::from_fn(
-            #[inline(always)]
-            move || {
-                let first = left.bits();
-                let facet = (first != 0).then(|| facets.lane(first.trailing_zeros() as usize))?;
-                let lanes = left & facets.is(facet);
-                left = left & !lanes;
-                Some((facet, lanes))
-            },
-        )
-    }
-
     /// Lanes that meet something.
     #[inline(always)]
     pub(super) fn hits(&self) -> M<S> {

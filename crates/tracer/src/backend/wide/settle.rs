@@ -83,7 +83,7 @@ impl<S: Simd> Tracer<'_, S> {
                 let triangles = &columns.triangles[first as usize..];
                 let none = D::splat(self.s, 0.0);
                 let (mut normal, mut distance) = (D3::splat(none), none);
-                for (facet, lanes) in best.facets(mask) {
+                for (facet, lanes) in best.facet.groups(mask) {
                     let plane = &triangles[facet as usize].plane;
                     normal = pick3(lanes, splat_wide(self.s, plane.normal), normal);
                     distance = D::pick(lanes, D::splat(self.s, plane.distance), distance);

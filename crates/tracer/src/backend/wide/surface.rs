@@ -60,7 +60,7 @@ impl<S: Simd> Tracer<'_, S> {
             Row::Triangles(first, _) => {
                 let triangles = &columns.triangles[first as usize..];
                 let mut normal = point;
-                for (facet, lanes) in best.facets(mask) {
+                for (facet, lanes) in best.facet.groups(mask) {
                     let own = splat3(self.s, triangles[facet as usize].plane.normal32);
                     normal = F3::select(lanes, own, normal);
                 }
