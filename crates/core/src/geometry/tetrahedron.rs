@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::triangle::{check_area, corner_values, meet_triangle, unit_normal};
 use super::{Geometry, Meeting};
-use crate::exact::{Located, Number, Verdict};
+use crate::exact::{Located, Number, Vector, Verdict};
 use crate::numeric::EDGE_ROUNDING;
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Values};
@@ -85,7 +85,10 @@ impl Geometry for Tetrahedron {
         span: Span,
         leaving: Option<u32>,
     ) -> Verdict<Option<Meeting<N>>> {
-        if leaving == Some(face) { Ok(None) } else { meet_triangle(&self.face(face), own, span, face) }
+        match leaving {
+            Some(left) if left == face || runs_out::<N>(&self.face(left), own)? => Ok(None),
+            _ => meet_triangle(&self.face(face), own, span, face),
+        }
     }
 
     fn crossing(&self, _: &Ray, at: Located, face: u32) -> Option<Crossing> {
@@ -105,13 +108,39 @@ impl Geometry for Tetrahedron {
     }
 }
 
+/// Whether a ray runs to the outer side of the face that it leaves.
+fn runs_out<N: Number>(face: &[DVec3; 3], ray: &Ray) -> Verdict<bool> {
+    let [p, q, r] = face.map(Vector::<N>::of);
+    let normal = q.minus(&p).cross(&r.minus(&p));
+    Ok(normal.dot(&Vector::of(ray.direction)).sign()?.is_gt())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn corner() -> Tetrahedron {
+        Tetrahedron::new(DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z).unwrap()
+    }
+
+    #[test]
+    fn a_ray_that_leaves_it_outwards_does_not_meet_it_again_whatever_rounding_made_of_its_origin() {
+        // Off face z = 0 by a rounding to the inner side, and beyond face x = 0 by another.
+        let origin = DVec3::new(-1e-17, 0.2, 1e-17);
+        let outwards = Ray::new(origin, DVec3::new(4.0, 0.0, -1.0));
+        assert_eq!(corner().cross(&outwards, Span::AHEAD, None).map(|hit| hit.facet), Some(1));
+        assert_eq!(corner().cross(&outwards, Span::AHEAD, Some(3)), None);
+    }
+
+    #[test]
+    fn a_ray_that_leaves_a_face_inwards_meets_another() {
+        let inwards = Ray::new(DVec3::new(0.2, 0.2, 0.0), DVec3::Z);
+        assert_eq!(corner().cross(&inwards, Span::AHEAD, Some(3)).map(|hit| hit.facet), Some(0));
+    }
+
     #[test]
     fn every_face_looks_outwards() {
-        let t = Tetrahedron::new(DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z).unwrap();
+        let t = corner();
         let middle = DVec3::splat(0.25);
         for i in 0..4 {
             let face = t.face(i);

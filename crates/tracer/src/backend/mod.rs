@@ -9,7 +9,6 @@ mod wide;
 use catoptra_core::Raster;
 use catoptra_core::glam::DVec3;
 
-use crate::numeric::PLAN_MARGIN;
 use crate::query::{HitSlice, RaySlice};
 use crate::{Snapshot, Stats, Tile, View};
 
@@ -24,8 +23,8 @@ pub struct Frame<'a> {
     pub raster: Raster,
     /// The eye, relative to the snapshot's origin.
     pub(crate) eye: DVec3,
-    /// Whether the eye, and so every ray of the view, stays outside all spheres.
-    pub(crate) outside_spheres: bool,
+    /// Whether the eye, and so every ray of the view, stays outside all convex solids.
+    pub(crate) outside_solids: bool,
 }
 
 impl<'a> Frame<'a> {
@@ -33,10 +32,7 @@ impl<'a> Frame<'a> {
     #[must_use]
     pub fn new(snapshot: &'a Snapshot, view: &'a View) -> Self {
         let frame = Self::without_eye(snapshot, view);
-        let spheres = &snapshot.columns().spheres;
-        let outside_spheres =
-            spheres.iter().all(|row| row.center.distance(frame.eye) > row.radius * (1.0 + PLAN_MARGIN));
-        Self { outside_spheres, ..frame }
+        Self { outside_solids: snapshot.columns().is_outside(frame.eye), ..frame }
     }
 
     /// As [`new`](Self::new), without asking where the eye lies.
@@ -44,7 +40,7 @@ impl<'a> Frame<'a> {
         let raster = view.camera.raster(view.size.width, view.size.height);
         let eye = raster.eye - snapshot.origin();
         let raster = Raster { eye: raster.eye - snapshot.frame(), ..raster };
-        Self { snapshot, view, raster, eye, outside_spheres: false }
+        Self { snapshot, view, raster, eye, outside_solids: false }
     }
 }
 

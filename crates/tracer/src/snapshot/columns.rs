@@ -9,7 +9,7 @@ use super::Prim;
 use super::origin::relative;
 use crate::accel::MeshTree;
 use crate::kernel::{PlaneRow, RectangleRow, SphereRow, TriangleRow};
-use crate::numeric::ORDINARY;
+use crate::numeric::{ORDINARY, PLAN_MARGIN};
 
 /// Where a mesh stands.
 #[derive(Debug, Clone)]
@@ -119,6 +119,27 @@ impl Columns {
     /// Whether a shape is a sphere with a kernel.
     pub(crate) fn is_sphere(&self, prim: u32) -> bool {
         matches!(self.rows[prim as usize], Row::Sphere(_))
+    }
+
+    /// Whether a shape with a kernel is flat or a convex solid: rays that leave it outwards do not meet it again.
+    pub(crate) fn is_convex(&self, prim: u32) -> bool {
+        !matches!(self.rows[prim as usize], Row::Instance(_) | Row::General)
+    }
+
+    /// Whether a point lies outside all convex solids that have a kernel.
+    pub(crate) fn is_outside(&self, point: DVec3) -> bool {
+        let off_sphere = |row: &SphereRow| row.center.distance(point) > row.radius * (1.0 + PLAN_MARGIN);
+        let before = |face: &TriangleRow| {
+            let PlaneRow { normal, distance, .. } = face.plane;
+            normal.dot(point) - distance > PLAN_MARGIN * (distance.abs() + point.abs().element_sum())
+        };
+        let off_faces = |row: &Row| match *row {
+            Row::Triangles(first, count) if count > 1 => {
+                self.triangles[first as usize..(first + count) as usize].iter().any(before)
+            }
+            _ => true,
+        };
+        self.spheres.iter().all(off_sphere) && self.rows.iter().all(off_faces)
     }
 
     /// How many shapes have no kernel.

@@ -20,6 +20,7 @@ mod queue;
 mod search;
 mod settle;
 mod shadow;
+mod solid;
 mod spread;
 mod surface;
 mod umpire;
@@ -181,7 +182,7 @@ fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
         visits,
         chunk: &mut Chunk::new(s),
         spreads: &mut Spreads::nothing(s),
-        outside: frame.outside_spheres,
+        outside: frame.outside_solids,
     };
     seen[0].all(frame.snapshot.columns());
     for sample in 0..grid * grid {
@@ -216,7 +217,7 @@ struct Tracer<'a, S: Simd> {
     visits: &'a mut Visits,
     chunk: &'a mut Chunk<S>,
     spreads: &'a mut Spreads<S>,
-    /// Whether every ray stays outside all spheres.
+    /// Whether every ray stays outside all convex solids.
     outside: bool,
 }
 

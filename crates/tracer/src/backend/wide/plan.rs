@@ -79,12 +79,12 @@ impl Shapes {
         self.keep(columns, |_, _| true, |_, _| true);
     }
 
-    /// Shapes that a ray of some beams may meet. Where all rays stay outside all spheres, those that leave one do not
-    /// meet it again.
-    pub(super) fn met_by(&mut self, columns: &Columns, beams: &[Beam], convex: bool) {
+    /// Shapes that a ray of some beams may meet. Where all rays stay outside all convex solids, those that leave one do
+    /// not meet it again.
+    pub(super) fn met_by(&mut self, columns: &Columns, beams: &[Beam], outside: bool) {
         let met = |prim: u32, ball: &Ball| {
-            let round = convex && columns.is_sphere(prim);
-            beams.iter().any(|beam| !(round && beam.prim == prim) && beam.may_meet(ball))
+            let left = outside && columns.is_convex(prim);
+            beams.iter().any(|beam| !(left && beam.prim == prim) && beam.may_meet(ball))
         };
         self.keep(columns, |_, row| beams.iter().any(|beam| beam.may_cross(row)), met);
     }
@@ -161,13 +161,13 @@ impl Shapes {
     }
 
     /// Shapes that may stand between what has been seen and a light.
-    pub(super) fn between(&mut self, columns: &Columns, places: &[Place], light: &LightRow, convex: bool) {
+    pub(super) fn between(&mut self, columns: &Columns, places: &[Place], light: &LightRow, outside: bool) {
         let crosses = |i: usize, row: &PlaneRow| {
             light.behind[i] != 0.0 && places.iter().any(|place| place.may_lie_beyond(row, light.behind[i]))
         };
         let meets = |prim: u32, ball: &Ball| {
-            let round = convex && columns.is_sphere(prim);
-            places.iter().any(|place| !(round && place.prim == prim) && place.shaft_meets(light, ball))
+            let left = outside && columns.is_convex(prim);
+            places.iter().any(|place| !(left && place.prim == prim) && place.shaft_meets(light, ball))
         };
         self.keep(columns, crosses, meets);
     }

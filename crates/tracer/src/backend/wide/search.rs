@@ -145,9 +145,17 @@ impl<S: Simd> Tracer<'_, S> {
                 self.consider(packet, best, packet.live, (prim, 0), proposal);
             }
             Row::Triangles(first, count) => {
-                for triangle in &columns.triangles[first as usize..(first + count) as usize] {
+                let triangles = &columns.triangles[first as usize..(first + count) as usize];
+                let again = self.again(packet, triangles);
+                if again.undecided.any() {
+                    self.settle_all(packet, best, again.undecided, prim);
+                }
+                if !again.may.any() {
+                    return;
+                }
+                for triangle in triangles {
                     let proposal = triangle.propose(self.s, &packet.rays);
-                    self.consider(packet, best, packet.live, (prim, triangle.facet), proposal);
+                    self.consider(packet, best, again.may, (prim, triangle.facet), proposal);
                 }
             }
             Row::Instance(row) => self.walk_mesh(packet, best, &columns.instances[row as usize]),

@@ -149,10 +149,15 @@ impl<S: Simd> Tracer<'_, S> {
                 self.block((packet, ways), open, allowed, (prim, Some(0)), blocking)
             }
             Row::Triangles(first, count) => {
-                let mut open = open;
-                for triangle in &columns.triangles[first as usize..(first + count) as usize] {
+                let triangles = &columns.triangles[first as usize..(first + count) as usize];
+                let again = self.again_to_light(ways, triangles);
+                let mut open = self.block_lanes((packet, ways), open, again.undecided, (prim, None));
+                if !(open & again.may).any() {
+                    return open;
+                }
+                for triangle in triangles {
                     let blocking = triangle.propose(self.s, &ways.rays).blocking(&ways.target);
-                    let allowed = open & !ways.left.from(self.s, prim, triangle.facet);
+                    let allowed = open & again.may & !ways.left.from(self.s, prim, triangle.facet);
                     open = self.block((packet, ways), open, allowed, (prim, Some(triangle.facet)), blocking);
                 }
                 open
