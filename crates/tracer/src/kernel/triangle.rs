@@ -5,12 +5,12 @@
 
 use catoptra_core::geometry::unit_normal;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, Lane, LaneMask};
+use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
 
 use super::{PlaneRow, Proposal, Rays, cross, magnitude, magnitude_of, rounded};
-use crate::lanes::{F, splat3};
-use crate::numeric::{DIRECTION_ERROR, EDGE_ERROR, POINT_ERROR};
+use crate::lanes::{F, M, splat3};
+use crate::numeric::EDGE_ERROR;
 
 /// A triangle that stands alone or is a face of a solid.
 #[derive(Debug, Clone, Copy)]
@@ -32,10 +32,32 @@ impl TriangleRow {
         })
     }
 
+    /// Its corners, rounded.
+    pub(crate) fn corners(&self) -> [DVec3; 3] {
+        self.edges.corners.map(|corner| DVec3::from(corner.map(f64::from)))
+    }
+
     #[inline(always)]
     pub(crate) fn propose<S: Simd>(&self, s: S, rays: &Rays<S>) -> Proposal<S> {
-        self.edges.propose(s, rays)
+        let Within { inside, miss } = self.edges.within(s, rays);
+        let none = F::splat(s, 0.0);
+        if !(!miss).any() {
+            let nowhere = inside & miss;
+            return Proposal { t: none, error: none, hit: nowhere, undecided: nowhere };
+        }
+        let plane = self.plane.propose(s, rays);
+        Proposal {
+            hit: plane.hit & inside,
+            undecided: !miss & (plane.undecided | (plane.hit & !inside)),
+            ..plane
+        }
     }
+}
+
+/// On which side of a triangle's edges rays pass, as far as `f32` can tell.
+struct Within<S: Simd> {
+    inside: M<S>,
+    miss: M<S>,
 }
 
 /// What the test needs of a triangle.
@@ -44,7 +66,6 @@ struct Edges {
     corners: [[f32; 3]; 3],
     /// Edge `i` runs opposite corner `i`.
     edges: [[f32; 3]; 3],
-    normal: [f32; 3],
     /// Largest coordinate of an edge.
     length: f32,
     /// Sum of coordinates' magnitudes of the farthest corner.
@@ -57,14 +78,12 @@ impl Edges {
         let [a, b, c] = *corners;
         let minus = |p: [f32; 3], q: [f32; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
         let edges = [minus(c, b), minus(a, c), minus(b, a)];
-        let (u, v) = (edges[2], edges[1].map(|e| -e));
-        let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
         let length = edges.as_flattened().iter().fold(0.0_f32, |l, e| l.max(e.abs()));
-        Self { corners: *corners, edges, normal, length, reach }
+        Self { corners: *corners, edges, length, reach }
     }
 
     #[inline(always)]
-    fn propose<S: Simd>(&self, s: S, rays: &Rays<S>) -> Proposal<S> {
+    fn within<S: Simd>(&self, s: S, rays: &Rays<S>) -> Within<S> {
         let zero = F::splat(s, 0.0);
         let size = rays.reach + F::splat(s, self.reach);
         let spread = magnitude(rays.direction) * F::splat(s, self.length);
@@ -78,25 +97,6 @@ impl Edges {
             (above, below) = (above | up, below | down);
             (all_above, all_below) = (all_above & up, all_below & down);
         }
-        let miss = above & below;
-        let inside = all_above | all_below;
-        if !(!miss).any() {
-            return Proposal { t: zero, error: zero, hit: inside & miss, undecided: inside & miss };
-        }
-        let n = splat3(s, self.normal);
-        let slope = n.dot(rays.direction);
-        let inverse = F::splat(s, 1.0) / slope;
-        let t = n.dot(splat3(s, self.corners[0]) - rays.origin) * inverse;
-        let normal_size = magnitude(n);
-        let slope_error = spread * F::splat(s, self.length * DIRECTION_ERROR);
-        let error =
-            (normal_size * size).mul_add(F::splat(s, POINT_ERROR), t.abs() * slope_error) * inverse.abs();
-        let flat = !slope_error.less(slope.abs());
-        Proposal {
-            t,
-            error,
-            hit: inside & zero.less(t),
-            undecided: !miss & (!inside | flat | !error.less(t.abs())),
-        }
+        Within { inside: all_above | all_below, miss: above & below }
     }
 }

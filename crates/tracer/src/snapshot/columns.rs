@@ -126,6 +126,14 @@ impl Columns {
         !matches!(self.rows[prim as usize], Row::Instance(_) | Row::General)
     }
 
+    /// The flat faces that make up a shape, if they have a kernel.
+    pub(crate) fn faces_of(&self, prim: u32) -> Option<std::ops::Range<u32>> {
+        match self.rows[prim as usize] {
+            Row::Triangles(first, count) => Some(first..first + count),
+            _ => None,
+        }
+    }
+
     /// Whether a point lies outside all convex solids that have a kernel.
     pub(crate) fn is_outside(&self, point: DVec3) -> bool {
         let off_sphere = |row: &SphereRow| row.center.distance(point) > row.radius * (1.0 + PLAN_MARGIN);

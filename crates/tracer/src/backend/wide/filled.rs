@@ -1,4 +1,4 @@
-//! Parts of a picture that one plane or one sphere fills: every lane meets the same shape and wears one material.
+//! Parts of a picture that one plane, one face of a solid or one sphere fills: every lane meets the same shape and wears one material.
 
 use fearless_simd::Simd;
 
@@ -51,6 +51,7 @@ impl<S: Simd> Filler<S> for &SphereRow {
 struct Filled<'a, F> {
     filler: F,
     prim: u32,
+    facet: u32,
     shapes: &'a Shapes,
 }
 
@@ -69,7 +70,7 @@ impl<S: Simd, R: Filler<S>> Finder<S> for Filled<'_, R> {
             t: proposal.t,
             error: proposal.error,
             prim: U::splat(tracer.s, self.prim),
-            facet: U::splat(tracer.s, 0),
+            facet: U::splat(tracer.s, self.facet),
         };
         tracer.occupy(&best, place, at);
         let lit = tracer.wears(packet.live, self.prim, place);
@@ -84,9 +85,16 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     pub(super) fn trace_filled(&mut self, part: &Part<'_, S>, shapes: &Shapes, tile: &mut Tile) {
         let columns = self.frame.snapshot.columns();
-        if let [plane] = *shapes.planes {
-            let filler = &columns.planes[plane as usize];
-            let filled = Filled { filler, prim: filler.prim, shapes };
+        let flat = match (&*shapes.planes, &*shapes.faces) {
+            ([plane], _) => Some((&columns.planes[*plane as usize], 0)),
+            (_, [face]) => {
+                let face = &columns.triangles[*face as usize];
+                Some((&face.plane, face.facet))
+            }
+            _ => None,
+        };
+        if let Some((filler, facet)) = flat {
+            let filled = Filled { filler, prim: filler.prim, facet, shapes };
             self.s.vectorize(
                 #[inline(always)]
                 || self.shade(part, &filled, tile, 0),
@@ -94,7 +102,7 @@ impl<S: Simd> Tracer<'_, S> {
         } else if let [prim] = *shapes.bounded
             && let Row::Sphere(row) = columns.rows[prim as usize]
         {
-            let filled = Filled { filler: &columns.spheres[row as usize], prim, shapes };
+            let filled = Filled { filler: &columns.spheres[row as usize], prim, facet: 0, shapes };
             self.s.vectorize(
                 #[inline(always)]
                 || self.shade(part, &filled, tile, 0),

@@ -230,7 +230,7 @@ impl<S: Simd> Tracer<'_, S> {
         let [mine, further @ ..] = rest else { return };
         let window = Window::new(self.frame, &Region::new(tile.x + region.x, tile.y + region.y, region.size));
         let columns = self.frame.snapshot.columns();
-        mine.seen_through(&window, columns, candidates);
+        mine.seen_through(&window, columns, candidates, self.outside);
         if mine.is_empty() && columns.general_unbounded.is_empty() {
             let part = Part { camera, region };
             self.stats.skipped.nothing_seen += part.live();

@@ -6,7 +6,7 @@ use catoptra_core::glam::DVec3;
 
 use super::beam::{Beam, Crosses};
 use super::search::FEW;
-use super::window::Window;
+use super::window::{Sight, Window};
 use crate::kernel::PlaneRow;
 use crate::numeric::PLAN_MARGIN;
 use crate::snapshot::{Ball, Columns, LightRow};
@@ -23,6 +23,8 @@ pub(super) struct Shapes {
     /// Places of bounded shapes in the columns' lists.
     near: Vec<u32>,
     pub(super) bounded: Vec<u32>,
+    /// Rows of faces that may be seen, of shapes that are not among `bounded`.
+    pub(super) faces: Vec<u32>,
     pub(super) tree: bool,
     /// Where all points lie that may be seen, shape by shape; empty where that is not known beforehand.
     pub(super) places: Vec<Place>,
@@ -36,6 +38,7 @@ impl Shapes {
         self.nearness.clear();
         self.near.clear();
         self.bounded.clear();
+        self.faces.clear();
         self.places.clear();
         (self.tree, self.filled) = (false, false);
     }
@@ -71,7 +74,7 @@ impl Shapes {
 
     /// Whether nothing is looked at.
     pub(super) fn is_empty(&self) -> bool {
-        self.planes.is_empty() && self.bounded.is_empty() && !self.tree
+        self.planes.is_empty() && self.bounded.is_empty() && self.faces.is_empty() && !self.tree
     }
 
     /// Every shape there is.
@@ -89,8 +92,15 @@ impl Shapes {
         self.keep(columns, |_, row| beams.iter().any(|beam| beam.may_cross(row)), met);
     }
 
-    /// Shapes among `candidates` that a camera ray through a window may see first.
-    pub(super) fn seen_through(&mut self, window: &Window, columns: &Columns, candidates: &Self) {
+    /// Shapes among `candidates` that a camera ray through a window may see first. Of solids that are seen from outside,
+    /// those are the faces on the eye's side.
+    pub(super) fn seen_through(
+        &mut self,
+        window: &Window,
+        columns: &Columns,
+        candidates: &Self,
+        outside: bool,
+    ) {
         self.clear();
         // 1 / t of a plane is an affine function of the pixel: what holds at the corners holds between them.
         let hides = |a: &[f64; 4], b: &[f64; 4]| {
@@ -112,11 +122,40 @@ impl Shapes {
         } else {
             self.keep_balls(columns, candidates.near.iter().copied(), |_, ball| window.may_show(ball));
         }
-        self.find_places(window, columns);
+        let mut filled = false;
+        if outside {
+            filled = self.keep_faces(window, columns);
+        }
+        self.find_places(window, columns, filled);
     }
 
-    /// Finds out where the points lie that may be seen, where shapes do not go on without an end.
-    fn find_places(&mut self, window: &Window, columns: &Columns) {
+    /// Puts the faces that may be seen of shapes with faces in the place of the shapes; answers whether each fills the
+    /// window.
+    fn keep_faces(&mut self, window: &Window, columns: &Columns) -> bool {
+        let Self { near, bounded, faces, .. } = self;
+        let mut all = true;
+        near.retain(|&near| {
+            let Some(rows) = columns.faces_of(columns.bounded[near as usize]) else { return true };
+            let (before, single) = (faces.len(), rows.len() == 1);
+            for row in rows {
+                let face = &columns.triangles[row as usize];
+                let sight = window.sight(face);
+                if sight != Sight::Nothing && (single || window.may_face(face)) {
+                    faces.push(row);
+                    all &= sight == Sight::All;
+                }
+            }
+            faces.len() > before
+        });
+        bounded.clear();
+        let whole = |prim: &u32| columns.faces_of(*prim).is_none();
+        bounded.extend(near.iter().map(|&near| columns.bounded[near as usize]).filter(whole));
+        all
+    }
+
+    /// Finds out where the points lie that may be seen, where shapes do not go on without an end. `faced` says that each
+    /// face fills the window.
+    fn find_places(&mut self, window: &Window, columns: &Columns, faced: bool) {
         if self.tree || !columns.general_unbounded.is_empty() {
             return;
         }
@@ -125,7 +164,8 @@ impl Shapes {
             let round = columns.is_sphere(prim) && !window.is_within(ball);
             let place =
                 if round { window.place_on_ball(prim, ball) } else { Place::new(prim, ball.bounds()) };
-            self.filled = round && self.near.len() == 1 && window.filled_by_ball(ball);
+            self.filled = self.near.len() == 1
+                && ((round && window.filled_by_ball(ball)) || (faced && self.faces.len() == 1));
             if self.filled {
                 // Planes behind it are not seen.
                 self.planes.retain(|&plane| !window.is_free_of(&columns.planes[plane as usize], &place));

@@ -73,7 +73,7 @@ impl<S: Simd> Best<S> {
 #[derive(Clone, Copy)]
 struct Doubtful<S: Simd> {
     prim: u32,
-    /// The facet in question; with one, a mesh is crossed in that triangle only.
+    /// The facet in question; `None` for a shape without a kernel.
     facet: Option<u32>,
     t: F<S>,
     error: F<S>,
@@ -105,9 +105,29 @@ impl<S: Simd> Tracer<'_, S> {
         for &prim in &shapes.bounded {
             self.try_prim(packet, best, prim);
         }
+        if !shapes.faces.is_empty() {
+            *best = self.try_faces(packet, *best, &shapes.faces);
+        }
         if shapes.tree {
             *best = self.walk_scene(packet, *best);
         }
+    }
+
+    /// Tests every ray against some faces. Compiled apart, on copies.
+    #[inline(always)]
+    fn try_faces(&mut self, packet: &Packet<'_, S>, best: Best<S>, faces: &[u32]) -> Best<S> {
+        let (packet, mut best) = (*packet, best);
+        self.s.vectorize(
+            #[inline(always)]
+            || {
+                for &row in faces {
+                    let face = &self.frame.snapshot.columns().triangles[row as usize];
+                    let proposal = face.propose(self.s, &packet.rays);
+                    self.consider(&packet, &mut best, packet.live, (face.plane.prim, face.facet), proposal);
+                }
+            },
+        );
+        best
     }
 
     /// Tests every ray against one bounded shape.
@@ -251,6 +271,9 @@ impl<S: Simd> Tracer<'_, S> {
     ) {
         let Doubtful { prim, facet, .. } = *doubtful;
         let snapshot = self.frame.snapshot;
+        // A mesh is crossed in that triangle only; of a solid, other faces that pass through the same edge may not have
+        // been looked at.
+        let part = facet.filter(|_| snapshot.columns().faces_of(prim).is_none());
         for lane in Bits(lanes) {
             self.stats.settled += 1;
             let (ray, span, leaving) = (packet.ray(lane), packet.span(lane), packet.leaving(lane));
@@ -265,7 +288,7 @@ impl<S: Simd> Tracer<'_, S> {
                 }
                 _ => {
                     let cross = |prim, facet| snapshot.cross_part(prim, facet, &ray, span, leaving);
-                    let hit = cross(prim, facet);
+                    let hit = cross(prim, part);
                     let held = held.and_then(|held| cross(held.prim, Some(held.facet)));
                     let hit = hit.filter(|hit| held.is_none_or(|held| snapshot.precedes(&way, hit, &held)));
                     hit.map(|hit| (hit.place.facet, hit.crossing.t * ray.direction.length()))

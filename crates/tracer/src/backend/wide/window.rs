@@ -6,7 +6,7 @@ use catoptra_core::glam::DVec3;
 use super::plan::Place;
 use crate::backend::Frame;
 use crate::film::BLOCK;
-use crate::kernel::PlaneRow;
+use crate::kernel::{PlaneRow, TriangleRow};
 use crate::numeric::PLAN_MARGIN;
 use crate::snapshot::Ball;
 use crate::{Region, Size};
@@ -29,6 +29,17 @@ pub(super) struct Window {
     corners: [DVec3; 4],
     /// Inward unit normals of the four sides.
     sides: [DVec3; 4],
+}
+
+/// How much of a window something takes up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sight {
+    /// No ray meets it.
+    Nothing,
+    /// Some rays may meet it.
+    Part,
+    /// Every ray meets it.
+    All,
 }
 
 impl Window {
@@ -75,6 +86,40 @@ impl Window {
         let to_center = ball.center - self.eye;
         let reach = ball.radius + PLAN_MARGIN * (to_center.length() + ball.radius);
         self.sides.iter().all(|side| side.dot(to_center) >= -reach)
+    }
+
+    /// How much of the window a face takes up.
+    ///
+    /// Directions that meet a triangle make a convex cone with three sides, as those of the window make one with four:
+    /// they are apart where all corners of one lie beyond a side of the other, and the window lies within the triangle
+    /// where its corners do.
+    pub(super) fn sight(&self, face: &TriangleRow) -> Sight {
+        let corners = face.corners().map(|corner| corner - self.eye);
+        let size = corners.map(|corner| corner.abs().element_sum()).into_iter().fold(0.0, f64::max);
+        let margin = PLAN_MARGIN * (size + self.eye.abs().element_sum());
+        if self.sides.iter().any(|side| corners.iter().all(|corner| side.dot(*corner) < -margin)) {
+            return Sight::Nothing;
+        }
+        let [a, b, c] = corners;
+        let turn = a.cross(b).dot(c).signum();
+        let longest = self.corners.iter().map(|corner| corner.length()).fold(0.0, f64::max);
+        let margin = margin * size * longest;
+        let mut all = true;
+        for side in [a.cross(b), b.cross(c), c.cross(a)] {
+            let off = self.corners.map(|corner| turn * side.dot(corner));
+            if off.iter().all(|off| *off < -margin) {
+                return Sight::Nothing;
+            }
+            all &= off.iter().all(|off| *off > margin);
+        }
+        if all { Sight::All } else { Sight::Part }
+    }
+
+    /// Whether the eye may see the outer side of a face.
+    pub(super) fn may_face(&self, face: &TriangleRow) -> bool {
+        let PlaneRow { normal, distance, .. } = face.plane;
+        let margin = PLAN_MARGIN * (distance.abs() + self.eye.abs().element_sum());
+        !(normal.dot(self.eye) - distance < -margin)
     }
 
     /// Where the points of a ball lie that are seen through the window, from outside it: on its near side.
