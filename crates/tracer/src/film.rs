@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use catoptra_core::EntityId;
 
+use crate::column::Column;
 use crate::{Region, Size};
 
 /// Edge of the square blocks that pixels of a tile are stored in. Sixteen pixels lie side by side in memory, so that
@@ -26,9 +27,9 @@ pub struct Tile {
     pub(crate) y: u32,
     pub(crate) width: u32,
     pub(crate) height: u32,
-    pub(crate) radiance: [Vec<f32>; 3],
-    pub(crate) depth: Vec<f32>,
-    pub(crate) surface: Vec<u32>,
+    pub(crate) radiance: [Column<f32>; 3],
+    pub(crate) depth: Column<f32>,
+    pub(crate) surface: Column<u32>,
 }
 
 impl Tile {
@@ -39,9 +40,9 @@ impl Tile {
             y,
             width,
             height,
-            radiance: std::array::from_fn(|_| vec![0.0; pixels]),
-            depth: vec![f32::INFINITY; pixels],
-            surface: vec![NOTHING; pixels],
+            radiance: std::array::from_fn(|_| Column::filled(pixels, 0.0)),
+            depth: Column::filled(pixels, f32::INFINITY),
+            surface: Column::filled(pixels, NOTHING),
         }
     }
 

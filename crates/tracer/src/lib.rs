@@ -25,6 +25,7 @@
 
 mod accel;
 pub mod backend;
+mod column;
 mod control;
 mod display;
 mod film;

@@ -95,7 +95,8 @@ pub struct Skip {
     pub hidden: bool,
     /// Shapes that cannot stand between what a tile shows and a light are not tested for its shadows.
     pub shafts: bool,
-    /// Shapes that no ray of a stream of reflected rays can meet are not tested for it.
+    /// Shapes that no ray of a stream of reflected rays can meet are not tested for it, and mirrored rays that can meet
+    /// nothing are not made.
     pub beams: bool,
     /// Lights are not asked about parts of the picture that lie outside their cones.
     pub unreached: bool,

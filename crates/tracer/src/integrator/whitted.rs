@@ -54,7 +54,7 @@ fn finish(tile: &mut Tile, grid: u32) -> u64 {
     let share = 1.0 / (grid as f32 * grid as f32);
     let mut not_finite = 0;
     for column in &mut tile.radiance {
-        for light in column {
+        for light in column.iter_mut() {
             let finite = light.is_finite();
             *light = if finite {
                 *light * share

@@ -1,5 +1,7 @@
 //! Three numbers in every lane: points, directions, colours.
 
+use std::ops::Deref;
+
 use catoptra_core::Triple;
 use catoptra_core::glam::DVec3;
 use fearless_simd::prelude::*;
@@ -26,13 +28,13 @@ pub(crate) fn splat_wide<S: Simd>(s: S, v: DVec3) -> D3<S> {
 
 /// A packet's lanes from place `at` on of three columns.
 #[inline(always)]
-pub(crate) fn load3<S: Simd>(s: S, [x, y, z]: &[Vec<f32>; 3], at: usize) -> F3<S> {
+pub(crate) fn load3<S: Simd>(s: S, [x, y, z]: &[impl Deref<Target = [f32]>; 3], at: usize) -> F3<S> {
     Triple::new(F::load(s, &x[at..]), F::load(s, &y[at..]), F::load(s, &z[at..]))
 }
 
 /// A packet's lanes from place `at` on of three columns, in `f64`.
 #[inline(always)]
-pub(crate) fn load_wide3<S: Simd>(s: S, [x, y, z]: &[Vec<f64>; 3], at: usize) -> D3<S> {
+pub(crate) fn load_wide3<S: Simd>(s: S, [x, y, z]: &[impl Deref<Target = [f64]>; 3], at: usize) -> D3<S> {
     Triple::new(D::load(s, &x[at..]), D::load(s, &y[at..]), D::load(s, &z[at..]))
 }
 

@@ -61,11 +61,13 @@ impl Snapshot {
             columns.planes.iter().filter_map(|row| plane_of(&prims[row.prim as usize])).collect();
         let materials: Vec<Material> =
             scene.materials().map(|(.., material)| material.relative_to(origin)).collect();
+        let material_rows: Vec<_> = materials.iter().map(MaterialRow::new).collect();
         Self {
             origin,
             frame,
             constants: [ambient.into(), scene.settings().background().into()],
-            material_rows: materials.iter().map(MaterialRow::new).collect(),
+            has_mirrors: material_rows.iter().any(|row| row.reflects),
+            material_rows,
             light_rows: lights.iter().map(|light| LightRow::new(light, origin - frame, &planes)).collect(),
             has_cones: lights.iter().any(Light::has_cone),
             columns,

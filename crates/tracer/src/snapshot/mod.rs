@@ -52,6 +52,7 @@ pub struct Snapshot {
     material_rows: Vec<MaterialRow>,
     light_rows: Vec<LightRow>,
     has_cones: bool,
+    has_mirrors: bool,
 }
 
 impl Snapshot {
@@ -153,6 +154,11 @@ impl Snapshot {
     /// Whether there are lights that do not shine everywhere.
     pub(crate) fn has_cones(&self) -> bool {
         self.has_cones
+    }
+
+    /// Whether there are materials that reflect.
+    pub(crate) fn has_mirrors(&self) -> bool {
+        self.has_mirrors
     }
 
     /// The tree over all shapes that have an end; its items are places in [`Columns::bounded`].

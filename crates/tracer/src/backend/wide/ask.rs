@@ -214,6 +214,7 @@ impl Work for Answer<'_, '_, '_> {
             found: &mut found,
             between: &mut [],
             reached: &mut Vec::new(),
+            dark: &mut Vec::new(),
             visits: &mut visits,
             chunk: &mut Chunk::new(s),
             spreads: &mut Spreads::nothing(s),

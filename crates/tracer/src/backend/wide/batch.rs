@@ -2,12 +2,13 @@
 
 use std::ops::Range;
 
-use catoptra_core::{Constant3, Lane};
+use catoptra_core::{Constant3, Lane, LaneMask};
 use fearless_simd::Simd;
 
 use super::packet::{Packet, Primary};
 use super::queue::Queue;
 use super::search::Best;
+use crate::column::Column;
 use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING};
 use crate::lanes::{F, F3, M, U};
 use crate::{Region, Tile};
@@ -74,9 +75,12 @@ impl<S: Simd> Part<'_, S> {
 /// number, and 0 where they are none.
 #[inline(always)]
 fn store_finite<S: Simd>(s: S, light: F<S>, pixels: &mut [f32]) -> u64 {
-    let (zero, most) = (F::splat(s, 0.0), F::splat(s, f32::MAX));
     let finite = light.abs().less(F::splat(s, f32::INFINITY));
-    F::pick(finite, light, F::pick(zero.less(light), most, zero)).store(pixels);
+    light.store(pixels);
+    if (!finite).any() {
+        let (zero, most) = (F::splat(s, 0.0), F::splat(s, f32::MAX));
+        F::pick(finite, light, F::pick(zero.less(light), most, zero)).store(pixels);
+    }
     (!finite).count()
 }
 
@@ -172,11 +176,11 @@ impl<S: Simd> Batch<S> for Queue {
 /// What the rays of a batch have met, column by column.
 #[derive(Default)]
 pub(super) struct Found {
-    pub(super) t: Vec<f32>,
+    pub(super) t: Column<f32>,
     /// Bound on the error of `t`.
-    pub(super) error: Vec<f32>,
-    pub(super) prim: Vec<u32>,
-    pub(super) facet: Vec<u32>,
+    pub(super) error: Column<f32>,
+    pub(super) prim: Column<u32>,
+    pub(super) facet: Column<u32>,
 }
 
 impl Found {

@@ -8,7 +8,7 @@ use super::plan::Place;
 use super::spread::Spreads;
 use crate::kernel::PlaneRow;
 use crate::numeric::PLAN_MARGIN;
-use crate::snapshot::Ball;
+use crate::snapshot::{Ball, Columns};
 
 /// Rays from within a box in directions within a box.
 #[derive(Debug, Clone, Copy)]
@@ -39,7 +39,8 @@ impl Beam {
         both.map(|((prim, start), (_, unit))| Self::new(prim, start, unit))
     }
 
-    fn new(prim: u32, start: Aabb, unit: Aabb) -> Self {
+    /// Of rays that leave a shape.
+    pub(super) fn new(prim: u32, start: Aabb, unit: Aabb) -> Self {
         let center = start.centre();
         let margin = PLAN_MARGIN * (center.abs().element_sum() + start.size().element_sum());
         Self {
@@ -51,11 +52,44 @@ impl Beam {
         }
     }
 
+    /// Its rays once they have been mirrored in a place, about unit normals within `half` of one in every coordinate.
+    ///
+    /// d − 2 (d·n) n with n = m + g is M d − 2 ((d·g) m + (d·m) g + (d·g) g), where M = 1 − 2 m mᵀ.
+    pub(super) fn sent_on(&self, place: &Place, normal: DVec3, half: DVec3) -> Self {
+        let mirrored = |v: DVec3| v - normal * (2.0 * v.dot(normal));
+        let most = self.axis.abs() + self.half_spread;
+        let (along, aside) =
+            (self.axis.dot(normal).abs() + self.half_spread.dot(normal.abs()), most.dot(half));
+        let turned = DVec3::AXES.map(|axis| mirrored(axis).abs() * self.half_spread.dot(axis));
+        let spread =
+            turned.into_iter().sum::<DVec3>() + (normal.abs() * aside + half * (along + aside)) * 2.0;
+        Self {
+            prim: place.prim,
+            center: place.center,
+            half: place.half,
+            axis: mirrored(self.axis),
+            half_spread: spread + DVec3::splat(PLAN_MARGIN),
+        }
+    }
+
+    /// Whether a ray may meet any plane or bounded shape. Where all rays stay outside all convex solids, those that leave
+    /// one do not meet it again.
+    pub(super) fn may_meet_any(&self, columns: &Columns, outside: bool) -> bool {
+        let mut balls = columns.bounded.iter().zip(&columns.balls);
+        columns.planes.iter().any(|row| self.may_cross(row))
+            || balls.any(|(&prim, ball)| self.may_meet_shape(columns, prim, ball, outside))
+    }
+
+    /// Whether a ray may meet a bounded shape within a ball.
+    pub(super) fn may_meet_shape(&self, columns: &Columns, prim: u32, ball: &Ball, outside: bool) -> bool {
+        !(outside && self.prim == prim && columns.is_convex(prim)) && self.may_meet(ball)
+    }
+
     /// Whether a ray may meet a ball.
     ///
     /// Rays c + e + t (m + f) with |e| ≤ ρ and |f| ≤ δ meet a ball of radius R round c + L only if there is a t ≥ 0
     /// with |t m − L| ≤ R + ρ + t δ, that is t² (|m|² − δ²) − 2 t (m·L + δ (R + ρ)) + |L|² − (R + ρ)² ≤ 0.
-    pub(super) fn may_meet(&self, ball: &Ball) -> bool {
+    fn may_meet(&self, ball: &Ball) -> bool {
         let to_ball = ball.center - self.center;
         let (spread, reach) = (self.half_spread.length(), ball.radius + self.half.length());
         let reach = reach + PLAN_MARGIN * (reach + to_ball.length());

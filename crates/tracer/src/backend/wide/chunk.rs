@@ -3,13 +3,13 @@
 //! Each step is taken for all of them before the next, so that the CPU has independent work while square roots and
 //! quotients are under way, and what one step needs stays in registers.
 
-use catoptra_core::Lane;
 use fearless_simd::Simd;
 
 use super::search::Best;
+use super::send::Sent;
 use super::settle::Groups;
 use crate::film::NOTHING;
-use crate::lanes::{F, F3, M, U};
+use crate::lanes::{D, D3, F, F3, M, U};
 
 /// Packets in a chunk.
 pub(super) const CHUNK: usize = 8;
@@ -37,6 +37,8 @@ pub(super) struct Chunk<S: Simd> {
     pub(super) irradiance: [F3<S>; CHUNK],
     /// Radiance shown by gloss.
     pub(super) gloss: [F3<S>; CHUNK],
+    /// Rays that they send on.
+    pub(super) sent: [Sent<S>; CHUNK],
 }
 
 impl<S: Simd> Chunk<S> {
@@ -44,7 +46,8 @@ impl<S: Simd> Chunk<S> {
     pub(super) fn new(s: S) -> Self {
         let zero = F::splat(s, 0.0);
         let dark = F3::splat(zero);
-        let nothing = U::splat(s, NOTHING);
+        let (nothing, none) = (U::splat(s, NOTHING), M::splat(s, false));
+        let origin = D3::splat(D::splat(s, 0.0));
         Self {
             at: [0; CHUNK],
             best: [Best { t: zero, error: zero, prim: nothing, facet: nothing }; CHUNK],
@@ -53,10 +56,11 @@ impl<S: Simd> Chunk<S> {
             smooth: [dark; CHUNK],
             to_viewer: [dark; CHUNK],
             groups: [const { Groups::NONE }; CHUNK],
-            lit: [zero.less(zero); CHUNK],
+            lit: [none; CHUNK],
             glossy: [false; CHUNK],
             irradiance: [dark; CHUNK],
             gloss: [dark; CHUNK],
+            sent: [Sent { lanes: none, weight: dark, origin, direction: origin }; CHUNK],
         }
     }
 }

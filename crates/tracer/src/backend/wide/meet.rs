@@ -1,4 +1,4 @@
-//! What the lanes of a packet show: their surfaces' own look, and where they send their rays on.
+//! What the lanes of a packet meet, and what they show of their surfaces' own look.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane, LaneMask, Material, Rgb, ShadingPoint};
@@ -6,16 +6,15 @@ use fearless_simd::Simd;
 
 use super::batch::Batch;
 use super::chunk::CHUNK;
-use super::packet::{Packet, kernel_rays};
+use super::packet::Packet;
 use super::plan::Shapes;
-use super::queue::Leaving;
 use super::search::Best;
 use super::settle::Settled;
 use super::surface::Surface;
 use super::{Tracer, dark};
 use crate::Tile;
 use crate::kernel::magnitude;
-use crate::lanes::{D3, F, F3, M, narrow3, pick3};
+use crate::lanes::{F, F3, M};
 use crate::numeric::POSITION_ERROR;
 
 /// How packets find what they meet.
@@ -81,6 +80,9 @@ impl<S: Simd> Tracer<'_, S> {
                 self.add_lights(batch, count);
                 for packet in 0..count {
                     self.show(batch, packet, tile, depth);
+                }
+                if self.frame.snapshot.has_mirrors() {
+                    self.send_on(batch, count, depth);
                 }
             },
         );
@@ -167,39 +169,29 @@ impl<S: Simd> Tracer<'_, S> {
         }
     }
 
-    /// Adds the light of a packet of the chunk to its pixels and queues its reflected rays.
+    /// Adds the light of a packet of the chunk to its pixels.
     #[inline(always)]
     fn show(&mut self, batch: &impl Batch<S>, place: usize, tile: &mut Tile, depth: u32) {
-        let (at, best, groups) =
-            (self.chunk.at[place], self.chunk.best[place], self.chunk.groups[place].len());
+        let (at, groups) = (self.chunk.at[place], self.chunk.groups[place].len());
         if groups == 0 && depth > 0 && self.frame.snapshot.background() == Rgb::BLACK {
             return;
         }
-        let sky = F3::of(best.t, self.frame.snapshot.background_light());
+        let sky = F3::of(self.chunk.best[place].t, self.frame.snapshot.background_light());
         let mut shown = F3::select(batch.live_lanes(self.s, at), sky, dark(self.s));
         if groups > 0 {
-            shown = self.show_group(batch, place, 0, shown, depth);
+            shown = self.show_group(batch, place, 0, shown);
         }
         if groups > 1 {
-            shown = self.show_others(batch, place, shown, depth);
+            shown = self.show_others(batch, place, shown);
         }
-        self.stats.not_finite += batch.add(self.s, at, &best, shown, tile);
+        self.stats.not_finite += batch.add(self.s, at, &self.chunk.best[place], shown, tile);
     }
 
-    /// What the lanes of one material show; their reflected rays are queued.
+    /// What the lanes of one material show.
     #[inline(always)]
-    fn show_group(
-        &mut self,
-        batch: &impl Batch<S>,
-        place: usize,
-        group: usize,
-        shown: F3<S>,
-        depth: u32,
-    ) -> F3<S> {
+    fn show_group(&mut self, batch: &impl Batch<S>, place: usize, group: usize, shown: F3<S>) -> F3<S> {
         let (mask, material) = self.chunk.groups[place].get(self.s, group);
-        if self.frame.snapshot.material_rows()[material].reflects {
-            self.send_on(batch, place, (mask, material), depth);
-        } else {
+        if !self.frame.snapshot.material_rows()[material].reflects {
             self.stats.skipped.not_reflective += mask.count();
         }
         F3::select(mask, self.own_look(batch, place, (mask, material)), shown)
@@ -207,13 +199,13 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// What the lanes of further materials show. Compiled apart: most packets meet one material.
     #[inline(always)]
-    fn show_others(&mut self, batch: &impl Batch<S>, place: usize, shown: F3<S>, depth: u32) -> F3<S> {
+    fn show_others(&mut self, batch: &impl Batch<S>, place: usize, shown: F3<S>) -> F3<S> {
         let mut shown = shown;
         self.s.vectorize(
             #[inline(always)]
             || {
                 for group in 1..self.chunk.groups[place].len() {
-                    shown = self.show_group(batch, place, group, shown, depth);
+                    shown = self.show_group(batch, place, group, shown);
                 }
                 shown
             },
@@ -272,78 +264,9 @@ impl<S: Simd> Tracer<'_, S> {
         batch.packet(self.s, self.chunk.at[place])
     }
 
-    /// Queues the rays of the lanes of `mask`, whose material reflects. Compiled apart.
-    #[inline(always)]
-    fn send_on(&mut self, batch: &impl Batch<S>, place: usize, (mask, material): (M<S>, usize), depth: u32) {
-        self.s.vectorize(
-            #[inline(always)]
-            || {
-                let packet = self.packet_of(batch, place);
-                self.reflect_lanes(&packet, place, (mask, material), depth);
-            },
-        );
-    }
-
-    #[inline(always)]
-    fn reflect_lanes(
-        &mut self,
-        packet: &Packet<'_, S>,
-        place: usize,
-        (mask, material): (M<S>, usize),
-        depth: u32,
-    ) {
-        let row = &self.frame.snapshot.material_rows()[material];
-        let view = self.frame.view;
-        let weight = packet.weight.times(F3::of(packet.weight.x, &row.tint));
-        let largest = weight.x.max(weight.y).max(weight.z);
-        let positive = mask & F::splat(self.s, 0.0).less(largest);
-        self.stats.skipped.not_reflective += (mask & !positive).count();
-        if depth >= view.max_depth {
-            self.stats.skipped.depth_limit += positive.count();
-            return;
-        }
-        let faint = positive & largest.less(F::splat(self.s, view.weight_cutoff));
-        self.stats.skipped.weight_cutoff += faint.count();
-        let on = positive & !faint;
-        if on.any() {
-            self.reflect(packet, place, on, weight);
-        }
-    }
-
-    /// Queues the mirrored rays of the lanes of `on`, from their points in `f64`.
-    #[inline(always)]
-    fn reflect(&mut self, packet: &Packet<'_, S>, place: usize, on: M<S>, weight: F3<S>) {
-        let (best, normal) = (self.chunk.best[place], self.chunk.normal[place]);
-        let settled = self.settle_every(packet, &best, on);
-        let (_, d) = packet.precise(self.s);
-        let geometric = mirrored(d, settled.normal);
-        let direction = if self.frame.snapshot.columns().smooth {
-            let smooth = mirrored(d, settled.shading);
-            let above = F::splat(self.s, 0.0).less(narrow3(smooth).dot(normal));
-            pick3(above, smooth, geometric)
-        } else {
-            geometric
-        };
-        let (rays, inverse_length) = kernel_rays(self.s, narrow3(settled.point), narrow3(direction));
-        self.spreads.starts.add(on, best.prim, rays.origin);
-        self.spreads.units.add(on, best.prim, rays.direction);
-        let leaving = Leaving {
-            origin: settled.point,
-            direction,
-            start: rays.origin,
-            unit: rays.direction,
-            inverse_length,
-            weight,
-            pixel: packet.pixel,
-            prim: best.prim,
-            facet: best.facet,
-        };
-        self.next.push(on, &leaving);
-    }
-
     /// Settles lanes, shape by shape.
     #[inline(always)]
-    fn settle_every(&mut self, packet: &Packet<'_, S>, best: &Best<S>, lanes: M<S>) -> Settled<S> {
+    pub(super) fn settle_every(&mut self, packet: &Packet<'_, S>, best: &Best<S>, lanes: M<S>) -> Settled<S> {
         let mut left = lanes.bits();
         let prim = best.prim.lane(left.trailing_zeros() as usize);
         let mut mask = lanes & best.prim.is(prim);
@@ -380,11 +303,4 @@ impl<S: Simd> Tracer<'_, S> {
 #[inline(always)]
 fn turned<S: Simd>(mask: M<S>, v: F3<S>) -> F3<S> {
     F3::select(mask, F3::new(-v.x, -v.y, -v.z), v)
-}
-
-/// A direction mirrored about a unit normal.
-#[inline(always)]
-fn mirrored<S: Simd>(d: D3<S>, n: D3<S>) -> D3<S> {
-    let along = d.dot(n);
-    n.scale_add(-(along + along), d)
 }

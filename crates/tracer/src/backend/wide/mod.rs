@@ -10,6 +10,7 @@ mod ask;
 mod batch;
 mod beam;
 mod chunk;
+mod dark;
 mod filled;
 mod light;
 mod meet;
@@ -18,6 +19,7 @@ mod packet;
 mod plan;
 mod queue;
 mod search;
+mod send;
 mod settle;
 mod shadow;
 mod solid;
@@ -27,6 +29,7 @@ mod umpire;
 mod walk;
 mod window;
 
+use std::any::Any;
 use std::cell::RefCell;
 
 use catoptra_core::Rgb;
@@ -95,8 +98,26 @@ struct Room {
     between: Vec<Shapes>,
     /// Lights that reach anything that the batch under way shows.
     reached: Vec<usize>,
+    /// Shapes whose reflections of the batch under way go into darkness.
+    dark: Vec<u32>,
     visits: Visits,
     rays: CameraRays,
+    /// [`Registers`] of the kind of instructions that were used last.
+    registers: Option<Box<dyn Any>>,
+}
+
+/// What is kept in registers' own form.
+struct Registers<S: Simd> {
+    chunk: Chunk<S>,
+    spreads: Spreads<S>,
+}
+
+impl<S: Simd> Registers<S> {
+    /// Those that were kept, or new ones.
+    fn take(s: S, kept: Option<Box<dyn Any>>) -> Box<Self> {
+        let new = || Box::new(Self { chunk: Chunk::new(s), spreads: Spreads::nothing(s) });
+        kept.and_then(|kept| kept.downcast().ok()).unwrap_or_else(new)
+    }
 }
 
 /// A stream of reflected rays under way.
@@ -163,7 +184,10 @@ impl Work for TraceTile<'_> {
 #[inline(always)]
 fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
     let grid = frame.view.grid;
-    let Room { next, bounce, found, seen, between, reached, visits, rays } = room;
+    let Room { next, bounce, found, seen, between, reached, dark, visits, rays, registers } = room;
+    let mut own = Registers::take(s, registers.take());
+    let Registers { chunk, spreads } = &mut *own;
+    dark.clear();
     for queue in [&mut *next, &mut bounce.stream] {
         queue.start_from(frame.snapshot.origin_in_frame());
     }
@@ -179,9 +203,10 @@ fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
         found,
         between,
         reached,
+        dark,
         visits,
-        chunk: &mut Chunk::new(s),
-        spreads: &mut Spreads::nothing(s),
+        chunk,
+        spreads,
         outside: frame.outside_solids,
     };
     seen[0].all(frame.snapshot.columns());
@@ -193,9 +218,14 @@ fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
         } else {
             tracer.trace_camera(&mut camera, region, &seen[0], tile);
         }
+        if tracer.next.len() > 0 {
+            tracer.follow(tile);
+        }
     }
     tracer.finish(tile, grid);
-    tracer.stats
+    let stats = tracer.stats;
+    *registers = Some(own);
+    stats
 }
 
 /// What tracing a tile keeps at hand.
@@ -213,6 +243,8 @@ struct Tracer<'a, S: Simd> {
     between: &'a mut [Shapes],
     /// Lights that reach anything that the batch under way shows.
     reached: &'a mut Vec<usize>,
+    /// Shapes whose reflections of the batch under way go into darkness.
+    dark: &'a mut Vec<u32>,
     /// Room for walks through trees of meshes.
     visits: &'a mut Visits,
     chunk: &'a mut Chunk<S>,
@@ -239,6 +271,9 @@ impl<S: Simd> Tracer<'_, S> {
                 || part.fill(self.s, self.frame.snapshot.background_light(), tile),
             );
         } else if mine.tree || further.is_empty() || mine.filled {
+            if self.frame.snapshot.has_mirrors() {
+                self.plan_darkness(&[window.beam()], mine);
+            }
             self.trace_camera(camera, region, mine, tile);
         } else {
             for quarter in quarters(region) {
@@ -275,9 +310,6 @@ impl<S: Simd> Tracer<'_, S> {
                     || self.shade(part, &shapes, tile, 0),
                 );
             }
-        }
-        if self.next.len() > 0 {
-            self.follow(tile);
         }
     }
 
@@ -318,12 +350,14 @@ impl<S: Simd> Tracer<'_, S> {
         if nothing && snapshot.background() == Rgb::BLACK {
             self.stats.skipped.nothing_ahead += stream.len() as u64;
         } else if self.plan_ahead(beams, met) {
+            self.plan_darkness(beams, met);
             self.stats.rays.reflection += stream.len() as u64;
             self.s.vectorize(
                 #[inline(always)]
                 || self.shade(&*stream, &&*met, tile, depth),
             );
         } else {
+            self.dark.clear();
             self.trace(&*stream, met, tile, depth);
         }
     }
@@ -331,11 +365,11 @@ impl<S: Simd> Tracer<'_, S> {
     /// Finds out what may stand between lights and all that the rays of some beams may meet, if that has an end.
     fn plan_ahead(&mut self, beams: &[Beam], met: &mut Shapes) -> bool {
         let snapshot = self.frame.snapshot;
-        let planned = snapshot.light_rows().is_empty() || met.find_places_of(snapshot.columns(), beams);
-        if planned {
+        let known = met.find_places_of(snapshot.columns(), beams);
+        if known {
             self.plan_lights(&met.places);
         }
-        planned
+        known || snapshot.light_rows().is_empty()
     }
 
     /// Finds what the rays of a batch meet, then adds the light that arrives along them.

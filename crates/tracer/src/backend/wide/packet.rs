@@ -7,6 +7,7 @@ use fearless_simd::Simd;
 use super::ask::Asked;
 use super::queue::Queue;
 use crate::backend::Frame;
+use crate::column::Column;
 use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING};
 use crate::kernel::{Rays, magnitude};
 use crate::lanes::{D, D3, F, F3, M, U, load3, narrow3, splat_wide};
@@ -144,9 +145,9 @@ pub(super) fn drift(origin: DVec3) -> f32 {
 #[derive(Default)]
 pub(super) struct CameraRays {
     /// Unit directions.
-    direction: [Vec<f32>; 3],
+    direction: [Column<f32>; 3],
     /// 1 over the lengths of the directions that they were made from.
-    inverse_length: Vec<f32>,
+    inverse_length: Column<f32>,
     /// Which lanes of each packet lie within the picture.
     live: Vec<u64>,
 }

@@ -86,8 +86,7 @@ impl Shapes {
     /// not meet it again.
     pub(super) fn met_by(&mut self, columns: &Columns, beams: &[Beam], outside: bool) {
         let met = |prim: u32, ball: &Ball| {
-            let left = outside && columns.is_convex(prim);
-            beams.iter().any(|beam| !(left && beam.prim == prim) && beam.may_meet(ball))
+            beams.iter().any(|beam| beam.may_meet_shape(columns, prim, ball, outside))
         };
         self.keep(columns, |_, row| beams.iter().any(|beam| beam.may_cross(row)), met);
     }
@@ -183,9 +182,13 @@ impl Shapes {
         self.filled |= self.near.is_empty() && self.planes.len() == 1;
     }
 
-    /// Finds out where the points lie that the rays of some beams may meet; false where they may have no end.
+    /// Finds out where the points lie that the rays of some beams may meet; false, and no places, where they may have no
+    /// end.
     pub(super) fn find_places_of(&mut self, columns: &Columns, beams: &[Beam]) -> bool {
         self.places.clear();
+        if self.tree || !columns.general_unbounded.is_empty() {
+            return false;
+        }
         let bounds = |(&prim, &near): (&u32, &u32)| Place::new(prim, columns.balls[near as usize].bounds());
         self.places.extend(self.bounded.iter().zip(&self.near).map(bounds));
         for &row in &self.planes {
@@ -193,11 +196,14 @@ impl Shapes {
                 match beam.crosses(&columns.planes[row as usize]) {
                     Crosses::Never => {}
                     Crosses::Within(place) => self.places.push(place),
-                    Crosses::Anywhere => return false,
+                    Crosses::Anywhere => {
+                        self.places.clear();
+                        return false;
+                    }
                 }
             }
         }
-        !self.tree && columns.general_unbounded.is_empty()
+        true
     }
 
     /// Shapes that may stand between what has been seen and a light.
@@ -217,8 +223,8 @@ impl Shapes {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) prim: u32,
-    center: DVec3,
-    half: DVec3,
+    pub(super) center: DVec3,
+    pub(super) half: DVec3,
     radius: f64,
 }
 

@@ -6,6 +6,7 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
 use super::packet::{Left, Packet, Precise, drift};
+use crate::column::Column;
 use crate::kernel::{Rays, magnitude};
 use crate::lanes::{D3, F, F3, M, U, load_wide3, load3};
 
@@ -15,17 +16,17 @@ pub(super) struct Queue {
     length: usize,
     /// Where in the snapshot's frame coordinates are zero.
     zero: DVec3,
-    origin: [Vec<f64>; 3],
-    direction: [Vec<f64>; 3],
-    weight: [Vec<f32>; 3],
-    pixel: Vec<u32>,
-    prim: Vec<u32>,
-    facet: Vec<u32>,
+    origin: [Column<f64>; 3],
+    direction: [Column<f64>; 3],
+    weight: [Column<f32>; 3],
+    pixel: Column<u32>,
+    prim: Column<u32>,
+    facet: Column<u32>,
     /// The rays as kernels see them: origins, unit directions, and 1 over the lengths of the directions that they were
     /// made from.
-    start: [Vec<f32>; 3],
-    unit: [Vec<f32>; 3],
-    inverse_length: Vec<f32>,
+    start: [Column<f32>; 3],
+    unit: [Column<f32>; 3],
+    inverse_length: Column<f32>,
 }
 
 /// Rays to be gathered.
@@ -95,7 +96,7 @@ impl Queue {
 
     /// A ray, in the snapshot's frame.
     pub(super) fn ray(&self, at: usize) -> Ray {
-        let vector = |[x, y, z]: &[Vec<f64>; 3]| DVec3::new(x[at], y[at], z[at]);
+        let vector = |[x, y, z]: &[Column<f64>; 3]| DVec3::new(x[at], y[at], z[at]);
         Ray::new(vector(&self.origin) + self.zero, vector(&self.direction))
     }
 

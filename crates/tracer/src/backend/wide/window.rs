@@ -1,11 +1,14 @@
 //! Through which part of a picture a scene is looked at, and what can be seen through it.
 
+use std::cell::OnceCell;
+
 use catoptra_core::Aabb;
 use catoptra_core::glam::DVec3;
 
+use super::beam::Beam;
 use super::plan::Place;
 use crate::backend::Frame;
-use crate::film::BLOCK;
+use crate::film::{BLOCK, NOTHING};
 use crate::kernel::{PlaneRow, TriangleRow};
 use crate::numeric::PLAN_MARGIN;
 use crate::snapshot::Ball;
@@ -27,8 +30,8 @@ pub(super) fn quarters(region: Region) -> impl Iterator<Item = Region> {
 pub(super) struct Window {
     eye: DVec3,
     corners: [DVec3; 4],
-    /// Inward unit normals of the four sides.
-    sides: [DVec3; 4],
+    /// Inward unit normals of the four sides, once they have been asked for.
+    sides: OnceCell<[DVec3; 4]>,
 }
 
 /// How much of a window something takes up.
@@ -50,12 +53,23 @@ impl Window {
         };
         let Size { width: w, height: h } = region.size;
         let corners = [corner(0, 0), corner(w, 0), corner(w, h), corner(0, h)];
-        let middle: DVec3 = corners.iter().sum();
-        let sides = std::array::from_fn(|i| {
-            let side = corners[i].cross(corners[(i + 1) % 4]).normalize_or_zero();
-            side * side.dot(middle).signum()
-        });
-        Self { eye: frame.eye, corners, sides }
+        Self { eye: frame.eye, corners, sides: OnceCell::new() }
+    }
+
+    fn sides(&self) -> &[DVec3; 4] {
+        self.sides.get_or_init(|| {
+            let middle: DVec3 = self.corners.iter().sum();
+            std::array::from_fn(|i| {
+                let side = self.corners[i].cross(self.corners[(i + 1) % 4]).normalize_or_zero();
+                side * side.dot(middle).signum()
+            })
+        })
+    }
+
+    /// The rays through it.
+    pub(super) fn beam(&self) -> Beam {
+        let length = self.corners[0].length();
+        Beam::new(NOTHING, Aabb::of([self.eye]), Aabb::of(self.corners.map(|corner| corner / length)))
     }
 
     /// 1 / t of a plane along the four corners.
@@ -85,7 +99,7 @@ impl Window {
     pub(super) fn may_show(&self, ball: &Ball) -> bool {
         let to_center = ball.center - self.eye;
         let reach = ball.radius + PLAN_MARGIN * (to_center.length() + ball.radius);
-        self.sides.iter().all(|side| side.dot(to_center) >= -reach)
+        self.sides().iter().all(|side| side.dot(to_center) >= -reach)
     }
 
     /// How much of the window a face takes up.
@@ -97,7 +111,7 @@ impl Window {
         let corners = face.corners().map(|corner| corner - self.eye);
         let size = corners.map(|corner| corner.abs().element_sum()).into_iter().fold(0.0, f64::max);
         let margin = PLAN_MARGIN * (size + self.eye.abs().element_sum());
-        if self.sides.iter().any(|side| corners.iter().all(|corner| side.dot(*corner) < -margin)) {
+        if self.sides().iter().any(|side| corners.iter().all(|corner| side.dot(*corner) < -margin)) {
             return Sight::Nothing;
         }
         let [a, b, c] = corners;

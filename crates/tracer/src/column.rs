@@ -1,0 +1,63 @@
+//! Numbers side by side, from the start of a cache line on: so no packet's share of them straddles two lines.
+
+use std::ops::{Deref, DerefMut};
+
+use aligned_vec::AVec;
+
+/// A growing list.
+#[derive(Debug, Clone)]
+pub(crate) struct Column<T>(AVec<T>);
+
+impl<T: Clone> Column<T> {
+    /// So many of one value.
+    pub(crate) fn filled(length: usize, value: T) -> Self {
+        let mut column = Self::default();
+        column.resize(length, value);
+        column
+    }
+
+    /// Cuts off or adds as many of a value as make up a length.
+    pub(crate) fn resize(&mut self, length: usize, value: T) {
+        self.0.resize(length, value);
+    }
+}
+
+impl<T> Default for Column<T> {
+    fn default() -> Self {
+        // 0 stands for the least alignment of the type, which is a cache line.
+        Self(AVec::new(0))
+    }
+}
+
+impl<T> Deref for Column<T> {
+    type Target = [T];
+
+    #[inline(always)]
+    fn deref(&self) -> &[T] {
+        &self.0
+    }
+}
+
+impl<T> DerefMut for Column<T> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_column_begins_with_a_cache_line_however_it_has_grown() {
+        let mut columns: Vec<Column<f32>> = (0..9).map(|i| Column::filled(i, 1.0)).collect();
+        for column in &mut columns {
+            for length in [17, 300, 5000] {
+                column.resize(length, 2.0);
+                assert_eq!(column.as_ptr().addr() % 64, 0);
+            }
+        }
+        assert_eq!((columns[8][7], columns[8][8]), (1.0, 2.0));
+    }
+}
