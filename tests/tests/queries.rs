@@ -148,6 +148,17 @@ fn crowd(numbers: &mut Numbers, count: u32) -> TriangleMesh {
     TriangleMesh::new(positions, triangles, None, None).expect("a mesh")
 }
 
+/// Long thin triangles across each other: trees that cut space have them in many leaves.
+fn thicket(numbers: &mut Numbers, count: u32) -> TriangleMesh {
+    let mut positions: Vec<[f32; 3]> = Vec::new();
+    for _ in 0..count {
+        let (a, b) = (numbers.vector(), numbers.vector());
+        positions.extend([a, b, b + numbers.vector() * 0.02].map(|p| p.to_array().map(|v| v as f32)));
+    }
+    let triangles = (0..count).map(|id| [3 * id, 3 * id + 1, 3 * id + 2]).collect();
+    TriangleMesh::new(positions, triangles, None, None).expect("a mesh")
+}
+
 /// Rays from one point, to one point, and without order; a third of them through corners, a third through edges.
 fn aimed_rays(numbers: &mut Numbers, mesh: &Mesh, count: usize) -> RayList {
     let mut rays = RayList::new();
@@ -177,15 +188,23 @@ fn aimed_rays(numbers: &mut Numbers, mesh: &Mesh, count: usize) -> RayList {
 #[test]
 fn meshes_of_any_kind_are_met_where_the_oracle_meets_them() {
     let mut numbers = Numbers(88_172_645_463_325_252);
-    let source = MeshSource { path: String::new(), mesh: crowd(&mut numbers, 400).into() };
-    let turned = Placement::IDENTITY.turned(DVec3::X, DVec3::new(0.3, 0.2, 0.1), 1.0).unwrap();
-    let turned = turned.scaled(1.5).unwrap();
+    for mesh in [crowd(&mut numbers, 400), thicket(&mut numbers, 300)] {
+        let source = MeshSource { path: String::new(), mesh: mesh.into() };
+        all_meet_what_the_oracle_meets(&mut numbers, &source);
+    }
+}
+
+/// From every preset's tree, placed and not.
+fn all_meet_what_the_oracle_meets(numbers: &mut Numbers, source: &MeshSource) {
+    let turned = Placement::IDENTITY.turned(DVec3::X, DVec3::new(0.3, 0.2, 0.1), 1.0).expect("a turn");
+    let turned = turned.scaled(1.5).expect("a scale");
     for placement in [Placement::IDENTITY, turned] {
         let mesh = Mesh::new(source.clone()).placed(&placement);
-        let rays = aimed_rays(&mut numbers, &mesh, 5000);
+        let rays = aimed_rays(numbers, &mesh, 5000);
         let mut scene = Scene::new();
-        let grey = scene.add_material("grey", Matte::new(Rgb::grey(0.5)).unwrap()).unwrap();
-        scene.add_shape("mesh", mesh, grey, None).unwrap();
+        let grey =
+            scene.add_material("grey", Matte::new(Rgb::grey(0.5)).expect("a colour")).expect("a material");
+        scene.add_shape("mesh", mesh, grey, None).expect("a shape");
         for preset in Preset::ALL {
             let snapshot = Snapshot::extract_with(&scene, None, *preset);
             let right = nearest("oracle", &snapshot, &rays);

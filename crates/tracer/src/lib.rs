@@ -38,6 +38,8 @@ mod pattern;
 mod pick;
 mod pool;
 pub mod query;
+#[cfg(test)]
+mod random;
 mod render;
 mod snapshot;
 mod stats;

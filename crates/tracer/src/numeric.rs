@@ -107,6 +107,10 @@ pub(crate) const MEET_SLOPE_ERROR: f64 = 16.0 * W;
 /// γ₃·6 for the sum of products: 45u, rounded up.
 pub(crate) const MEET_TOP_ERROR: f64 = 48.0 * W;
 
+/// Error of where an edge from a to b crosses a plane, in `f64` relative to |a| + |b|: three differences, a product and a
+/// quotient of the share that is at most 1 (5u), the sum (u); rounded up for the sum that widens by it.
+pub(crate) const CLIP_ERROR: f64 = 8.0 * W;
+
 /// How far a box is widened for one ray, per metre of the origin's largest coordinate: the origin is rounded once, and
 /// once more when it is widened.
 pub(crate) const LONE_PAD: f32 = 4.0 * U;

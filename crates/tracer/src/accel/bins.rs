@@ -30,6 +30,18 @@ impl Item {
         Self(numbers)
     }
 
+    /// The same triangle, of which only what lies in a box is meant.
+    pub(super) fn within(self, bounds: &Box32) -> Self {
+        let ([a, b, c], [u, v, w]) = (bounds.min, bounds.max);
+        Self([a, b, c, self.0[3], -u, -v, -w, 0.0])
+    }
+
+    /// The box.
+    pub(super) fn bounds(&self) -> Box32 {
+        let [x, y, z, _, u, v, w, _] = self.0;
+        Box32 { min: [x, y, z], max: [-u, -v, -w] }
+    }
+
     /// Which triangle it is.
     pub(super) fn id(&self) -> u32 {
         self.0[3].to_bits().wrapping_sub(PLAIN)
@@ -104,16 +116,19 @@ impl<S: Simd> Extent<S> {
 pub(super) struct Set<S: Simd> {
     pub(super) first: usize,
     pub(super) count: usize,
+    /// Places behind them that are kept free for triangles that lie on both sides of a plane.
+    pub(super) room: usize,
     pub(super) around: Extent<S>,
     pub(super) centres: Extent<S>,
     pub(super) leaf: bool,
 }
 
 impl<S: Simd> Set<S> {
-    /// Of all that stands from a place on.
-    pub(super) fn of(s: S, items: &[Item], first: usize) -> Self {
+    /// Of all that stands there, from the first place on.
+    pub(super) fn of(s: S, items: &[Item]) -> Self {
         let empty = Extent::empty(s);
-        let mut set = Self { first, count: items.len(), around: empty, centres: empty, leaf: false };
+        let mut set =
+            Self { first: 0, count: items.len(), room: 0, around: empty, centres: empty, leaf: false };
         s.vectorize(
             #[inline(always)]
             || {
@@ -125,6 +140,14 @@ impl<S: Simd> Set<S> {
             },
         );
         set
+    }
+
+    /// Where two parts of it stand; free places are shared out as the triangles are.
+    pub(super) fn parted(&self, counts: [usize; 2]) -> [Self; 2] {
+        let room = self.room * counts[0] / (counts[0] + counts[1]);
+        let second = self.first + counts[0] + room;
+        let first = Self { count: counts[0], room, leaf: false, ..*self };
+        [first, Self { first: second, count: counts[1], room: self.room - room, ..first }]
     }
 
     /// This and what stands right after it.
@@ -179,7 +202,8 @@ impl<S: Simd> Scale<S> {
 pub(super) struct Plane {
     axis: usize,
     bin: i32,
-    cost: f32,
+    /// Surface areas times triangles, of both parts.
+    pub(super) cost: f32,
     /// How many triangles lie before it.
     pub(super) count: usize,
 }

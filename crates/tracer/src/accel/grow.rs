@@ -8,6 +8,7 @@ use fearless_simd::{Level, Simd, dispatch};
 use rayon::prelude::*;
 
 use super::bins::{Bins, Extent, Item, Plane, Scale, Set};
+use super::spatial::cheapest_cut;
 use super::wide_tree::{Block8, Node8, WIDTH, WideTree};
 use super::{MAX_DEPTH, Preset};
 
@@ -19,36 +20,49 @@ const PARALLEL: usize = 8192;
 /// A leaf has at most this many triangles, and never fewer than could be split: a block is tested in one go, so two
 /// smaller leaves would cost more.
 const LEAF: usize = 8;
+/// Share of the surface of the box round a mesh that two parts must have in common for space to be cut (α in Stich et al.
+/// 2009). Measured on a scan and a building of 870,000 and 66,000 triangles: from here to 10⁻⁵ rays gain nothing more, while
+/// the tree takes up to seven times as long to build and grows by 5 %; at 10⁻¹ they have gained nothing yet.
+const OVERLAP: f32 = 1e-2;
 /// Depth from which on stretches are halved, which takes at most 32 levels.
 const HALVE: usize = MAX_DEPTH - 32;
 
 /// Builds the tree on the threads of the pool it is called in.
 pub(super) fn grow(mesh: &TriangleMesh, preset: Preset) -> WideTree {
-    dispatch!(Level::new(), s => Grower { s, preset }.grow(mesh))
+    dispatch!(Level::new(), s => Grower { s, preset, mesh, overlap: f32::INFINITY }.grow())
 }
 
-struct Grower<S: Simd> {
+struct Grower<'a, S: Simd> {
     s: S,
     preset: Preset,
+    mesh: &'a TriangleMesh,
+    /// Half the surface of what two parts have in common from which on space is cut.
+    overlap: f32,
 }
 
-impl<S: Simd> Clone for Grower<S> {
+impl<S: Simd> Clone for Grower<'_, S> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<S: Simd> Copy for Grower<S> {}
+impl<S: Simd> Copy for Grower<'_, S> {}
 
-impl<S: Simd> Grower<S> {
-    fn grow(self, mesh: &TriangleMesh) -> WideTree {
-        let count = mesh.triangles().len();
+impl<S: Simd> Grower<'_, S> {
+    fn grow(mut self) -> WideTree {
+        let (mesh, count) = (self.mesh, self.mesh.triangles().len());
+        let room = self.preset.room(count);
         let mut items: Vec<Item> =
             (0..count as u32).into_par_iter().with_min_len(PARALLEL).map(|id| Item::new(mesh, id)).collect();
-        let mut scratch = vec![Item::NONE; count];
-        let root = self.measured(&items, 0);
+        let root = self.measured(&items, Set { room, ..Set::of(self.s, &[]) });
+        items.resize(count + room, Item::NONE);
+        let mut scratch = vec![Item::NONE; count + room];
+        self.overlap = root.around.half_area() * OVERLAP;
         let mut nodes = Vec::with_capacity(count / 8 + 1);
         self.node((&mut items, &mut scratch), 0, root, 0, &mut nodes);
+        if room > 0 {
+            items = close_gaps(&mut nodes, &items);
+        }
         let blocks =
             items.par_chunks(WIDTH).with_min_len(PARALLEL / WIDTH).map(|items| block(mesh, items)).collect();
         WideTree { nodes, blocks }
@@ -83,7 +97,7 @@ impl<S: Simd> Grower<S> {
             if parallel {
                 append(nodes, std::mem::take(&mut subtrees[child]));
             } else {
-                let own = set.first..set.first + set.count;
+                let own = set.first..set.first + set.count + set.room;
                 let part = (&mut items[own.clone()], &mut scratch[own]);
                 self.node(part, base + set.first, Set { first: 0, ..*set }, depth + 1, nodes);
             }
@@ -101,7 +115,8 @@ impl<S: Simd> Grower<S> {
     ) -> Vec<Vec<Node8>> {
         let mut parts = Vec::with_capacity(sets.len());
         for set in sets {
-            let (part, own) = (items.split_off_mut(..set.count), scratch.split_off_mut(..set.count));
+            let (part, own) =
+                (items.split_off_mut(..set.count + set.room), scratch.split_off_mut(..set.count + set.room));
             parts.extend(part.zip(own).map(|part| (part, *set)));
         }
         let grown = |(part, set): (Room<'_>, Set<S>)| {
@@ -143,25 +158,69 @@ impl<S: Simd> Grower<S> {
         if set.count <= LEAF {
             return None;
         }
-        let own = set.first..set.first + set.count;
+        let own = set.first..set.first + set.count + set.room;
         let (items, scratch) = (&mut items[own.clone()], &mut scratch[own]);
         let scale = Scale::new(self.s, set.centres, self.preset.bins(set.count));
-        let plane = if depth < HALVE { self.best_plane(items, &scale) } else { None };
+        let plane = if depth < HALVE { self.best_plane(&items[..set.count], &scale) } else { None };
+        if set.room > 0 && depth < HALVE {
+            let parts = self.cut(&items[..set.count], set, plane.as_ref());
+            if let Some(parts) = parts {
+                return Some(self.put_back(items, set, &parts));
+            }
+        }
         let Some((plane, around)) = plane else {
             // Centres in one place, or too deep for anything else: any halves do.
-            let (a, b) = items.split_at(items.len() / 2);
-            return Some([self.measured(a, set.first), self.measured(b, set.first + a.len())]);
+            let sets = set.parted([set.count / 2, set.count.div_ceil(2)]);
+            let second = sets[1].first - set.first;
+            items.copy_within(sets[0].count..set.count, second);
+            let (a, b) = (&items[..sets[0].count], &items[second..second + sets[1].count]);
+            return Some([self.measured(a, sets[0]), self.measured(b, sets[1])]);
         };
-        let centres = self.partition((items, scratch), &scale, &plane);
-        let counts = [plane.count, set.count - plane.count];
-        let firsts = [set.first, set.first + plane.count];
-        Some([0, 1].map(|part| Set {
-            first: firsts[part],
-            count: counts[part],
-            around: around[part],
-            centres: centres[part],
-            leaf: false,
-        }))
+        let sets = set.parted([plane.count, set.count - plane.count]);
+        let second = sets[1].first - set.first;
+        let centres = self.partition((items, &mut scratch[..set.count]), &scale, &plane, second);
+        Some([0, 1].map(|part| Set { around: around[part], centres: centres[part], ..sets[part] }))
+    }
+
+    /// What of a set stands on either side of a plane that cuts space, where that is cheaper than to sort its triangles,
+    /// and worth the trouble.
+    fn cut(
+        self,
+        items: &[Item],
+        set: &Set<S>,
+        sorted: Option<&(Plane, [Extent<S>; 2])>,
+    ) -> Option<[Vec<Item>; 2]> {
+        let cost = match sorted {
+            Some((plane, [a, b])) => {
+                let common = a.bounds().intersection(&b.bounds());
+                if common.is_empty() || common.half_area() <= self.overlap {
+                    return None;
+                }
+                plane.cost
+            }
+            None => set.around.half_area() * set.count as f32,
+        };
+        let cut = cheapest_cut(self.mesh, items, &set.around.bounds(), (set.room, PARALLEL))?;
+        if !(cut.cost < cost) {
+            return None;
+        }
+        let shares: Vec<[Vec<Item>; 2]> =
+            items.par_chunks(PARALLEL).map(|items| cut.share_out(self.mesh, items)).collect();
+        let parts =
+            [0, 1].map(|side| shares.iter().flat_map(|share| &share[side]).copied().collect::<Vec<_>>());
+        parts.iter().all(|part| !part.is_empty()).then_some(parts)
+    }
+
+    /// Lets two parts stand in place of a set.
+    fn put_back(self, items: &mut [Item], set: &Set<S>, parts: &[Vec<Item>; 2]) -> [Set<S>; 2] {
+        let counts = [0, 1].map(|side: usize| parts[side].len());
+        let room = set.room + set.count - counts[0] - counts[1];
+        let sets = Set { room, ..*set }.parted(counts);
+        [0, 1].map(|side| {
+            let at = sets[side].first - set.first;
+            items[at..at + counts[side]].copy_from_slice(&parts[side]);
+            self.measured(&parts[side], sets[side])
+        })
     }
 
     /// The cheapest of the planes between bins, and the boxes round both parts.
@@ -182,17 +241,27 @@ impl<S: Simd> Grower<S> {
         all.best_plane(self.s, scale)
     }
 
-    /// Brings what lies before the plane to the front; the boxes round the centres of both parts.
-    fn partition(self, (items, scratch): Room<'_>, scale: &Scale<S>, plane: &Plane) -> [Extent<S>; 2] {
-        if items.len() <= PARALLEL {
-            let (_, centres) = self.sort_into(items, scratch, scale, plane);
-            items.copy_from_slice(scratch);
+    /// Brings what lies before the plane to the front, and the rest to where the `second` part begins; the boxes round the
+    /// centres of both parts.
+    fn partition(
+        self,
+        (items, scratch): Room<'_>,
+        scale: &Scale<S>,
+        plane: &Plane,
+        second: usize,
+    ) -> [Extent<S>; 2] {
+        let present = &items[..scratch.len()];
+        if present.len() <= PARALLEL {
+            let (_, centres) = self.sort_into(present, scratch, scale, plane);
+            let (below, above) = scratch.split_at(plane.count);
+            items[..below.len()].copy_from_slice(below);
+            items[second..second + above.len()].copy_from_slice(above);
             return centres;
         }
-        let shares = items.par_chunks(PARALLEL).zip(scratch.par_chunks_mut(PARALLEL));
+        let shares = present.par_chunks(PARALLEL).zip(scratch.par_chunks_mut(PARALLEL));
         let sorted: Vec<(usize, [Extent<S>; 2])> =
             shares.map(|(items, scratch)| self.sort_into(items, scratch, scale, plane)).collect();
-        let (mut below, mut above) = items.split_at_mut(plane.count);
+        let (mut below, mut above) = items.split_at_mut(second);
         let mut parts = Vec::with_capacity(2 * sorted.len());
         for (share, (count, _)) in scratch.chunks(PARALLEL).zip(&sorted) {
             let (first, second) = share.split_at(*count);
@@ -234,14 +303,15 @@ impl<S: Simd> Grower<S> {
         (count, [below, above])
     }
 
-    /// A set of all that stands from a place on.
-    fn measured(self, items: &[Item], first: usize) -> Set<S> {
-        let parts = items.par_chunks(PARALLEL).map(|items| Set::of(self.s, items, first));
-        parts.reduce_with(Set::with).unwrap_or_else(|| Set::of(self.s, items, first))
+    /// A set of these triangles, which stand where another is said to.
+    fn measured(self, items: &[Item], place: Set<S>) -> Set<S> {
+        let parts = items.par_chunks(PARALLEL).map(|items| Set::of(self.s, items));
+        let set = parts.reduce_with(Set::with).unwrap_or_else(|| Set::of(self.s, items));
+        Set { first: place.first, room: place.room, ..set }
     }
 }
 
-/// Triangles, and as much room to sort them.
+/// Triangles with free places behind them, and as much room to sort them.
 type Room<'a> = (&'a mut [Item], &'a mut [Item]);
 
 /// Appends a subtree whose inner links count from its own start.
@@ -255,6 +325,19 @@ fn append(nodes: &mut Vec<Node8>, subtree: Vec<Node8>) {
         }
         node
     }));
+}
+
+/// Moves all leaves' triangles together, in the order of the nodes.
+fn close_gaps(nodes: &mut [Node8], items: &[Item]) -> Vec<Item> {
+    let mut closed = Vec::with_capacity(items.len());
+    for node in nodes {
+        for child in (0..usize::from(node.children)).filter(|&child| node.count[child] != 0) {
+            let first = node.link[child] as usize;
+            node.link[child] = closed.len() as u32;
+            closed.extend_from_slice(&items[first..first + usize::from(node.count[child])]);
+        }
+    }
+    closed
 }
 
 /// A block of the triangles, the last repeated where there are fewer than eight.
@@ -298,9 +381,9 @@ mod tests {
         TriangleMesh::new(positions, triangles, None, None).unwrap()
     }
 
-    /// Looks at every leaf: that its triangles lie within all boxes above, and how often each triangle stands in one.
-    fn check(mesh: &TriangleMesh, tree: &WideTree) -> Vec<u32> {
-        let mut seen = vec![0; mesh.triangles().len()];
+    /// Looks at every node: that it lies within all boxes above; the boxes of the leaves that each triangle stands in.
+    fn leaves(mesh: &TriangleMesh, tree: &WideTree) -> Vec<Vec<Box32>> {
+        let mut leaves = vec![Vec::new(); mesh.triangles().len()];
         let everything = Box32 { min: [f32::NEG_INFINITY; 3], max: [f32::INFINITY; 3] };
         let mut stack = vec![(0_usize, everything, 0)];
         while let Some((at, around, depth)) = stack.pop() {
@@ -315,36 +398,78 @@ mod tests {
                 }
                 for slot in node.link[child]..node.link[child] + u32::from(node.count[child]) {
                     let facet = tree.facet(slot);
-                    seen[facet as usize] += 1;
                     let corners = mesh.triangles()[facet as usize].map(|i| mesh.positions()[i as usize]);
                     assert_eq!(tree.triangle(slot), corners);
-                    assert!(corners.iter().all(|p| bounds.union(&Box32 { min: *p, max: *p }) == bounds));
+                    leaves[facet as usize].push(bounds);
                 }
             }
         }
-        seen
+        leaves
+    }
+
+    /// Asserts that leaves hold all of every triangle, and no more triangles than a preset may add.
+    fn assert_complete(mesh: &TriangleMesh, preset: Preset) {
+        let (leaves, count) = (leaves(mesh, &grow(mesh, preset)), mesh.triangles().len());
+        let total: usize = leaves.iter().map(Vec::len).sum();
+        assert!(total <= count + preset.room(count), "{total} of {count} {}", preset.name());
+        let weights =
+            (0..=8).flat_map(|i| (0..=8 - i).map(move |j| [i, j, 8 - i - j].map(|w| f64::from(w) / 8.0)));
+        let weights: Vec<[f64; 3]> = weights.collect();
+        for (facet, boxes) in leaves.iter().enumerate() {
+            let [a, b, c] = mesh.corners(facet as u32);
+            for &[u, v, w] in &weights {
+                let point = (a * u + b * v + c * w).to_array();
+                let holds = |b: &Box32| {
+                    (0..3).all(|i| f64::from(b.min[i]) <= point[i] && point[i] <= f64::from(b.max[i]))
+                };
+                assert!(boxes.iter().any(holds), "{point:?} of {facet} in {boxes:?} {}", preset.name());
+            }
+        }
+    }
+
+    /// Long thin triangles across each other.
+    fn thicket(count: u32) -> TriangleMesh {
+        let at = |number: u32| {
+            let turn = f64::from(number) * 2.4;
+            [turn.cos(), turn.sin() * 0.7, (turn * 1.7).sin()].map(|v| v as f32)
+        };
+        let positions = (0..count).flat_map(|id| {
+            let [a, b] = [at(id), at(3 * id + 1)];
+            [a, b, b.map(|v| v + 0.004)]
+        });
+        let triangles = (0..count).map(|id| [3 * id, 3 * id + 1, 3 * id + 2]).collect();
+        TriangleMesh::new(positions.collect(), triangles, None, None).unwrap()
     }
 
     #[test]
-    fn every_triangle_stands_in_one_leaf_within_all_boxes_above_it() {
-        for count in [1, 2, 8, 9, 13, 100, 20_000] {
-            let mesh = crowd(count);
+    fn leaves_hold_all_of_every_triangle() {
+        for count in [1, 2, 8, 9, 13, 100, 3000] {
             for preset in Preset::ALL {
-                let seen = check(&mesh, &grow(&mesh, *preset));
-                assert!(seen.iter().all(|&times| times == 1), "{count} {}", preset.name());
+                assert_complete(&crowd(count), *preset);
+                assert_complete(&thicket(count), *preset);
             }
         }
+    }
+
+    #[test]
+    fn a_triangle_stands_in_one_leaf_unless_space_is_cut() {
+        let mesh = thicket(2000);
+        let most = |preset| leaves(&mesh, &grow(&mesh, preset)).iter().map(Vec::len).max();
+        assert_eq!([most(Preset::Fast), most(Preset::Balanced)], [Some(1); 2]);
+        assert!(most(Preset::Best) > Some(1));
     }
 
     #[test]
     fn a_tree_does_not_depend_on_the_number_of_threads() {
-        let mesh = crowd(30_000);
-        let grown = |threads: usize| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let tree = pool.install(|| grow(&mesh, Preset::Balanced));
-            (tree.nodes.len(), tree.blocks.iter().map(|block| block.facet).collect::<Vec<_>>())
-        };
-        assert!(grown(1) == grown(3));
+        for (mesh, preset) in [(crowd(30_000), Preset::Balanced), (thicket(9000), Preset::Best)] {
+            let grown = |threads: usize| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                let tree = pool.install(|| grow(&mesh, preset));
+                let facets = tree.blocks.iter().map(|block| block.facet).collect::<Vec<_>>();
+                (tree.nodes.iter().map(|node| (node.bounds, node.link)).collect::<Vec<_>>(), facets)
+            };
+            assert!(grown(1) == grown(3), "{}", preset.name());
+        }
     }
 
     #[test]
@@ -357,7 +482,7 @@ mod tests {
         let triangles: Vec<[u32; 3]> = ladder.chain(same).collect();
         let mesh = TriangleMesh::new(positions, triangles, None, None).unwrap();
         for preset in Preset::ALL {
-            assert!(check(&mesh, &grow(&mesh, *preset)).iter().all(|&times| times == 1));
+            assert_complete(&mesh, *preset);
         }
     }
 }

@@ -2,9 +2,11 @@
 
 mod bins;
 mod build;
+mod clip;
 mod grow;
 mod mesh_tree;
 mod preset;
+mod spatial;
 mod tree;
 mod wide_tree;
 

@@ -23,6 +23,19 @@ impl Box32 {
         }
     }
 
+    /// What lies in both; may be empty.
+    pub(crate) fn intersection(&self, o: &Self) -> Self {
+        Self {
+            min: std::array::from_fn(|i| self.min[i].max(o.min[i])),
+            max: std::array::from_fn(|i| self.max[i].min(o.max[i])),
+        }
+    }
+
+    /// Whether it holds no point.
+    pub(crate) fn is_empty(&self) -> bool {
+        (0..3).any(|i| self.min[i] > self.max[i])
+    }
+
     /// Half the surface area: what the surface area heuristic weighs by; 0 when empty.
     pub(crate) fn half_area(&self) -> f32 {
         let [x, y, z] = std::array::from_fn(|i| (self.max[i] - self.min[i]).max(0.0));

@@ -9,30 +9,7 @@ use fearless_simd::{Level, Simd, dispatch};
 
 use super::{PlaneRow, Proposal, Rays, RectangleRow, SphereRow, TriangleRow, magnitude};
 use crate::lanes::{F, F3, M};
-
-/// A stream of numbers (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ self.0 >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
-    }
-
-    fn number(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    fn point(&mut self) -> DVec3 {
-        DVec3::new(self.number(), self.number(), self.number())
-    }
-
-    fn power(&mut self, low: i32, high: i32) -> f64 {
-        2.0_f64.powi(low + (self.bits() % (high - low + 1) as u64) as i32)
-    }
-}
+use crate::random::Random;
 
 /// A shape and points of its rim.
 type Target = (Shape, Vec<DVec3>);

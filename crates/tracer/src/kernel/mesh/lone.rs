@@ -305,7 +305,8 @@ impl Lone {
     #[inline(never)]
     fn settle(&self, tree: &WideTree, slot: u32, best: &mut LoneBest, umpire: &mut dyn Umpire) {
         let (facet, held) = (tree.facet(slot), best.slot);
-        if held == Some(slot) {
+        // A triangle may stand in several leaves.
+        if held.is_some_and(|held| tree.facet(held) == facet) {
             return;
         }
         // A rounding of the difference, towards smaller numbers.
