@@ -14,7 +14,7 @@ use crate::numeric::{BOX_STRETCH, LONE_DEPTH, LONE_FLOOR, LONE_PAD, LONE_SHARE, 
 
 /// A ray in a mesh's own space.
 pub(crate) struct Lone {
-    ray: Ray,
+    pub(super) ray: Ray,
     lane: usize,
     /// The triangle that the ray leaves from.
     left: u32,
@@ -39,8 +39,8 @@ pub(crate) struct Lone {
 #[derive(Clone, Copy)]
 pub(crate) struct LoneBest {
     /// Where it is, in lengths of the ray's direction, and within which bound.
-    t: f32,
-    error: f32,
+    pub(super) t: f32,
+    pub(super) error: f32,
     /// Which triangle of the tree's blocks, if it is one of this mesh.
     pub(crate) slot: Option<u32>,
     /// Whether any crossing will do.

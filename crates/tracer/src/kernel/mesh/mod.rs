@@ -3,6 +3,8 @@
 //! Both pass over what they are certain to miss, in `f32` with bounds. What remains is decided in `f64` with bounds, and
 //! by an [`Umpire`] where those do not decide either.
 
+#[cfg(test)]
+mod attack;
 mod bundle;
 mod edges;
 mod fan;

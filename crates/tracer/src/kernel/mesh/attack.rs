@@ -1,0 +1,194 @@
+//! Do the bounds of the mesh kernels hold, and do they have to be as large as they are? Rays aimed at edges and corners,
+//! grazing planes, near ties, at all scales: what `f32` is certain of must be what exact arithmetic says, and depths must
+//! lie within their bounds. It is found out when the edges' bounds of rays through one point are cut to a third, those of
+//! their depths to an eighth, and a lone ray's to an eighth.
+//!
+//! The umpire gives out rays of NaN, which leave `f64` no opinion: all that `f32` does not decide comes to the umpire, who
+//! notes it and decides nothing.
+
+use std::sync::Arc;
+
+use catoptra_core::geometry::Triangle;
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Ray, Shape, Span, TriangleMesh};
+use fearless_simd::{Level, Simd, dispatch};
+
+use super::{Bundle, Lines, Lone, LoneBest, Umpire, Visits};
+use crate::accel::{MeshTree, Preset};
+use crate::lanes::{D, D3, F, M};
+use crate::random::Random;
+
+/// Notes which lanes it was asked about.
+#[derive(Default)]
+struct Witness {
+    asked: u64,
+}
+
+impl Umpire for Witness {
+    fn ray(&mut self, _: usize) -> Option<(Ray, Span)> {
+        Some((Ray::new(DVec3::NAN, DVec3::NAN), Span::AHEAD))
+    }
+
+    fn decide(&mut self, lane: usize, _: u32, _: Option<u32>) -> Option<f64> {
+        self.asked |= 1 << lane;
+        None
+    }
+}
+
+/// How a kernel did.
+#[derive(Debug, Default)]
+struct Record {
+    hits: u64,
+    misses: u64,
+    undecided: u64,
+    /// Largest error of a depth in units of its bound.
+    worst: f64,
+}
+
+/// Triangles with their tree, and exactly.
+struct Target {
+    tree: MeshTree,
+    shapes: Vec<Shape>,
+    corners: [DVec3; 3],
+}
+
+impl Target {
+    /// A triangle and, in half of all cases, one that is the same but for some roundings.
+    fn any(random: &mut Random) -> Option<Self> {
+        let (place, size) = (random.point() * random.power(-8, 4), random.power(-8, 4));
+        let thin = random.power(-8, 0);
+        let [a, b, c] = [(); 3].map(|()| place + random.point() * size);
+        let c = a.lerp(c, thin);
+        let mut positions = [a, b, c].map(|p: DVec3| p.as_vec3()).to_vec();
+        if random.bits().is_multiple_of(2) {
+            let off = (random.point() * size * random.power(-24, -8)).as_vec3();
+            positions.extend([0, 1, 2].map(|corner: usize| positions[corner] + off));
+        }
+        let wide = |at: usize| positions[at].as_dvec3();
+        let shape = |at: usize| Triangle::new(wide(at), wide(at + 1), wide(at + 2)).ok().map(Shape::from);
+        let shapes = (0..positions.len()).step_by(3).map(shape).collect::<Option<Vec<_>>>()?;
+        let triangles = (0..positions.len() as u32).step_by(3).map(|at| [at, at + 1, at + 2]).collect();
+        let corners = [wide(0), wide(1), wide(2)];
+        let positions = positions.into_iter().map(|p| p.to_array()).collect();
+        let mesh = Arc::new(TriangleMesh::new(positions, triangles, None, None).ok()?);
+        Some(Self { tree: MeshTree::build(&mesh, Preset::Fast), shapes, corners })
+    }
+
+    /// A point at an edge or a corner, or nearly so.
+    fn rim(&self, random: &mut Random) -> DVec3 {
+        let corner = random.bits() as usize % 3;
+        let (a, b) = (self.corners[corner], self.corners[(corner + 1) % 3]);
+        let share = [0.0, 0.5, random.number()][random.bits() as usize % 3];
+        a.lerp(b, share) + random.point() * a.distance(b) * random.power(-26, -1)
+    }
+
+    /// A point to look from: anywhere, or hardly out of the plane.
+    fn eye(&self, random: &mut Random) -> DVec3 {
+        let [a, b, c] = self.corners;
+        let (along, away) = (b - a, random.point() * a.distance(b) * random.power(1, 6));
+        if random.bits().is_multiple_of(2) {
+            return a + away;
+        }
+        let normal = along.cross(c - a).normalize_or_zero();
+        a + away - normal * away.dot(normal) * (1.0 - random.power(-20, 0))
+    }
+
+    /// Which triangle a ray meets first, and where; of two in one place the first.
+    fn first(&self, ray: &Ray) -> Option<(u32, f64)> {
+        let hits = self.shapes.iter().zip(0_u32..);
+        let hits = hits.filter_map(|(shape, id)| Some((id, shape.cross(ray, Span::AHEAD, None)?.t)));
+        hits.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+impl Record {
+    /// Compares what `f32` is certain of, depth and bound of its crossing, with the exact answer.
+    fn note(&mut self, target: &Target, ray: &Ray, found: Option<(u32, [f64; 2])>, depth_per_t: f64) {
+        let right = target.first(ray);
+        assert_eq!(found.map(|found| found.0), right.map(|right| right.0), "{ray:?} {:?}", target.corners);
+        match (found, right) {
+            (Some((_, [depth, error])), Some((_, t))) => {
+                self.hits += 1;
+                let ratio = (depth - t * depth_per_t).abs() / error;
+                assert!(ratio <= 1.0, "{ratio} of the bound: {ray:?} {:?}", target.corners);
+                self.worst = self.worst.max(ratio);
+            }
+            _ => self.misses += 1,
+        }
+    }
+
+    /// Asserts that all there is to attack was attacked.
+    fn assert_attacked(&self, least: f64) {
+        println!("{self:?}");
+        assert!(self.hits.min(self.misses).min(self.undecided) > 300, "{self:?}");
+        assert!(self.worst > least, "the worst error is but {} of its bound", self.worst);
+    }
+}
+
+#[test]
+fn lone_rays_are_certain_only_of_what_is_so() {
+    let (mut random, mut record) = (Random(11), Record::default());
+    for _ in 0..300_000 {
+        let Some(target) = Target::any(&mut random) else { continue };
+        let (from, to) = (target.eye(&mut random), target.rim(&mut random));
+        let ray = Ray::new(from, (to - from) * random.power(-6, 6));
+        let mut best = LoneBest::nothing_on(Span::AHEAD);
+        let mut lone = Lone::new(ray, 0, u32::MAX, target.tree.reach);
+        lone.ray = Ray::new(DVec3::NAN, DVec3::NAN);
+        let (mut witness, mut visits) = (Witness::default(), Visits::default());
+        dispatch!(Level::new(), s => lone.search(s, &target.tree.tree, &mut visits, &mut best, &mut witness));
+        if witness.asked != 0 {
+            record.undecided += 1;
+            continue;
+        }
+        let place = [f64::from(best.t), f64::from(best.error)];
+        let found = best.slot.map(|slot| (target.tree.tree.facet(slot), place));
+        record.note(&target, &ray, found, 1.0);
+    }
+    record.assert_attacked(0.02);
+}
+
+#[test]
+fn rays_through_one_point_are_certain_only_of_what_is_so() {
+    let (mut random, mut record) = (Random(13), Record::default());
+    for _ in 0..60_000 {
+        let Some(target) = Target::any(&mut random) else { continue };
+        dispatch!(Level::new(), s => attack_fan(s, &mut random, &target, &mut record));
+    }
+    record.assert_attacked(0.02);
+}
+
+/// Looks at a rim from one point, which rays pass by some roundings in half of all cases.
+fn attack_fan<S: Simd>(s: S, random: &mut Random, target: &Target, record: &mut Record) {
+    let eye = target.eye(random);
+    let off = [0.0, eye.distance(target.corners[0]) * random.power(-30, -20)][random.bits() as usize % 2];
+    let rays: Vec<Ray> = (0..F::<S>::LANES)
+        .map(|_| {
+            let (from, to) = (eye + random.point() * off, target.rim(random));
+            Ray::new(from, to - from)
+        })
+        .collect();
+    let column = |of: &dyn Fn(&Ray) -> f64| D::load(s, &rays.iter().map(of).collect::<Vec<_>>());
+    let triple = |of: &dyn Fn(&Ray) -> DVec3| {
+        D3::new(column(&|ray| of(ray).x), column(&|ray| of(ray).y), column(&|ray| of(ray).z))
+    };
+    let (origin, direction) = (triple(&|ray| ray.origin), triple(&|ray| ray.direction));
+    let lines = Lines { origin, direction, live: M::splat(s, true) };
+    let Some(bundle) = Bundle::<S, 1>::of(s, 1, |_| lines, (0.0, target.tree.reach)) else { return };
+    let (zero, most) = (F::splat(s, 0.0), F::splat(s, f32::MAX));
+    let mut rays_of_fan = [bundle.slopes(0).rays(s, [zero, zero], [most, zero])];
+    let (mut witness, mut visits) = (Witness::default(), Visits::default());
+    bundle.fan.search(s, &target.tree.tree, &mut visits, &mut rays_of_fan, &mut witness);
+    let [found] = rays_of_fan;
+    for (lane, ray) in rays.iter().enumerate() {
+        if witness.asked >> lane & 1 == 1 {
+            record.undecided += 1;
+            continue;
+        }
+        let slot = Some(found.slot.lane(lane)).filter(|&slot| slot != u32::MAX);
+        let place = [f64::from(found.z.lane(lane)), f64::from(found.error.lane(lane))];
+        let found = slot.map(|slot| (target.tree.tree.facet(slot), place));
+        let depth_per_t = ray.direction[bundle.fan.axes[2]] * f64::from(bundle.fan.sign);
+        record.note(target, ray, found, depth_per_t);
+    }
+}
