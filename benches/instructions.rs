@@ -1,86 +1,92 @@
 //! How many instructions do the main kernels take? Counted by valgrind, so that a noisy machine does not matter.
 //!
-//! The program runs itself under `callgrind` with some frames and with none; the difference is what frames cost. A tool
-//! that only needs valgrind's own package is preferred to a runner that would have to be installed in the same version
-//! as its library. Valgrind knows no AVX-512, so what is counted is the code for AVX2.
+//! Needs the package `valgrind` and `gungraun-runner` of the version that `Cargo.lock` has of `gungraun`; without either it
+//! says so and counts nothing. Valgrind knows no AVX-512, so what is counted is the code for AVX2. Only what a backend does
+//! with one tile or one share of rays counts, on whatever thread; scenes, trees and threads do not.
 
 use std::process::Command;
 
-use catoptra_benches::{camera, scene};
-use catoptra_core::Scene;
-use catoptra_lab::scenes::{Reach, many_lights, many_spheres, placed_mesh};
-use catoptra_tracer::{Control, Film, Pool, Size, Snapshot, View, backend_named, render};
+#[expect(unreachable_pub, reason = "the macros make what they make public")]
+mod counted {
+    use catoptra_benches::{alone, camera, rays, scene, shapes};
+    use catoptra_core::Scene;
+    use catoptra_lab::scenes::{Reach, many_lights, many_spheres, placed_mesh};
+    use catoptra_tracer::query::{HitList, RayList, find_nearest};
+    use catoptra_tracer::{Control, Film, Instructions, Pool, Size, Snapshot, View, backend_named, render};
+    use gungraun::prelude::*;
+    use gungraun::{Callgrind, EntryPoint};
 
-const SIZE: Size = Size::new(128, 96);
+    /// Rays of one measurement: one packet's lanes many times over.
+    const RAYS: usize = 1 << 12;
 
-/// Frames that are counted.
-const FRAMES: u64 = 4;
+    const SIZE: Size = Size::new(128, 96);
 
-/// The word before a kernel's name and a number of frames, with which the program runs as its own subject.
-const SUBJECT: &str = "--subject";
+    /// A shape alone, and rays half of which meet it.
+    fn shape(kind: &str) -> (Snapshot, RayList, HitList, Pool) {
+        let shape = shapes().into_iter().find(|(name, _)| *name == kind).expect("a shape of that kind").1;
+        (alone(shape), rays(RAYS), HitList::default(), Pool::new(1).expect("a thread"))
+    }
 
-/// What is counted: a name, and the scene that shows it.
-type Kernel = (&'static str, fn() -> Scene);
+    #[library_benchmark(config = LibraryBenchmarkConfig::default().tool(Callgrind::default()
+        .entry_point(EntryPoint::Custom("*Wide as catoptra_tracer::backend::Backend>::find_nearest".to_owned()))))]
+    #[bench::sphere(args = ("sphere"), setup = shape)]
+    #[bench::plane(args = ("plane"), setup = shape)]
+    #[bench::triangle(args = ("triangle"), setup = shape)]
+    #[bench::rectangle(args = ("rectangle"), setup = shape)]
+    #[bench::mesh(args = ("mesh of 9800"), setup = shape)]
+    fn nearest((snapshot, rays, mut hits, pool): (Snapshot, RayList, HitList, Pool)) -> HitList {
+        find_nearest(backend_named("wide").expect("a backend"), &snapshot, &rays, &mut hits, &pool);
+        hits
+    }
 
-const KERNELS: [Kernel; 6] = [
-    ("planes", || scene("seed/planes.kdl")),
-    ("sphere and shadows", || scene("seed/point.kdl")),
-    ("reflections", || scene("seed/material.kdl")),
-    ("64 lights", || many_lights(64, Reach::Nearby).expect("a scene")),
-    ("1000 spheres", || many_spheres(1000).expect("a scene")),
-    ("mesh", || placed_mesh(40).expect("a scene")),
-];
+    /// A scene, the picture that is asked for, and room for it.
+    fn picture(name: &str) -> (Snapshot, View, Film, Pool) {
+        let scene: Scene = match name {
+            "64 lights" => many_lights(64, Reach::Nearby).expect("a scene"),
+            "1000 spheres" => many_spheres(1000).expect("a scene"),
+            "mesh" => placed_mesh(40).expect("a scene"),
+            file => scene(file),
+        };
+        let mut view = View::of(&scene, camera(&scene), SIZE);
+        view.instructions = Instructions::named("avx2");
+        (Snapshot::extract(&scene), view, Film::new(SIZE), Pool::new(1).expect("a thread"))
+    }
+
+    #[library_benchmark(config = LibraryBenchmarkConfig::default().tool(Callgrind::default()
+        .entry_point(EntryPoint::Custom("*Wide as catoptra_tracer::backend::Backend>::trace".to_owned()))))]
+    #[bench::planes(args = ("seed/planes.kdl"), setup = picture)]
+    #[bench::shadows(args = ("seed/point.kdl"), setup = picture)]
+    #[bench::reflections(args = ("seed/material.kdl"), setup = picture)]
+    #[bench::lights(args = ("64 lights"), setup = picture)]
+    #[bench::spheres(args = ("1000 spheres"), setup = picture)]
+    #[bench::mesh(args = ("mesh"), setup = picture)]
+    fn frame((snapshot, view, mut film, pool): (Snapshot, View, Film, Pool)) -> Film {
+        let backend = backend_named("wide").expect("a backend");
+        render(backend, &snapshot, &view, &mut film, &pool, &Control::default()).expect("nobody cancels");
+        film
+    }
+
+    library_benchmark_group!(name = kernels, benchmarks = [nearest, frame]);
+
+    gungraun::main!(library_benchmark_groups = kernels);
+
+    /// Counts, or runs what is being counted.
+    pub(super) fn start() {
+        main();
+    }
+}
 
 fn main() {
-    let arguments: Vec<String> = std::env::args().collect();
-    match arguments.iter().position(|argument| argument == SUBJECT) {
-        Some(at) => trace(&arguments[at + 1], arguments[at + 2].parse().expect("a number of frames")),
-        None => count_all(),
-    }
-}
-
-/// Traces so many frames of a kernel's scene.
-fn trace(kernel: &str, frames: u64) {
-    let (_, scene) = KERNELS.iter().find(|(name, _)| *name == kernel).expect("a kernel of that name");
-    let scene = scene();
-    let (snapshot, view) = (Snapshot::extract(&scene), View::of(&scene, camera(&scene), SIZE));
-    let (pool, mut film) = (Pool::new(1).expect("a thread"), Film::new(SIZE));
-    let backend = backend_named("wide").expect("the default backend");
-    for _ in 0..frames {
-        render(backend, &snapshot, &view, &mut film, &pool, &Control::default()).expect("nobody cancels");
-    }
-}
-
-fn count_all() {
-    if Command::new("valgrind").arg("--version").output().is_err() {
-        println!("instructions: skipped, there is no valgrind (Debian, Ubuntu: package valgrind)");
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let is_counted = arguments.first().is_some_and(|argument| argument == "--gungraun-run");
+    // Tests have nothing to count.
+    if !is_counted && !arguments.iter().any(|argument| argument == "--bench") {
+        println!("instructions: counted by `cargo bench -p catoptra-benches --bench instructions`");
         return;
     }
-    // Tests only want to see that it runs.
-    let kernels =
-        if std::env::args().any(|argument| argument == "--bench") { &KERNELS[..] } else { &KERNELS[..1] };
-    println!("{:24} {:>18} {:>18}", "instructions", "a frame", "a pixel");
-    for (name, _) in kernels {
-        match (counted(name, 0), counted(name, FRAMES)) {
-            (Some(before), Some(after)) => {
-                let frame = after.saturating_sub(before) / FRAMES;
-                println!("{name:24} {frame:>18} {:>18.1}", frame as f64 / SIZE.pixels() as f64);
-            }
-            _ => println!("{name:24} not counted: valgrind could not run it"),
-        }
+    let missing = |program: &&str| Command::new(program).arg("--version").output().is_err();
+    match ["valgrind", "gungraun-runner"].iter().find(|program| !is_counted && missing(program)) {
+        Some(program) => println!("instructions: skipped, there is no {program}; see benches/README.md"),
+        None => counted::start(),
     }
-}
-
-/// Instructions of the whole program with so many frames.
-fn counted(kernel: &str, frames: u64) -> Option<u64> {
-    let program = std::env::current_exe().ok()?;
-    let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg(program)
-        .args([SUBJECT, kernel, &frames.to_string()])
-        .output()
-        .ok()?;
-    let words = String::from_utf8_lossy(&output.stderr).into_owned();
-    let line = words.lines().find(|line| line.contains("Collected :"))?;
-    line.rsplit(' ').next()?.parse().ok()
 }

@@ -3,9 +3,62 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use catoptra_core::{Camera, Scene};
+use catoptra_core::glam::DVec3;
+use catoptra_core::material::Matte;
+use catoptra_core::{Camera, Ray, Rgb, Scene, Shape};
+use catoptra_lab::scenes::ball_mesh;
+use catoptra_tracer::query::RayList;
 use catoptra_tracer::{Control, Film, Pool, Size, Snapshot, View, backend_named, render};
 use criterion::{BenchmarkId, Criterion, Throughput};
+
+/// One of each kind, about as large as seen from the rays' origins.
+const SHAPES: &str = r#"
+matte "grey" { color 0.5 0.5 0.5 }
+sphere "sphere" material="grey" { radius 1 }
+plane "plane" material="grey"
+triangle "triangle" material="grey" { a -1 -1 0; b 1 -1 0; c 0 1 0 }
+tetrahedron "tetrahedron" material="grey" { a -1 -1 0; b 1 -1 0; c 0 1 0; d 0 0 1 }
+rectangle "rectangle" material="grey" { corner -1 -1 0; edge-u 2 0 0; edge-v 0 2 0 }
+disk "disk" material="grey" { center 0 0 0; normal 0 0 1; radius 1 }
+box "box" material="grey" { min -1 -1 -1; max 1 1 1 }
+"#;
+
+/// So many rays from a point in front, through a square twice as wide as the shapes.
+pub fn rays(count: usize) -> RayList {
+    let side = (count as f64).sqrt() as usize;
+    let mut rays = RayList::new();
+    for at in 0..count {
+        let share = |k: usize| 2.8 * ((k as f64 + 0.5) / side as f64 - 0.5);
+        let aim = DVec3::new(share(at % side), share(at / side), 0.0);
+        let origin = DVec3::new(0.3, 0.2, 6.0);
+        rays.push(&Ray::new(origin, aim - origin), [0.0, 1.5], None);
+    }
+    rays
+}
+
+/// A scene of one shape.
+///
+/// # Panics
+/// When the shape cannot stand in a scene.
+pub fn alone(shape: Shape) -> Snapshot {
+    let mut scene = Scene::new();
+    let grey = Matte::new(Rgb::grey(0.5)).expect("grey");
+    let grey = scene.add_material("grey", grey).expect("a material");
+    scene.add_shape("shape", shape, grey, None).expect("a shape");
+    Snapshot::extract(&scene)
+}
+
+/// A shape of each kind with its name, and a mesh.
+///
+/// # Panics
+/// When the text of the shapes is wrong.
+pub fn shapes() -> Vec<(&'static str, Shape)> {
+    let (samples, _) = catoptra_scene::parse(SHAPES, "shapes", None).expect("shapes");
+    let shapes = samples.entities().filter_map(|id| samples.shape(id));
+    let mut shapes: Vec<_> = shapes.map(|shape| (shape.kind_name(), shape)).collect();
+    shapes.push(("mesh of 9800", ball_mesh(70).into()));
+    shapes
+}
 
 /// Short times, so that all benches together take a minute or two; options on the command line lengthen them.
 pub fn criterion() -> Criterion {
