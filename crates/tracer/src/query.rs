@@ -116,6 +116,7 @@ impl RaySlice<'_> {
     /// # Panics
     /// A number that is not below [`len`](Self::len).
     #[must_use]
+    #[inline]
     pub fn ray(&self, at: usize) -> Ray {
         assert!(at < self.length, "ray {at} of {}", self.length);
         let vector = |[x, y, z]: &[Vec<f64>; 3]| {
@@ -129,6 +130,7 @@ impl RaySlice<'_> {
     /// # Panics
     /// A number that is not below [`len`](Self::len).
     #[must_use]
+    #[inline]
     pub fn span(&self, at: usize) -> Option<Span> {
         assert!(at < self.length, "ray {at} of {}", self.length);
         let (min, max) = (self.rays.min[self.first + at], self.rays.max[self.first + at]);
@@ -140,6 +142,7 @@ impl RaySlice<'_> {
     /// # Panics
     /// A number that is not below [`len`](Self::len).
     #[must_use]
+    #[inline]
     pub fn leaving(&self, at: usize) -> Option<Place> {
         assert!(at < self.length, "ray {at} of {}", self.length);
         let prim = *self.rays.prim.get(self.first + at)?;

@@ -45,11 +45,13 @@ impl Asked<'_> {
     }
 
     /// A ray, in the snapshot's frame.
+    #[inline]
     pub(super) fn ray(&self, at: usize) -> Ray {
         self.snapshot.own_ray(&self.rays.ray(at))
     }
 
     /// The stretch it is asked about.
+    #[inline]
     pub(super) fn span(&self, at: usize) -> Span {
         self.rays.span(at).unwrap_or(Span { min: 0.0, max: 0.0 })
     }

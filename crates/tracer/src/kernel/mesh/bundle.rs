@@ -60,21 +60,23 @@ impl<S: Simd, const MOST: usize> Bundle<S, MOST> {
         lines: impl Fn(usize) -> Lines<S>,
         (off, reach): (f32, f32),
     ) -> Option<Self> {
-        let (apex, along) = (0..packets).find_map(|packet| lines(packet).first())?;
+        let (first, (apex, along)) =
+            (0..packets).find_map(|packet| Some((packet, lines(packet).first()?)))?;
         let aim = Aim::of(along);
+        // Where nothing goes together, the first packet mostly tells, before all that is to be kept of others.
+        if lines(first).astray(s, &aim, apex).1.any() {
+            return None;
+        }
         let mut slopes = [Slopes::along(s, &aim, along); MOST];
         let (mut apart, mut least) = (F::splat(s, 0.0), slopes[0].scale);
         let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
         for (packet, slopes) in slopes.iter_mut().enumerate().take(packets) {
             let lines = lines(packet);
             slopes.become_those_of(s, &aim, &lines);
-            let from = lines.origin - splat_wide(s, apex);
-            let from = from.x.abs().max(from.y.abs()).max(from.z.abs()).narrow();
+            let (from, astray) = lines.astray(s, &aim, apex);
             apart = F::pick(lines.live, apart.max(from), apart);
             // Written so that NaN counts.
-            let spread = slopes.scale * F::splat(s, 2.0 * FAN_SPREAD);
-            let odd = lines.live & !(from.less(spread) & slopes.are_small(s));
-            if odd.any() {
+            if (astray | (lines.live & !slopes.are_small(s))).any() {
                 return None;
             }
             least = least.min(slopes.scale);
@@ -108,6 +110,21 @@ impl<S: Simd> Lines<S> {
         let lane = self.live.lanes().next()?;
         Some((vector_of(&self.origin, lane), vector_of(&self.direction, lane)))
     }
+
+    /// Depth per length of each direction.
+    #[inline(always)]
+    fn depths(&self, s: S, aim: &Aim) -> F<S> {
+        (component(&self.direction, aim.axes[2]) * D::splat(s, f64::from(aim.sign))).narrow()
+    }
+
+    /// How far from a point they begin, and which of them too far from it to go together; those of NaN as well.
+    #[inline(always)]
+    fn astray(&self, s: S, aim: &Aim, apex: DVec3) -> (F<S>, M<S>) {
+        let from = self.origin - splat_wide(s, apex);
+        let from = from.x.abs().max(from.y.abs()).max(from.z.abs()).narrow();
+        let spread = self.depths(s, aim) * F::splat(s, 2.0 * FAN_SPREAD);
+        (from, self.live & !from.less(spread))
+    }
 }
 
 impl<S: Simd> Slopes<S> {
@@ -135,7 +152,7 @@ impl<S: Simd> Slopes<S> {
         let live = lines.live;
         self.u = F::pick(live, (du / dz).narrow(), self.u);
         self.v = F::pick(live, (dv / dz).narrow(), self.v);
-        self.scale = F::pick(live, (dz * D::splat(s, f64::from(aim.sign))).narrow(), self.scale);
+        self.scale = F::pick(live, lines.depths(s, aim), self.scale);
         self.live = live;
         let (u, v) = (self.u.0, self.v.0);
         self.around = [[u.reduce_min(), v.reduce_min()], [u.reduce_max(), v.reduce_max()]];
