@@ -4,7 +4,7 @@ use catoptra_core::TriangleMesh;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x4, f32x8, i32x4, mask32x8};
 
-use super::Box32;
+use super::{Box32, WIDTH};
 
 /// A triangle's box: its lower corner, the bits of the triangle's number, and its upper corner with other signs, so that
 /// boxes are united by one minimum.
@@ -211,6 +211,12 @@ pub(super) struct Plane {
 /// Most bins along an axis that any preset has.
 pub(super) const MOST_BINS: usize = 32;
 
+/// What so many triangles cost, in tests of one: whole blocks are tested, so sets that fill theirs are preferred.
+#[inline(always)]
+pub(super) fn weight(count: usize) -> f32 {
+    count.next_multiple_of(WIDTH) as f32
+}
+
 /// What falls into each bin along each axis.
 #[derive(Clone)]
 pub(super) struct Bins {
@@ -276,14 +282,14 @@ impl Bins {
         for at in (1..bins).rev() {
             around = around.union(Extent::of(s, &boxes[at]));
             count += counts[at];
-            costs[at] = around.half_area() * count as f32;
+            costs[at] = around.half_area() * weight(count as usize);
         }
         let all = count + counts[0];
         (around, count) = (Extent::empty(s), 0);
         for at in 1..bins {
             around = around.union(Extent::of(s, &boxes[at - 1]));
             count += counts[at - 1];
-            let cost = around.half_area() * count as f32 + costs[at];
+            let cost = around.half_area() * weight(count as usize) + costs[at];
             if count != 0 && count != all && cost < best.cost {
                 *best = Plane { axis, bin: at as i32, cost, count: count as usize };
             }

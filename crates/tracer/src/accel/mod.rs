@@ -5,6 +5,7 @@ mod build;
 mod clip;
 mod grow;
 mod mesh_tree;
+mod pack;
 mod preset;
 mod spatial;
 mod tree;

@@ -7,7 +7,7 @@ use catoptra_core::TriangleMesh;
 use rayon::prelude::*;
 
 use super::Box32;
-use super::bins::Item;
+use super::bins::{Item, weight};
 use super::clip::halves;
 
 /// Slices along an axis.
@@ -102,7 +102,7 @@ pub(super) struct Cut {
     slice: usize,
     around: [Box32; 2],
     counts: [usize; 2],
-    /// Surface areas times triangles, of both parts.
+    /// Surface areas times weights, of both parts.
     pub(super) cost: f32,
 }
 
@@ -144,7 +144,7 @@ fn sweep(planes: &Planes, slices: &Slices, most: usize, best: &mut Option<Cut>) 
     (around, count) = (Box32::EMPTY, 0);
     for (slice, (other, past)) in others.into_iter().enumerate().skip(1) {
         (around, count) = (around.union(&slices.around[slice - 1]), count + slices.entering[slice - 1]);
-        let cost = around.half_area() * count as f32 + other.half_area() * past as f32;
+        let cost = around.half_area() * weight(count) + other.half_area() * weight(past);
         let fits = count != 0 && past != 0 && count + past <= most;
         if fits && cost < best.map_or(f32::INFINITY, |best| best.cost) {
             let (around, counts) = ([around, other], [count, past]);

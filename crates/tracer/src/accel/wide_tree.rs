@@ -46,7 +46,7 @@ impl Node8 {
     }
 }
 
-/// Eight triangles side by side. A leaf's triangles may begin and end within a block.
+/// Eight triangles side by side. Small leaves share a block, and of large ones only the last is not full.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(crate) struct Block8 {
@@ -65,7 +65,7 @@ impl Block8 {
     }
 }
 
-/// Nodes and blocks. The triangles past the last leaf repeat one of the mesh's, so that all of a block may be tested.
+/// Nodes and blocks. Where a block holds no leaf's triangle it repeats its first, so that all of it may be tested.
 #[derive(Debug, Clone)]
 pub(crate) struct WideTree {
     pub(crate) nodes: Vec<Node8>,
