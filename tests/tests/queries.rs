@@ -3,7 +3,7 @@
 use catoptra_core::geometry::Mesh;
 use catoptra_core::glam::DVec3;
 use catoptra_core::material::Matte;
-use catoptra_core::{Geometry, MeshSource, Placement, Ray, Rgb, Scene, TriangleMesh};
+use catoptra_core::{Geometry, MeshSource, Placement, Ray, Rgb, Scene, Span, TriangleMesh};
 use catoptra_tests::{parsed, shipped_scenes};
 use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
 use catoptra_tracer::{Place, Pool, Preset, Snapshot, backend_named, backends};
@@ -98,6 +98,52 @@ fn a_surface_that_is_left_is_not_met_at_once() {
         let hits = nearest(backend.name(), &snapshot, &rays);
         assert_eq!(hits.get(0), None, "{}", backend.name());
         assert_eq!(hits.get(1).unwrap().1, 2.0, "{}", backend.name());
+    }
+}
+
+const SOLIDS: &str = r#"
+matte "grey" { color 0.5 0.5 0.5 }
+tetrahedron "wedge" material="grey" { a 0 0 0; b 2 0.1 0; c 0.3 1.7 0; d 0.2 0.4 1.9 }
+box "block" material="grey" { min 3 0 0; max 4 1 2 }
+sphere "ball" material="grey" { center 0 4 0; radius 1 }
+"#;
+
+/// Rays that leave the surfaces that random rays meet, in any direction: also nearly along a flat face.
+fn leaving_rays(snapshot: &Snapshot, count: usize) -> RayList {
+    let mut numbers = Numbers(88_172_645_463_325_252);
+    let mut rays = RayList::new();
+    while rays.len() < count {
+        let target = DVec3::new(2.0, 2.0, 1.0) + numbers.vector() * 2.5;
+        let from = target + numbers.vector() * 9.0;
+        let ray = Ray::new(from, target - from);
+        let Some(hit) = snapshot.nearest_of_all(&ray, Span::AHEAD, None) else { continue };
+        let along = hit.crossing.normal.cross(numbers.vector());
+        let directions = [
+            numbers.vector(),
+            along,
+            along + hit.crossing.normal * numbers.next() * 1e-7,
+            along + hit.crossing.normal * numbers.next() * 1e-16,
+        ];
+        for direction in directions {
+            rays.push(&Ray::new(ray.at(hit.crossing.t), direction), [0.0, f64::INFINITY], Some(hit.place));
+        }
+    }
+    rays
+}
+
+#[test]
+fn rays_that_leave_solids_meet_what_the_oracle_meets() {
+    let snapshot = Snapshot::extract(&parsed(SOLIDS));
+    let rays = leaving_rays(&snapshot, 4000);
+    let right = nearest("oracle", &snapshot, &rays);
+    let again = (0..rays.len()).filter(|&at| right.get(at).is_some()).count();
+    assert!((400..3600).contains(&again), "{again} meet anything");
+    for backend in backends() {
+        let found = nearest(backend.name(), &snapshot, &rays);
+        for at in 0..rays.len() {
+            let (a, b) = (right.get(at).map(|hit| hit.0), found.get(at).map(|hit| hit.0));
+            assert_eq!(a, b, "{} ray {at}", backend.name());
+        }
     }
 }
 
