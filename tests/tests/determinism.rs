@@ -144,12 +144,14 @@ fn work_left_out_changes_no_bit() {
         Skip { unreached: true, ..Skip::NOTHING },
     ];
     for (name, scene) in scenes() {
-        let view = view(&scene);
-        let usual = traced(&scene, "wide", &view, Film::new(ODD), 2);
-        for skip in skips {
-            let view = View { skip, ..view.clone() };
-            let long = traced(&scene, "wide", &view, Film::new(ODD), 2);
-            assert_same_bits(&usual, &long, &format!("{name} with {skip:?}"));
+        for grid in [1, 2] {
+            let view = View { grid, ..view(&scene) };
+            let usual = traced(&scene, "wide", &view, Film::new(ODD), 2);
+            for skip in skips {
+                let view = View { skip, ..view.clone() };
+                let long = traced(&scene, "wide", &view, Film::new(ODD), 2);
+                assert_same_bits(&usual, &long, &format!("{name}, grid {grid}, with {skip:?}"));
+            }
         }
     }
 }

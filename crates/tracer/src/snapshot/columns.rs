@@ -141,13 +141,9 @@ impl Columns {
             let PlaneRow { normal, distance, .. } = face.plane;
             normal.dot(point) - distance > PLAN_MARGIN * (distance.abs() + point.abs().element_sum())
         };
-        let off_faces = |row: &Row| match *row {
-            Row::Triangles(first, count) if count > 1 => {
-                self.triangles[first as usize..(first + count) as usize].iter().any(before)
-            }
-            _ => true,
-        };
-        self.spheres.iter().all(off_sphere) && self.rows.iter().all(off_faces)
+        let mut shapes = self.triangles.chunk_by(|a, b| a.plane.prim == b.plane.prim);
+        self.spheres.iter().all(off_sphere)
+            && shapes.all(|faces| faces.len() == 1 || faces.iter().any(before))
     }
 
     /// How many shapes have no kernel.

@@ -187,7 +187,6 @@ fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
     let Room { next, bounce, found, seen, between, reached, dark, visits, rays, registers } = room;
     let mut own = Registers::take(s, registers.take());
     let Registers { chunk, spreads } = &mut *own;
-    dark.clear();
     for queue in [&mut *next, &mut bounce.stream] {
         queue.start_from(frame.snapshot.origin_in_frame());
     }
@@ -216,6 +215,7 @@ fn trace_tile<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
         if frame.view.skip.hidden {
             tracer.survey(&mut camera, region, seen, tile);
         } else {
+            tracer.dark.clear();
             tracer.trace_camera(&mut camera, region, &seen[0], tile);
         }
         if tracer.next.len() > 0 {

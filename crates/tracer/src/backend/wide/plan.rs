@@ -121,11 +121,8 @@ impl Shapes {
         } else {
             self.keep_balls(columns, candidates.near.iter().copied(), |_, ball| window.may_show(ball));
         }
-        let mut filled = false;
-        if outside {
-            filled = self.keep_faces(window, columns);
-        }
-        self.find_places(window, columns, filled);
+        let faced = outside && self.keep_faces(window, columns);
+        self.find_places(window, columns, faced);
     }
 
     /// Puts the faces that may be seen of shapes with faces in the place of the shapes; answers whether each fills the
