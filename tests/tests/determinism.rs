@@ -2,12 +2,23 @@
 
 use catoptra_core::{EntityId, Scene};
 use catoptra_lab::scenes::placed_mesh;
-use catoptra_tests::{camera_of, film, shipped_scenes, traced, triangles};
+use catoptra_tests::{camera_of, film, parsed, shipped_scenes, traced, triangles};
 use catoptra_tracer::{Film, Instructions, Pattern, Region, Size, Skip, View, backends};
 
-/// The shipped scenes, and a mesh that is moved, turned and scaled.
+/// Two mirrors at right angles: what either shows of the other is seen to go into darkness.
+const CORNER: &str = r#"
+settings { max-depth 4 }
+camera "main" { eye 0 2 6; direction 0 -0.3 -1; fov 60 }
+phong "mirror" { diffuse 0.2 0.4 0.6; reflectiveness 0.5 }
+plane "floor" material="mirror" { point 0 0 0; normal 0 1 0 }
+rectangle "wall" material="mirror" { corner -2 0.5 0; edge-u 4 0 0; edge-v 0 2 0 }
+point-light "lamp" { position 1 3 4; intensity 20 }
+"#;
+
+/// The shipped scenes, mirrors, and a mesh that is moved, turned and scaled.
 fn scenes() -> Vec<(String, Scene)> {
     let mut scenes = shipped_scenes();
+    scenes.push(("a corner of mirrors".to_owned(), parsed(CORNER)));
     scenes.push(("a placed mesh".to_owned(), placed_mesh(20).expect("a scene")));
     scenes
 }

@@ -6,10 +6,9 @@
 use fearless_simd::Simd;
 
 use super::search::Best;
-use super::send::Sent;
 use super::settle::Groups;
 use crate::film::NOTHING;
-use crate::lanes::{D, D3, F, F3, M, U};
+use crate::lanes::{F, F3, M, U};
 
 /// Packets in a chunk.
 pub(super) const CHUNK: usize = 8;
@@ -37,8 +36,6 @@ pub(super) struct Chunk<S: Simd> {
     pub(super) irradiance: [F3<S>; CHUNK],
     /// Radiance shown by gloss.
     pub(super) gloss: [F3<S>; CHUNK],
-    /// Rays that they send on.
-    pub(super) sent: [Sent<S>; CHUNK],
 }
 
 impl<S: Simd> Chunk<S> {
@@ -47,7 +44,6 @@ impl<S: Simd> Chunk<S> {
         let zero = F::splat(s, 0.0);
         let dark = F3::splat(zero);
         let (nothing, none) = (U::splat(s, NOTHING), M::splat(s, false));
-        let origin = D3::splat(D::splat(s, 0.0));
         Self {
             at: [0; CHUNK],
             best: [Best { t: zero, error: zero, prim: nothing, facet: nothing }; CHUNK],
@@ -60,7 +56,6 @@ impl<S: Simd> Chunk<S> {
             glossy: [false; CHUNK],
             irradiance: [dark; CHUNK],
             gloss: [dark; CHUNK],
-            sent: [Sent { lanes: none, weight: dark, origin, direction: origin }; CHUNK],
         }
     }
 }

@@ -67,6 +67,16 @@ impl<S: Simd> Packet<'_, S> {
         self.rays.direction.scale_add(t, self.rays.origin)
     }
 
+    /// Origins, relative to the snapshot's, and directions of unit length, up to rounding in `f32`.
+    #[inline(always)]
+    pub(super) fn precise_unit(&self, s: S) -> (D3<S>, D3<S>) {
+        let (origin, direction) = self.precise(s);
+        match self.precise {
+            Precise::Stream(..) => (origin, direction),
+            Precise::Camera(..) | Precise::Asked(..) => (origin, direction.scale(self.inverse_length.widen())),
+        }
+    }
+
     /// Origins, relative to the snapshot's, and directions of any length.
     #[inline(always)]
     pub(super) fn precise(&self, s: S) -> (D3<S>, D3<S>) {
@@ -131,6 +141,16 @@ impl<S: Simd> Left<S> {
 #[inline(always)]
 pub(super) fn kernel_rays<S: Simd>(s: S, origin: F3<S>, direction: F3<S>) -> (Rays<S>, F<S>) {
     let inverse_length = F::splat(s, 1.0) / direction.dot(direction).sqrt();
+    let rays = Rays { origin, direction: direction.scale(inverse_length), reach: magnitude(origin) };
+    (rays, inverse_length)
+}
+
+/// As [`kernel_rays`] of directions whose lengths differ from 1 by no more than 2⁻¹³: a Newton step from 1 brings 1 over
+/// their roots there.
+#[inline(always)]
+pub(super) fn nearly_unit_rays<S: Simd>(s: S, origin: F3<S>, direction: F3<S>) -> (Rays<S>, F<S>) {
+    let half = F::splat(s, -0.5) * direction.dot(direction);
+    let inverse_length = half + F::splat(s, 1.5);
     let rays = Rays { origin, direction: direction.scale(inverse_length), reach: magnitude(origin) };
     (rays, inverse_length)
 }

@@ -5,10 +5,10 @@ use catoptra_core::glam::DVec3;
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::packet::{Left, Packet, Precise, drift};
+use super::packet::{Left, Packet, Precise, drift, nearly_unit_rays};
 use crate::column::Column;
-use crate::kernel::{Rays, magnitude};
-use crate::lanes::{D3, F, F3, M, U, load_wide3, load3};
+use crate::kernel::Rays;
+use crate::lanes::{D3, F, F3, M, U, load_wide3, load3, narrow3};
 
 /// Columns of rays; each has room for one more packet than there are rays.
 #[derive(Default)]
@@ -17,26 +17,19 @@ pub(super) struct Queue {
     /// Where in the snapshot's frame coordinates are zero.
     zero: DVec3,
     origin: [Column<f64>; 3],
+    /// Of unit length, up to rounding in `f32`.
     direction: [Column<f64>; 3],
     weight: [Column<f32>; 3],
     pixel: Column<u32>,
     prim: Column<u32>,
     facet: Column<u32>,
-    /// The rays as kernels see them: origins, unit directions, and 1 over the lengths of the directions that they were
-    /// made from.
-    start: [Column<f32>; 3],
-    unit: [Column<f32>; 3],
-    inverse_length: Column<f32>,
 }
 
 /// Rays to be gathered.
 pub(super) struct Leaving<S: Simd> {
     pub(super) origin: D3<S>,
+    /// Of unit length, up to rounding in `f32`.
     pub(super) direction: D3<S>,
-    /// Origin and direction as kernels see them.
-    pub(super) start: F3<S>,
-    pub(super) unit: F3<S>,
-    pub(super) inverse_length: F<S>,
     pub(super) weight: F3<S>,
     pub(super) pixel: U<S>,
     pub(super) prim: U<S>,
@@ -72,14 +65,9 @@ impl Queue {
         {
             v.compress(mask, &mut column[at..]);
         }
-        let triples =
-            [(&mut self.weight, rays.weight), (&mut self.start, rays.start), (&mut self.unit, rays.unit)];
-        for (columns, v) in triples {
-            for (column, v) in columns.iter_mut().zip([v.x, v.y, v.z]) {
-                F::<S>(v.0.compress(mask.0)).store(&mut column[at..]);
-            }
+        for (column, v) in self.weight.iter_mut().zip([rays.weight.x, rays.weight.y, rays.weight.z]) {
+            F::<S>(v.0.compress(mask.0)).store(&mut column[at..]);
         }
-        F::<S>(rays.inverse_length.0.compress(mask.0)).store(&mut self.inverse_length[at..]);
         for (column, v) in
             [(&mut self.pixel, rays.pixel), (&mut self.prim, rays.prim), (&mut self.facet, rays.facet)]
         {
@@ -103,12 +91,13 @@ impl Queue {
     /// The packet that starts with ray `at`.
     #[inline(always)]
     pub(super) fn packet_at<S: Simd>(&self, s: S, at: usize) -> Packet<'_, S> {
-        let origin = load3(s, &self.start, at);
-        let reach = magnitude(origin) + F::splat(s, drift(self.zero));
+        let (origin, direction) = self.precise(s, at);
+        let (rays, inverse_length) = nearly_unit_rays(s, narrow3(origin), narrow3(direction));
+        let reach = rays.reach + F::splat(s, drift(self.zero));
         Packet {
             precise: Precise::Stream(self, at),
-            rays: Rays { origin, direction: load3(s, &self.unit, at), reach },
-            inverse_length: F::load(s, &self.inverse_length[at..]),
+            rays: Rays { reach, ..rays },
+            inverse_length,
             weight: self.weights(s, at),
             pixel: self.pixels(s, at),
             left: Left {
@@ -148,8 +137,7 @@ impl Queue {
         }
         let room = needed.next_power_of_two();
         self.origin.iter_mut().chain(&mut self.direction).for_each(|c| c.resize(room, 0.0));
-        let singles = self.weight.iter_mut().chain(&mut self.start).chain(&mut self.unit);
-        singles.chain([&mut self.inverse_length]).for_each(|c| c.resize(room, 0.0));
+        self.weight.iter_mut().for_each(|c| c.resize(room, 0.0));
         [&mut self.pixel, &mut self.prim, &mut self.facet].into_iter().for_each(|c| c.resize(room, 0));
     }
 }
