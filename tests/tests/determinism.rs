@@ -5,20 +5,23 @@ use catoptra_lab::scenes::placed_mesh;
 use catoptra_tests::{camera_of, film, parsed, shipped_scenes, traced, triangles};
 use catoptra_tracer::{Film, Instructions, Pattern, Region, Size, Skip, View, backends};
 
-/// Two mirrors at right angles: what either shows of the other is seen to go into darkness.
-const CORNER: &str = r#"
+/// Of two mirrors side by side, the left one shows, in a mirror beside the camera, the right one with darkness in it; the
+/// right one itself shows a ball.
+const MIRRORS: &str = r#"
 settings { max-depth 4 }
-camera "main" { eye 0 2 6; direction 0 -0.3 -1; fov 60 }
-phong "mirror" { diffuse 0.2 0.4 0.6; reflectiveness 0.5 }
-plane "floor" material="mirror" { point 0 0 0; normal 0 1 0 }
-rectangle "wall" material="mirror" { corner -2 0.5 0; edge-u 4 0 0; edge-v 0 2 0 }
-point-light "lamp" { position 1 3 4; intensity 20 }
+camera "main" { eye 0 0 0; direction 0.1 0 -1; fov 40 }
+depth "mirror" { color 0.2 0.4 0.6; range 30; reflectiveness 0.5 }
+depth "red" { color 1 0 0; range 30 }
+rectangle "left" material="mirror" { corner -0.445 -0.15 -5.038; edge-u 0.29 0 0.0765; edge-v 0 0.3 0 }
+rectangle "right" material="mirror" { corner 0.155 -0.15 -4.962; edge-u 0.29 0 -0.0765; edge-v 0 0.3 0 }
+rectangle "beside" material="mirror" { corner -1.583 -0.5 -1.724; edge-u -0.834 0 -0.552; edge-v 0 1 0 }
+sphere "ball" material="red" { center 2 0 -2; radius 0.3 }
 "#;
 
 /// The shipped scenes, mirrors, and a mesh that is moved, turned and scaled.
 fn scenes() -> Vec<(String, Scene)> {
     let mut scenes = shipped_scenes();
-    scenes.push(("a corner of mirrors".to_owned(), parsed(CORNER)));
+    scenes.push(("mirrors".to_owned(), parsed(MIRRORS)));
     scenes.push(("a placed mesh".to_owned(), placed_mesh(20).expect("a scene")));
     scenes
 }
