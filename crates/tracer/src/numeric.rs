@@ -170,3 +170,9 @@ pub(crate) const FAN_WIDTH: f32 = 1.0;
 /// Most that the `t` of a triangle may be off, relative to itself, for its plane to be taken at its word: a 64th of what
 /// `f32` can hold.
 pub(crate) const DEPTH_ERROR: f64 = 1.0 / (1_u64 << 30) as f64;
+
+/// How far the start of a way to a light may be off that was settled in `f64` on a mesh, per metre of its reach.
+///
+/// The distance `t` from where the ray began is off by [`DEPTH_ERROR`]; the reach holds `t` times [`END_ERROR`] over
+/// [`POINT_ERROR`], two thirds of it. The other half has room for what `f64` rounds, below [`BOUNDS_ERROR`].
+pub(crate) const START_ERROR: f32 = 3.0 * DEPTH_ERROR as f32;

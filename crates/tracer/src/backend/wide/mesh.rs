@@ -1,5 +1,6 @@
 //! How a packet finds the triangles of a mesh: all lanes together where they go through one point, else lane by lane.
 
+use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane, LaneMask, Ray, Span};
 use fearless_simd::Simd;
 
@@ -12,8 +13,8 @@ use super::umpire::{Blocked, Nearest};
 use crate::Place;
 use crate::accel::WIDTH;
 use crate::kernel::mesh::{Bundle, Fan, FanRays, LaneTriangles, Lines, Lone, LoneBest, Umpire, Visits};
-use crate::lanes::{Bits, D, D3, F, M, U, splat_wide, widen3};
-use crate::numeric::{END_ERROR, POINT_ERROR};
+use crate::lanes::{Bits, D, D3, F, M, U, pick3, splat_wide, widen3};
+use crate::numeric::{END_ERROR, POINT_ERROR, START_ERROR};
 use crate::snapshot::{Affine, Instance};
 
 /// Stands for no triangle.
@@ -233,7 +234,8 @@ impl<S: Simd> Tracer<'_, S> {
         let mut umpire = Blocked { snapshot: self.frame.snapshot, mesh, prim: instance.prim, packet, ways };
         let mut visits = std::mem::take(self.visits);
         let left = ways.left.facets_of(self.s, instance.prim);
-        let fan = if ways.target.at_infinity { None } else { self.fan_to_light(ways, open, instance) };
+        let fan =
+            if ways.target.at_infinity { None } else { self.fan_to_light((packet, ways), open, instance) };
         let closed = match fan {
             Some((fan, mut rays)) => {
                 rays[0].left = left;
@@ -262,20 +264,43 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     fn fan_to_light(
         &self,
-        ways: &Ways<S>,
+        (packet, ways): (&Packet<'_, S>, &Ways<S>),
         open: M<S>,
         instance: &Instance,
     ) -> Option<(Fan, [FanRays<S>; 1])> {
         let apex = instance.own_points(self.s, splat_wide(self.s, ways.target.place));
-        let start = instance.own_points(self.s, widen3(ways.rays.origin));
+        let (start, off) = self.own_starts((packet, ways), open, instance);
         let lines = Lines { origin: apex, direction: start - apex, live: open };
         let bundle = Bundle::<S, 1>::of(self.s, 1, |_| lines, self.reach(instance))?;
         let (slopes, zero) = (bundle.slopes(0), F::splat(self.s, 0.0));
-        let off = ways.rays.reach * F::splat(self.s, POINT_ERROR * instance.scale());
         let error = slopes.scale.mul_add(F::splat(self.s, END_ERROR), off);
         let rays = slopes.rays(self.s, [zero, zero], [slopes.scale, error]);
         let steep = slopes.error_where_off(self.s, off);
         Some((bundle.fan.for_any().with_slope_error(steep), [rays]))
+    }
+
+    /// Where ways begin in a mesh's own space, and how far that may be off: settled in `f64` where they leave the mesh
+    /// itself.
+    #[inline(always)]
+    fn own_starts(
+        &self,
+        (packet, ways): (&Packet<'_, S>, &Ways<S>),
+        open: M<S>,
+        instance: &Instance,
+    ) -> (D3<S>, F<S>) {
+        let reach = ways.rays.reach * F::splat(self.s, instance.scale());
+        let start = instance.own_points(self.s, widen3(ways.rays.origin));
+        let off = reach * F::splat(self.s, POINT_ERROR);
+        let own = open & ways.left.prim.is(instance.prim);
+        if !own.any() {
+            return (start, off);
+        }
+        let triangles = instance.facets(self.s, ways.left.facet, own);
+        let (origin, direction) = self.own_lines(packet, instance);
+        let of_lane = |lane: usize| packet.way(lane);
+        let t = self.settled_t(instance.prim, (origin, direction), own, &triangles, of_lane);
+        let settled = direction.scale_add(t, origin);
+        (pick3(own, settled, start), F::pick(own, reach * F::splat(self.s, START_ERROR), off))
     }
 
     /// How far origins relative to the snapshot's may be off, metres of the mesh's own space; and the largest coordinate of
@@ -313,8 +338,17 @@ impl Instance {
         }
     }
 
+    /// Unit vectors of the mesh's own space in the world.
+    #[inline(always)]
+    pub(super) fn world_normals<S: Simd>(&self, s: S, normals: D3<S>) -> D3<S> {
+        match &self.to_object {
+            Some(affine) => affine.turn_back(s, normals),
+            None => normals,
+        }
+    }
+
     /// Metres of the mesh's own space a metre of the world.
-    fn scale(&self) -> f32 {
+    pub(super) fn scale(&self) -> f32 {
         self.to_object.as_ref().map_or(1.0, |affine| affine.matrix[0].length() as f32)
     }
 
@@ -359,5 +393,12 @@ impl Affine {
     fn turn<S: Simd>(&self, s: S, v: D3<S>) -> D3<S> {
         let [x, y, z] = self.matrix;
         D3::new(splat_wide(s, x).dot(v), splat_wide(s, y).dot(v), splat_wide(s, z).dot(v))
+    }
+
+    /// The other way, leaving lengths as they are.
+    #[inline(always)]
+    fn turn_back<S: Simd>(&self, s: S, v: D3<S>) -> D3<S> {
+        let [x, y, z] = self.matrix.map(DVec3::normalize).map(|row| splat_wide(s, row));
+        x.scale_add(v.x, y.scale_add(v.y, z.scale(v.z)))
     }
 }

@@ -73,7 +73,9 @@ impl<S: Simd> Packet<'_, S> {
         let (origin, direction) = self.precise(s);
         match self.precise {
             Precise::Stream(..) => (origin, direction),
-            Precise::Camera(..) | Precise::Asked(..) => (origin, direction.scale(self.inverse_length.widen())),
+            Precise::Camera(..) | Precise::Asked(..) => {
+                (origin, direction.scale(self.inverse_length.widen()))
+            }
         }
     }
 

@@ -4,14 +4,14 @@
 //! where the ray is not grazing, and grazing rays have been settled before.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, Geometry, Lane, Span};
+use catoptra_core::{Arithmetic, Lane, Span};
 use fearless_simd::Simd;
 
 use super::Tracer;
 use super::packet::Packet;
 use super::search::Best;
 use crate::kernel::{PlaneRow, cross};
-use crate::lanes::{D, D3, F, M, narrow3, pick3, splat_wide};
+use crate::lanes::{D, D3, F, F3, M, U, narrow3, pick3, splat_wide, splat3, widen3};
 use crate::snapshot::{Instance, Row};
 
 /// Points and normals of the lanes that meet something, in `f64`.
@@ -150,22 +150,7 @@ impl<S: Simd> Tracer<'_, S> {
         direction.scale_add((metres * packet.inverse_length).widen(), near)
     }
 
-    /// Lanes on triangles, each on one of its own.
-    #[inline(always)]
-    fn settle_triangles(
-        &mut self,
-        packet: &Packet<'_, S>,
-        best: &Best<S>,
-        corners: &LaneTriples,
-    ) -> Settled<S> {
-        let (a, b, c) = (corners.get(self.s, 0), corners.get(self.s, 1), corners.get(self.s, 2));
-        let normal = unit(self.s, cross(b - a, c - a));
-        let near = self.near(packet, best);
-        let off = normal.dot(near - a);
-        let point = self.step(packet, near, off.narrow(), narrow3(normal).dot(packet.rays.direction));
-        Settled { point, normal, shading: normal }
-    }
-
+    /// Lanes on triangles of a mesh, in the mesh's own space.
     #[inline(always)]
     fn settle_mesh(
         &mut self,
@@ -175,26 +160,27 @@ impl<S: Simd> Tracer<'_, S> {
         instance: &Instance,
     ) -> Settled<S> {
         let mesh = instance.tree.mesh();
-        let Some(shape) = self.frame.snapshot.mesh_at(instance.prim) else {
-            return self.settle_general(packet, mask, instance.prim);
-        };
-        let origin = self.frame.snapshot.origin_in_frame();
-        if mesh.normals().is_none() {
-            let mut corners = LaneTriples::default();
-            for lane in mask.lanes() {
-                let corner = |p| shape.placement().point(p) - origin;
-                corners.set(lane, mesh.corners(best.facet.lane(lane)).map(corner));
-            }
-            return self.settle_triangles(packet, best, &corners);
-        }
-        let mut lanes = LaneVectors::default();
-        for lane in mask.lanes() {
-            let ray = packet.ray(lane);
-            if let Some(c) = shape.met(&shape.own_ray(&ray), best.facet.lane(lane)) {
-                lanes.set(lane, ray.at(c.t) - origin, c.normal, c.shading_normal);
-            }
-        }
-        lanes.settled(self.s)
+        let at_corners = |of: &[[f32; 3]]| at_corners(self.s, best.facet, mask, mesh.triangles(), of);
+        let [a, b, c] = at_corners(mesh.positions());
+        let (e, f) = (b - a, c - a);
+        let across = cross(e, f);
+        let own_normal = unit(self.s, across);
+        let near = self.near(packet, best);
+        let off = own_normal.dot(instance.own_points(self.s, near) - a).narrow();
+        let off = off * F::splat(self.s, 1.0 / instance.scale());
+        let normal = instance.world_normals(self.s, own_normal);
+        let point = self.step(packet, near, off, narrow3(normal).dot(packet.rays.direction));
+        let Some(normals) = mesh.normals() else { return Settled { point, normal, shading: normal } };
+        let from = instance.own_points(self.s, point) - a;
+        let weights = [across.dot(cross(from, f)), across.dot(cross(e, from))];
+        let [of_b, of_c] = weights.map(|weight| weight / across.dot(across));
+        let [at_a, at_b, at_c] = at_corners(normals);
+        let blend = (at_c - at_a).scale_add(of_c, (at_b - at_a).scale_add(of_b, at_a));
+        // Normals that cancel out tell nothing.
+        let zero = D::splat(self.s, 0.0);
+        let some = !blend.dot(blend).at_most(zero);
+        let shading = pick3(some, unit(self.s, blend), own_normal);
+        Settled { point, normal, shading: instance.world_normals(self.s, shading) }
     }
 
     /// Lanes on a shape without a kernel.
@@ -217,24 +203,24 @@ impl<S: Simd> Tracer<'_, S> {
     }
 }
 
-/// Three vectors in every lane, such as the corners of a triangle, filled lane by lane.
-#[derive(Default)]
-struct LaneTriples([[[f64; MOST_LANES]; 3]; 3]);
-
-impl LaneTriples {
-    fn set(&mut self, lane: usize, vectors: [DVec3; 3]) {
-        for (columns, corner) in self.0.iter_mut().zip(vectors) {
-            for (column, c) in columns.iter_mut().zip(corner.to_array()) {
-                column[lane] = c;
-            }
-        }
+/// What the corners of a mesh's triangles have, a triangle in every lane; 0 in lanes that are on none.
+#[inline(always)]
+fn at_corners<S: Simd>(
+    s: S,
+    facets: U<S>,
+    lanes: M<S>,
+    triangles: &[[u32; 3]],
+    of: &[[f32; 3]],
+) -> [D3<S>; 3] {
+    let zero = splat3(s, [0.0; 3]);
+    let (mut a, mut b, mut c) = (zero, zero, zero);
+    for (facet, same) in facets.groups(lanes) {
+        let [at_a, at_b, at_c] = triangles[facet as usize].map(|corner| of[corner as usize]);
+        a = F3::select(same, splat3(s, at_a), a);
+        b = F3::select(same, splat3(s, at_b), b);
+        c = F3::select(same, splat3(s, at_c), c);
     }
-
-    #[inline(always)]
-    fn get<S: Simd>(&self, s: S, which: usize) -> D3<S> {
-        let [x, y, z] = &self.0[which];
-        D3::new(D::load(s, x), D::load(s, y), D::load(s, z))
-    }
+    [widen3(a), widen3(b), widen3(c)]
 }
 
 /// Most lanes that any packet has.
@@ -242,17 +228,22 @@ const MOST_LANES: usize = 16;
 
 /// Points, normals and shading normals, filled lane by lane.
 #[derive(Default)]
-struct LaneVectors(LaneTriples);
+struct LaneVectors([[[f64; MOST_LANES]; 3]; 3]);
 
 impl LaneVectors {
     fn set(&mut self, lane: usize, point: DVec3, normal: DVec3, shading: DVec3) {
-        self.0.set(lane, [point, normal, shading]);
+        for (columns, vector) in self.0.iter_mut().zip([point, normal, shading]) {
+            for (column, v) in columns.iter_mut().zip(vector.to_array()) {
+                column[lane] = v;
+            }
+        }
     }
 
     #[inline(always)]
     fn settled<S: Simd>(&self, s: S) -> Settled<S> {
-        let [point, normal, shading] = [self.0.get(s, 0), self.0.get(s, 1), self.0.get(s, 2)];
-        Settled { point, normal, shading }
+        let load = |[x, y, z]: &[[f64; MOST_LANES]; 3]| D3::new(D::load(s, x), D::load(s, y), D::load(s, z));
+        let [point, normal, shading] = &self.0;
+        Settled { point: load(point), normal: load(normal), shading: load(shading) }
     }
 }
 
