@@ -54,11 +54,11 @@ impl<S: Simd> Grower<'_, S> {
     fn grow(mut self) -> WideTree {
         let (mesh, count) = (self.mesh, self.mesh.triangles().len());
         let room = self.preset.room(count);
-        let mut items: Vec<Item> =
-            (0..count as u32).into_par_iter().with_min_len(PARALLEL).map(|id| Item::new(mesh, id)).collect();
+        let places = |count: usize| (0..count).into_par_iter().with_min_len(PARALLEL);
+        let mut items: Vec<Item> = places(count).map(|id| Item::new(mesh, id as u32)).collect();
         let root = self.measured(&items, Set { room, ..Set::of(self.s, &[]) });
         items.resize(count + room, Item::NONE);
-        let mut scratch = vec![Item::NONE; count + room];
+        let mut scratch: Vec<Item> = places(count + room).map(|_| Item::NONE).collect();
         self.overlap = root.around.half_area() * OVERLAP;
         let mut nodes = Vec::with_capacity(count / 8 + 1);
         self.node((&mut items, &mut scratch), 0, root, 0, &mut nodes);

@@ -7,64 +7,96 @@ use rayon::prelude::*;
 use super::bins::Item;
 use super::wide_tree::{Block8, Node8, WIDTH};
 
-/// Blocks with room left that are looked through for a leaf. A twentieth of all places stays empty on the meshes measured.
-const OPEN: usize = 16;
+/// Blocks that are kept in mind for each number of free places. A twentieth of all places stays empty on the meshes measured.
+const OPEN: usize = 8;
 /// Stretches of so many blocks are shared out among threads.
 const PARALLEL: usize = 1024;
+/// Leaves of so many nodes share blocks with each other only, so that stretches of them are laid out side by side.
+const NODES: usize = 128;
 
 /// Stands for no triangle.
 const EMPTY: u32 = u32::MAX;
 
 /// Blocks of the leaves' triangles, node by node; the leaves' links then say where in the blocks they are.
 pub(super) fn pack(mesh: &TriangleMesh, nodes: &mut [Node8], items: &[Item]) -> Vec<Block8> {
-    let mut order =
-        Order { ids: Vec::with_capacity(items.len() + items.len() / WIDTH), open: [(0, 0); OPEN] };
-    for node in nodes {
-        for child in 0..usize::from(node.children) {
-            let count = usize::from(node.count[child]);
-            if count != 0 {
-                let first = node.link[child] as usize;
-                node.link[child] = order.add(&items[first..first + count]) as u32;
-            }
+    let stretches: Vec<Vec<u32>> = nodes.par_chunks_mut(NODES).map(|nodes| lay_out(nodes, items)).collect();
+    let ids = stretches.concat();
+    let starts = stretches.iter().scan(0, |next, ids| {
+        let start = *next;
+        *next += ids.len() as u32;
+        Some(start)
+    });
+    let starts: Vec<u32> = starts.collect();
+    nodes.par_chunks_mut(NODES).zip(starts).for_each(|(nodes, start)| {
+        for (link, _) in nodes.iter_mut().flat_map(leaves) {
+            *link += start;
         }
+    });
+    ids.par_chunks(WIDTH).with_min_len(PARALLEL).map(|ids| block(mesh, ids)).collect()
+}
+
+/// Where the leaves of a node begin, and how many triangles they have.
+fn leaves(node: &mut Node8) -> impl Iterator<Item = (&mut u32, usize)> {
+    let count = usize::from(node.children);
+    let children = node.link.iter_mut().zip(node.count).take(count);
+    children.filter(|child| child.1 != 0).map(|(link, count)| (link, usize::from(count)))
+}
+
+/// The triangles of some nodes' leaves in the order of their blocks, in which the leaves' links then are places.
+fn lay_out(nodes: &mut [Node8], items: &[Item]) -> Vec<u32> {
+    let mut order = Order::default();
+    for (link, count) in nodes.iter_mut().flat_map(leaves) {
+        let first = *link as usize;
+        *link = order.add(&items[first..first + count]) as u32;
     }
-    order.ids.par_chunks(WIDTH).with_min_len(PARALLEL).map(|ids| block(mesh, ids)).collect()
+    order.ids
 }
 
 /// Triangles in the order of the blocks, whole blocks of them.
+#[derive(Default)]
 struct Order {
     ids: Vec<u32>,
-    /// Blocks' ends and how many places before them are free.
-    open: [(usize, usize); OPEN],
+    /// Ends of the blocks that have so many free places before them, the last one first; 0 for none.
+    open: [[usize; OPEN]; WIDTH],
 }
 
 impl Order {
     /// Finds room for a leaf; where it begins.
     fn add(&mut self, items: &[Item]) -> usize {
         let count = items.len();
-        let tight = (0..OPEN).filter(|&at| self.open[at].1 >= count).min_by_key(|&at| self.open[at].1);
-        let first = if let Some(at) = tight {
-            let (end, room) = self.open[at];
-            self.open[at].1 -= count;
-            end - room
-        } else {
-            let first = self.ids.len();
-            let end = (first + count).next_multiple_of(WIDTH);
-            self.ids.resize(end, EMPTY);
-            self.leave_open(end, end - first - count);
-            first
+        let tight = (count..WIDTH).find(|&room| self.open[room][0] != 0);
+        let (end, room) = match tight {
+            Some(room) => (self.take(room), room),
+            None => {
+                let end = (self.ids.len() + count).next_multiple_of(WIDTH);
+                let room = end - self.ids.len();
+                self.ids.resize(end, EMPTY);
+                (end, room)
+            }
         };
+        self.leave_open(end, room - count);
+        let first = end - room;
         for (id, item) in self.ids[first..].iter_mut().zip(items) {
             *id = item.id();
         }
         first
     }
 
-    /// Keeps a block in mind, in place of the one with least room.
+    /// The last block with so many free places.
+    fn take(&mut self, room: usize) -> usize {
+        let open = &mut self.open[room];
+        let end = open[0];
+        open.copy_within(1.., 0);
+        open[OPEN - 1] = 0;
+        end
+    }
+
+    /// Keeps a block in mind that has free places, in place of the oldest with as many.
     fn leave_open(&mut self, end: usize, room: usize) {
-        let fullest = self.open.iter_mut().min_by_key(|open| open.1);
-        if let Some(open) = fullest.filter(|open| open.1 < room) {
-            *open = (end, room);
+        if room != 0 {
+            let open = &mut self.open[room];
+            open.copy_within(..OPEN - 1, 1);
+            open[0] = end;
         }
     }
 }
@@ -89,7 +121,7 @@ mod tests {
     use super::*;
 
     /// Triangles beside each other, and a node for every eight leaves of so many each.
-    fn leaves(counts: &[u8]) -> (TriangleMesh, Vec<Node8>, Vec<Item>) {
+    fn rows(counts: &[u8]) -> (TriangleMesh, Vec<Node8>, Vec<Item>) {
         let all: u32 = counts.iter().map(|&count| u32::from(count)).sum();
         let corner =
             |at: u32| [(at / 3) as f32, f32::from(u8::from(at % 3 == 1)), f32::from(u8::from(at % 3 == 2))];
@@ -110,12 +142,12 @@ mod tests {
     }
 
     fn counts() -> Vec<u8> {
-        (0..400_u32).map(|i| (i * i * 7 % 24 + 1) as u8).collect()
+        (0..4000_u32).map(|i| (i * i * 7 % 24 + 1) as u8).collect()
     }
 
     #[test]
     fn a_leaf_takes_no_more_blocks_than_its_triangles_fill() {
-        let (mesh, mut nodes, items) = leaves(&counts());
+        let (mesh, mut nodes, items) = rows(&counts());
         pack(&mesh, &mut nodes, &items);
         for node in &nodes {
             for child in 0..usize::from(node.children) {
@@ -128,7 +160,7 @@ mod tests {
 
     #[test]
     fn leaves_keep_their_triangles_and_share_none() {
-        let (mesh, mut nodes, items) = leaves(&counts());
+        let (mesh, mut nodes, items) = rows(&counts());
         let blocks = pack(&mesh, &mut nodes, &items);
         let mut next = 0;
         for node in &nodes {
@@ -144,7 +176,7 @@ mod tests {
 
     #[test]
     fn small_leaves_share_blocks() {
-        let (mesh, mut nodes, items) = leaves(&[3; 64]);
+        let (mesh, mut nodes, items) = rows(&[3; 64]);
         assert!(pack(&mesh, &mut nodes, &items).len() <= 33);
     }
 }
