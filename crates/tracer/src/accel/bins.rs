@@ -121,14 +121,16 @@ pub(super) struct Set<S: Simd> {
     pub(super) around: Extent<S>,
     pub(super) centres: Extent<S>,
     pub(super) leaf: bool,
+    /// Whether they stand in the room to sort them.
+    pub(super) aside: bool,
 }
 
 impl<S: Simd> Set<S> {
     /// Of all that stands there, from the first place on.
     pub(super) fn of(s: S, items: &[Item]) -> Self {
         let empty = Extent::empty(s);
-        let mut set =
-            Self { first: 0, count: items.len(), room: 0, around: empty, centres: empty, leaf: false };
+        let (first, count, room) = (0, items.len(), 0);
+        let mut set = Self { first, count, room, around: empty, centres: empty, leaf: false, aside: false };
         s.vectorize(
             #[inline(always)]
             || {

@@ -88,6 +88,9 @@ impl<S: Simd> Grower<'_, S> {
         for (child, set) in sets.iter().enumerate() {
             let bounds = set.around.bounds();
             if set.leaf {
+                if !parallel {
+                    bring_back((items, scratch), set.first, set);
+                }
                 node.push(&bounds, (base + set.first) as u32, set.count as u8);
                 continue;
             }
@@ -119,7 +122,9 @@ impl<S: Simd> Grower<'_, S> {
         }
         let grown = |(part, set): (Room<'_>, Set<S>)| {
             let mut nodes = Vec::with_capacity(set.count / WIDTH);
-            if !set.leaf {
+            if set.leaf {
+                bring_back(part, 0, &set);
+            } else {
                 self.node(part, base + set.first, Set { first: 0, ..set }, depth + 1, &mut nodes);
             }
             nodes
@@ -157,7 +162,10 @@ impl<S: Simd> Grower<'_, S> {
             return None;
         }
         let own = set.first..set.first + set.count + set.room;
-        let (items, scratch) = (&mut items[own.clone()], &mut scratch[own]);
+        let (mut items, mut scratch) = (&mut items[own.clone()], &mut scratch[own]);
+        if set.aside {
+            (items, scratch) = (scratch, items);
+        }
         let scale = Scale::new(self.s, set.centres, self.preset.bins(set.count));
         let plane = if depth < HALVE { self.best_plane(&items[..set.count], &scale) } else { None };
         if set.room > 0 && depth < HALVE {
@@ -176,8 +184,13 @@ impl<S: Simd> Grower<'_, S> {
         };
         let sets = set.parted([plane.count, set.count - plane.count]);
         let second = sets[1].first - set.first;
-        let centres = self.partition((items, &mut scratch[..set.count]), &scale, &plane, second);
-        Some([0, 1].map(|part| Set { around: around[part], centres: centres[part], ..sets[part] }))
+        let (aside, centres) = if set.count <= PARALLEL {
+            let to = &mut scratch[..second + sets[1].count];
+            (!set.aside, self.sort_into(&items[..set.count], to, &scale, &plane).1)
+        } else {
+            (set.aside, self.partition((items, &mut scratch[..set.count]), &scale, &plane, second))
+        };
+        Some([0, 1].map(|at| Set { around: around[at], centres: centres[at], aside, ..sets[at] }))
     }
 
     /// What of a set stands on either side of a plane that cuts space, where that is cheaper than to sort its triangles,
@@ -239,8 +252,8 @@ impl<S: Simd> Grower<'_, S> {
         all.best_plane(self.s, scale)
     }
 
-    /// Brings what lies before the plane to the front, and the rest to where the `second` part begins; the boxes round the
-    /// centres of both parts.
+    /// Brings what lies before the plane to the front, and the rest to where the `second` part begins, on all threads; the
+    /// boxes round the centres of both parts.
     fn partition(
         self,
         (items, scratch): Room<'_>,
@@ -248,15 +261,7 @@ impl<S: Simd> Grower<'_, S> {
         plane: &Plane,
         second: usize,
     ) -> [Extent<S>; 2] {
-        let present = &items[..scratch.len()];
-        if present.len() <= PARALLEL {
-            let (_, centres) = self.sort_into(present, scratch, scale, plane);
-            let (below, above) = scratch.split_at(plane.count);
-            items[..below.len()].copy_from_slice(below);
-            items[second..second + above.len()].copy_from_slice(above);
-            return centres;
-        }
-        let shares = present.par_chunks(PARALLEL).zip(scratch.par_chunks_mut(PARALLEL));
+        let shares = items[..scratch.len()].par_chunks(PARALLEL).zip(scratch.par_chunks_mut(PARALLEL));
         let sorted: Vec<(usize, [Extent<S>; 2])> =
             shares.map(|(items, scratch)| self.sort_into(items, scratch, scale, plane)).collect();
         let (mut below, mut above) = items.split_at_mut(second);
@@ -271,7 +276,7 @@ impl<S: Simd> Grower<'_, S> {
         sorted.iter().fold(nothing, |a, (_, b)| [a[0].union(b[0]), a[1].union(b[1])])
     }
 
-    /// Copies what lies before the plane to the front, the rest from the end on, without a branch that could go either way;
+    /// Copies what lies before the plane to the front, the rest from the end of all places on, without a branch that could go either way;
     /// how many lie before it, and the boxes round the centres of both.
     fn sort_into(
         self,
@@ -281,14 +286,14 @@ impl<S: Simd> Grower<'_, S> {
         plane: &Plane,
     ) -> (usize, [Extent<S>; 2]) {
         let (mut count, mut below, mut above) = (0, Extent::empty(self.s), Extent::empty(self.s));
-        let to = &mut to[..items.len()];
+        let last = to.len().wrapping_sub(1);
         self.s.vectorize(
             #[inline(always)]
             || {
                 for (at, item) in items.iter().enumerate() {
                     let extent = Extent::of(self.s, item);
                     let first = scale.lies_before(extent, plane);
-                    let from_end = items.len() - 1 - (at - count);
+                    let from_end = last.wrapping_sub(at - count);
                     let place = from_end ^ ((from_end ^ count) & first.wrapping_neg());
                     to[place] = *item;
                     count += first;
@@ -305,12 +310,20 @@ impl<S: Simd> Grower<'_, S> {
     fn measured(self, items: &[Item], place: Set<S>) -> Set<S> {
         let parts = items.par_chunks(PARALLEL).map(|items| Set::of(self.s, items));
         let set = parts.reduce_with(Set::with).unwrap_or_else(|| Set::of(self.s, items));
-        Set { first: place.first, room: place.room, ..set }
+        Set { first: place.first, room: place.room, aside: place.aside, ..set }
     }
 }
 
 /// Triangles with free places behind them, and as much room to sort them.
 type Room<'a> = (&'a mut [Item], &'a mut [Item]);
+
+/// Brings the triangles of a leaf that stand aside to where the tree looks for them.
+fn bring_back((items, scratch): Room<'_>, first: usize, leaf: &Set<impl Simd>) {
+    if leaf.aside {
+        let own = first..first + leaf.count;
+        items[own.clone()].copy_from_slice(&scratch[own]);
+    }
+}
 
 /// Appends a subtree whose inner links count from its own start.
 fn append(nodes: &mut Vec<Node8>, subtree: Vec<Node8>) {
