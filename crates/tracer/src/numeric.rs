@@ -156,6 +156,10 @@ pub(crate) const FAN_BOX: f32 = 8.0 * U;
 /// for [`MEET_EDGE_ERROR`] 7u in each component of n, and u·2·2LP S for two fused products; rounded up.
 pub(crate) const FAN_EDGE: f32 = 12.0 * U;
 
+/// Error of a slope n·(u, v, 1) whose n was computed in `f64`, relative to |n·(|u|, |v|, 1)|: n is rounded once, and two
+/// fused products; rounded up.
+pub(crate) const FAN_PLANE: f32 = 4.0 * U;
+
 /// Error of `(e × f) · p`, relative to L² P: as [`MEET_TOP_ERROR`].
 pub(crate) const FAN_TOP: f32 = 48.0 * U;
 

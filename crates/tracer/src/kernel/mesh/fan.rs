@@ -25,6 +25,9 @@ pub(crate) struct Fan {
     pub(super) apex: [f32; 3],
     /// How far a ray may pass the point by.
     pub(super) slack: f32,
+    /// The point in `f64`, and how far a ray may pass that by.
+    pub(super) precise_apex: DVec3,
+    pub(super) precise_slack: f32,
     /// Error of the slopes.
     pub(super) slope_error: f32,
     /// Box round the slopes of all rays, up to their error.
@@ -91,7 +94,7 @@ impl Fan {
         let own = DVec3::new(apex[u] * sign, apex[v] * sign, apex[z] * sign);
         let rounded = own.as_vec3();
         let off = (own - rounded.as_dvec3()).abs().max_element() as f32;
-        let slack = (slack + off).next_up();
+        let (precise_slack, slack) = (slack, (slack + off).next_up());
         let size = reach + rounded.abs().max_element();
         let [low, high] = slopes;
         Self {
@@ -99,6 +102,8 @@ impl Fan {
             sign: aim.sign,
             apex: rounded.to_array(),
             slack,
+            precise_apex: own,
+            precise_slack,
             slope_error: FAN_SLOPE,
             low,
             high,
