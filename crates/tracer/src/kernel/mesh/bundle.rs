@@ -149,9 +149,9 @@ impl<S: Simd> Slopes<S> {
         let [u, v, z] = aim.axes;
         let (du, dv) = (component(&lines.direction, u), component(&lines.direction, v));
         let dz = component(&lines.direction, z);
-        let live = lines.live;
-        self.u = F::pick(live, (du / dz).narrow(), self.u);
-        self.v = F::pick(live, (dv / dz).narrow(), self.v);
+        let (live, inverse) = (lines.live, D::splat(s, 1.0) / dz);
+        self.u = F::pick(live, (du * inverse).narrow(), self.u);
+        self.v = F::pick(live, (dv * inverse).narrow(), self.v);
         self.scale = F::pick(live, lines.depths(s, aim), self.scale);
         self.live = live;
         let (u, v) = (self.u.0, self.v.0);

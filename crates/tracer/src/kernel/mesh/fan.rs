@@ -8,7 +8,7 @@
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, LaneMask};
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8};
+use fearless_simd::{Simd, f32x8, f32x16};
 
 use super::{GROUP, Umpire, Visit, Visits, Waiting};
 use crate::accel::{Node8, WIDTH, WideTree};
@@ -155,33 +155,29 @@ impl Fan {
         umpire: &mut dyn Umpire,
     ) {
         let Some(mut waiting) = visits.start() else { return };
-        let mut far = [f32::NEG_INFINITY; GROUP];
-        for (far, rays) in far.iter_mut().zip(&mut *rays) {
-            *far = self.far(s, rays);
+        let mut packets = Packets::NONE;
+        for (at, rays) in rays.iter_mut().enumerate().take(GROUP) {
             rays.slopes = self.widened(rays.slopes);
+            packets.set(at, rays.slopes, self.far(s, rays));
         }
         waiting.push(Visit { near: 0.0, link: 0, count: 0, packets: (1 << rays.len().min(GROUP)) - 1 });
-        let mut farthest = far.into_iter().fold(f32::NEG_INFINITY, f32::max);
+        let mut farthest = packets.farthest(s);
         while let Some(visit) = waiting.pop(farthest) {
             if visit.count == 0 {
                 *waiting.nodes += 1;
-                self.enter(
-                    s,
-                    &tree.nodes[visit.link as usize],
-                    (rays, visit.packets, farthest),
-                    &mut waiting,
-                );
+                let node = &tree.nodes[visit.link as usize];
+                self.enter(s, node, (rays, &packets, visit.packets, farthest), &mut waiting);
                 continue;
             }
             for (block, own) in visit.blocks() {
                 *waiting.blocks += 1;
-                let packets = within(visit, &far);
-                let changed = self.pass(s, (tree, block, own), packets, rays, umpire);
+                let within = u64::from(visit.packets & packets.within(s, visit.near));
+                let changed = self.pass(s, (tree, block, own), within, rays, umpire);
                 for packet in Bits(changed) {
-                    far[packet % GROUP] = self.far(s, &rays[packet]);
+                    packets.far[packet % GROUP] = self.far(s, &rays[packet]);
                 }
                 if changed != 0 {
-                    farthest = far.into_iter().fold(f32::NEG_INFINITY, f32::max);
+                    farthest = packets.farthest(s);
                 }
             }
         }
@@ -209,7 +205,7 @@ impl Fan {
         &self,
         s: S,
         node: &Node8,
-        (rays, packets, far): (&[FanRays<S>], u32, f32),
+        (rays, packets, some, far): (&[FanRays<S>], &Packets, u32, f32),
         waiting: &mut Waiting<'_>,
     ) {
         let (one, zero) = (f32x8::splat(s, 1.0), f32x8::splat(s, 0.0));
@@ -232,7 +228,8 @@ impl Fan {
         for child in Bits(met.to_bitmask() & ((1 << node.children) - 1)) {
             let child = child % WIDTH;
             let seen = [sides[0][child], sides[1][child], sides[2][child], sides[3][child]];
-            let packets = entering(s, rays, packets, (seen, near[child]));
+            let maybe = some & packets.entering(s, (seen, near[child]));
+            let packets = entering(s, rays, maybe, (seen, near[child]));
             if packets != 0 {
                 waiting.insert(first, Visit { packets, ..Visit::child(node, child, near[child]) });
             }
@@ -271,13 +268,49 @@ impl Fan {
     }
 }
 
-/// Which packets of a visit still look as far as that.
-#[inline(always)]
-fn within(visit: Visit, far: &[f32; GROUP]) -> u64 {
-    Bits(u64::from(visit.packets))
-        .filter(|packet| visit.near <= far[packet % GROUP])
-        .map(|packet| 1 << packet)
-        .sum()
+/// The packets of a group side by side.
+struct Packets {
+    /// Boxes round their slopes.
+    low: [[f32; GROUP]; 2],
+    high: [[f32; GROUP]; 2],
+    /// At least how far each still looks.
+    far: [f32; GROUP],
+}
+
+impl Packets {
+    const NONE: Self =
+        Self { low: [[0.0; GROUP]; 2], high: [[0.0; GROUP]; 2], far: [f32::NEG_INFINITY; GROUP] };
+
+    #[inline(always)]
+    fn set(&mut self, at: usize, [low, high]: [[f32; 2]; 2], far: f32) {
+        for axis in 0..2 {
+            (self.low[axis][at], self.high[axis][at]) = (low[axis], high[axis]);
+        }
+        self.far[at] = far;
+    }
+
+    /// How far the one that looks farthest does.
+    #[inline(always)]
+    fn farthest<S: Simd>(&self, s: S) -> f32 {
+        f32x16::load_array_ref(s, &self.far).reduce_max()
+    }
+
+    /// Which of them look as far as that.
+    #[inline(always)]
+    fn within<S: Simd>(&self, s: S, near: f32) -> u32 {
+        f32x16::load_array_ref(s, &self.far).simd_ge(f32x16::splat(s, near)).to_bitmask() as u32
+    }
+
+    /// Which of them look as far as that, with a box round their slopes that touches another.
+    #[inline(always)]
+    fn entering<S: Simd>(&self, s: S, ([low_u, high_u, low_v, high_v], near): ([f32; 4], f32)) -> u32 {
+        let row = |row| f32x16::load_array_ref(s, row);
+        let beside = row(&self.high[0]).simd_lt(f32x16::splat(s, low_u))
+            | row(&self.low[0]).simd_gt(f32x16::splat(s, high_u))
+            | row(&self.high[1]).simd_lt(f32x16::splat(s, low_v))
+            | row(&self.low[1]).simd_gt(f32x16::splat(s, high_v));
+        self.within(s, near) & !(beside.to_bitmask() as u32)
+    }
 }
 
 /// Which of some packets have a ray whose slopes lie within a box, and that still looks as far as that.
