@@ -11,8 +11,8 @@ pub(crate) const WIDTH: usize = 8;
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(crate) struct Node8 {
-    /// Lower x, y and z of every child's box, then upper x, y and z.
-    pub(crate) bounds: [[f32; WIDTH]; 6],
+    /// Lower and upper ends of every child's box along x, y and z.
+    pub(crate) bounds: [[[f32; WIDTH]; 2]; 3],
     /// Which node an inner child is, or where the triangles of a leaf begin.
     pub(crate) link: [u32; WIDTH],
     /// How many triangles a leaf has; 0 for an inner child.
@@ -23,14 +23,14 @@ pub(crate) struct Node8 {
 
 impl Node8 {
     pub(crate) const EMPTY: Self =
-        Self { bounds: [[0.0; WIDTH]; 6], link: [0; WIDTH], count: [0; WIDTH], children: 0 };
+        Self { bounds: [[[0.0; WIDTH]; 2]; 3], link: [0; WIDTH], count: [0; WIDTH], children: 0 };
 
     /// Adds a child.
     pub(crate) fn push(&mut self, bounds: &Box32, link: u32, count: u8) {
         let at = usize::from(self.children);
         for axis in 0..3 {
-            self.bounds[axis][at] = bounds.min[axis];
-            self.bounds[axis + 3][at] = bounds.max[axis];
+            self.bounds[axis][0][at] = bounds.min[axis];
+            self.bounds[axis][1][at] = bounds.max[axis];
         }
         (self.link[at], self.count[at]) = (link, count);
         self.children += 1;
@@ -38,11 +38,8 @@ impl Node8 {
 
     /// The box of a child.
     pub(crate) fn bounds_of(&self, child: usize) -> Box32 {
-        let rows = &self.bounds;
-        Box32 {
-            min: [rows[0][child], rows[1][child], rows[2][child]],
-            max: [rows[3][child], rows[4][child], rows[5][child]],
-        }
+        let [x, y, z] = &self.bounds;
+        Box32 { min: [x[0][child], y[0][child], z[0][child]], max: [x[1][child], y[1][child], z[1][child]] }
     }
 }
 

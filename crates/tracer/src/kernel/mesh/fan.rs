@@ -194,7 +194,7 @@ impl Fan {
     #[inline(always)]
     fn row<S: Simd>(&self, s: S, node: &Node8, which: usize, side: usize) -> f32x8<S> {
         let upper = (self.sign > 0.0) == (side == 1);
-        let row = &node.bounds[self.axes[which] + if upper { 3 } else { 0 }];
+        let row = &node.bounds[self.axes[which]][usize::from(upper)];
         let start = if side == 0 { self.apex[which] + self.pad } else { self.apex[which] - self.pad };
         f32x8::load_array_ref(s, row).mul_sub_precise(f32x8::splat(s, self.sign), f32x8::splat(s, start))
     }

@@ -18,9 +18,9 @@ pub(crate) struct Lone {
     lane: usize,
     /// The triangle that the ray leaves from.
     left: u32,
-    /// Where it begins and how the slabs' `t` grow, per axis; for the lower and the upper rows of a node, whichever is
-    /// met first.
-    rows: [[usize; 3]; 2],
+    /// 1 along axes that it runs backwards, where upper ends of boxes are met first; else 0.
+    backwards: [usize; 3],
+    /// Where it begins and how the slabs' `t` grow, per axis; for the ends that are met first, then for the others.
     origins: [[f32; 3]; 2],
     inverses: [[f32; 3]; 2],
     /// Axes with the largest direction last.
@@ -85,14 +85,10 @@ impl Lone {
     #[inline(always)]
     pub(crate) fn new(ray: Ray, lane: usize, left: u32, reach: f32) -> Self {
         let (direction, size) = (ray.direction, ray.direction.abs());
-        let last = if size.x > size.y.max(size.z) {
-            0
-        } else if size.y > size.z {
-            1
-        } else {
-            2
-        };
+        // In numbers: nothing foretells which way a branch would go.
+        let last = (2 - usize::from(size.y > size.z)) * usize::from(!(size.x > size.y.max(size.z)));
         let axes = [(last + 1) % 3, (last + 2) % 3, last];
+        let direction = direction.to_array();
         let origin = ray.origin.as_vec3();
         let largest = origin.abs().max_element();
         let pad = largest * LONE_PAD + f32::MIN_POSITIVE;
@@ -103,7 +99,7 @@ impl Lone {
             ray,
             lane,
             left,
-            rows: [[0; 3]; 2],
+            backwards: [0; 3],
             origins: [[0.0; 3]; 2],
             inverses: [[0.0; 3]; 2],
             axes,
@@ -115,13 +111,11 @@ impl Lone {
         };
         for axis in 0..3 {
             let inverse = 1.0 / direction[axis] as f32;
-            // A lower row is padded downwards, an upper one upwards.
-            let (lower, upper) = (origin[axis] + pad, origin[axis] - pad);
-            let backwards = inverse.is_sign_negative();
-            let (near, away) = if backwards { (axis + 3, axis) } else { (axis, axis + 3) };
-            let (first, second) = if backwards { (upper, lower) } else { (lower, upper) };
-            (lone.rows[0][axis], lone.rows[1][axis]) = (near, away);
-            (lone.origins[0][axis], lone.origins[1][axis]) = (first, second);
+            // A lower end is padded downwards, an upper one upwards.
+            let starts = [origin[axis] + pad, origin[axis] - pad];
+            let backwards = usize::from(inverse.is_sign_negative());
+            lone.backwards[axis] = backwards;
+            (lone.origins[0][axis], lone.origins[1][axis]) = (starts[backwards], starts[1 - backwards]);
             (lone.inverses[0][axis], lone.inverses[1][axis]) = (inverse, inverse * BOX_STRETCH);
         }
         lone
@@ -195,7 +189,7 @@ impl Lone {
     /// Where the ray crosses the nearer (side 0) or farther sides of the boxes along an axis.
     #[inline(always)]
     fn plane<S: Simd>(&self, s: S, node: &Node8, side: usize, axis: usize) -> f32x8<S> {
-        let row = f32x8::load_array_ref(s, &node.bounds[self.rows[side][axis]]);
+        let row = f32x8::load_array_ref(s, &node.bounds[axis][(self.backwards[axis] ^ side) & 1]);
         (row - f32x8::splat(s, self.origins[side][axis])) * f32x8::splat(s, self.inverses[side][axis])
     }
 

@@ -119,10 +119,12 @@ impl Visit {
     /// Blocks of a leaf, and which of each block's triangles are the leaf's.
     #[inline(always)]
     fn blocks(&self) -> impl Iterator<Item = (usize, u64)> {
-        let (first, end) = (self.link as usize, self.link as usize + self.count as usize);
-        (first / WIDTH..end.div_ceil(WIDTH)).map(move |block| {
-            let (low, high) = (first.saturating_sub(block * WIDTH), (end - block * WIDTH).min(WIDTH));
-            (block, (1 << high) - (1 << low))
+        let first = self.link as usize;
+        let mut own = ((1_u64 << (self.count % u64::BITS)) - 1) << (first % WIDTH);
+        (first / WIDTH..).map_while(move |block| {
+            let here = own & ((1 << WIDTH) - 1);
+            own >>= WIDTH;
+            (here != 0).then_some((block, here))
         })
     }
 }

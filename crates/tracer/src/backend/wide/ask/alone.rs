@@ -2,7 +2,8 @@
 //! is worked out that only other shapes need.
 
 use catoptra_core::geometry::Mesh;
-use catoptra_core::{Arithmetic, LaneMask};
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Arithmetic, LaneMask, Ray};
 use fearless_simd::Simd;
 
 use super::{Answers, Asked};
@@ -45,6 +46,17 @@ impl<S: Simd> Group<S> {
         let mut live = [M::splat(s, false); GROUP];
         live[..packets].copy_from_slice(&self.live[first..first + packets]);
         Self { at: self.start(first), packets, live }
+    }
+}
+
+/// Origins and directions of a packet's rays, coordinate by coordinate.
+struct PlainLines([[f64; 16]; 6]);
+
+impl PlainLines {
+    #[inline(always)]
+    fn ray(&self, lane: usize) -> Ray {
+        let (lane, [x, y, z, u, v, w]) = (lane % 16, &self.0);
+        Ray::new(DVec3::new(x[lane], y[lane], z[lane]), DVec3::new(u[lane], v[lane], w[lane]))
     }
 }
 
@@ -203,8 +215,13 @@ impl<'a, S: Simd> Tracer<'a, S> {
         let left = asked.left(self.s, packet.at).facets_of(self.s, only.instance.prim);
         let mut umpire = self.umpire(asked, only, packet);
         let mut visits = std::mem::take(self.visits);
+        let lines = self.plain_lines(asked, only, packet.start(0));
         for lane in Bits(packet.live[0].bits()) {
-            let Some((ray, span)) = umpire.ray(lane) else { continue };
+            let way = match &lines {
+                Some(lines) => Some((lines.ray(lane), asked.span(packet.start(0) + lane))),
+                None => umpire.ray(lane),
+            };
+            let Some((ray, span)) = way else { continue };
             let mut found = LoneBest::nothing_on(span).for_any(asked.any);
             only.instance.search_one(
                 self.s,
@@ -218,6 +235,21 @@ impl<'a, S: Simd> Tracer<'a, S> {
         self.count(&mut visits);
         *self.visits = visits;
         U::load(self.s, &slots)
+    }
+
+    /// The rays of a packet one by one, where the mesh's own space is the snapshot's.
+    #[inline(always)]
+    fn plain_lines(&self, asked: &Asked<'_>, only: Only<'_>, at: usize) -> Option<PlainLines> {
+        let plain = only.instance.to_object.is_none() && asked.snapshot.origin() == asked.snapshot.frame();
+        let (origin, direction) = asked.precise(self.s, at);
+        plain.then(|| {
+            let mut lines = PlainLines([[0.0; 16]; 6]);
+            let columns = [origin.x, origin.y, origin.z, direction.x, direction.y, direction.z];
+            for (column, row) in columns.into_iter().zip(&mut lines.0) {
+                column.store(row);
+            }
+            lines
+        })
     }
 
     #[inline(always)]
