@@ -115,6 +115,10 @@ pub(crate) const CLIP_ERROR: f64 = 8.0 * W;
 /// once more when it is widened.
 pub(crate) const LONE_PAD: f32 = 4.0 * U;
 
+/// What an origin that is off by a metre counts among the coordinates that the bounds of a lone ray go by: they hold a
+/// rounding of it, u of its largest coordinate along every axis.
+pub(crate) const LONE_OFF: f32 = 1.0 / U;
+
 /// Error of an edge value of sheared corners: X (a X + b H) + (c H)², X the largest sheared coordinate, H the largest
 /// coordinate of a corner plus that of the origin. These are a, b and c.
 ///

@@ -38,6 +38,12 @@ pub(crate) fn load_wide3<S: Simd>(s: S, [x, y, z]: &[impl Deref<Target = [f64]>;
     Triple::new(D::load(s, &x[at..]), D::load(s, &y[at..]), D::load(s, &z[at..]))
 }
 
+/// The vector of one lane.
+#[inline(always)]
+pub(crate) fn vector_of<S: Simd>(v: &D3<S>, lane: usize) -> DVec3 {
+    DVec3::new(v.x.lane(lane), v.y.lane(lane), v.z.lane(lane))
+}
+
 /// Rounded to `f32`.
 #[inline(always)]
 pub(crate) fn narrow3<S: Simd>(v: D3<S>) -> F3<S> {

@@ -8,13 +8,12 @@ use super::Tracer;
 use super::ask::Asked;
 use super::packet::{Packet, Precise, drift};
 use super::search::Best;
-use super::shadow::Ways;
-use super::umpire::{Blocked, Nearest};
+use super::umpire::Nearest;
 use crate::Place;
 use crate::accel::WIDTH;
-use crate::kernel::mesh::{Bundle, Fan, FanRays, LaneTriangles, Lines, Lone, LoneBest, Umpire, Visits};
-use crate::lanes::{Bits, D, D3, F, M, U, pick3, splat_wide, widen3};
-use crate::numeric::{END_ERROR, POINT_ERROR, START_ERROR};
+use crate::kernel::mesh::{Bundle, LaneTriangles, Lines, Lone, LoneBest, Umpire, Visits};
+use crate::lanes::{Bits, D, D3, F, M, U, splat_wide};
+use crate::numeric::{END_ERROR, POINT_ERROR};
 use crate::snapshot::{Affine, Instance};
 
 /// Stands for no triangle.
@@ -206,101 +205,6 @@ impl<S: Simd> Tracer<'_, S> {
     pub(super) fn own_lines(&self, packet: &Packet<'_, S>, instance: &Instance) -> (D3<S>, D3<S>) {
         let (origin, direction) = packet.precise(self.s);
         (instance.own_points(self.s, origin), instance.own_vectors(self.s, direction))
-    }
-
-    /// The ways still open once a mesh stands there. Compiled apart.
-    pub(super) fn walk_mesh_to_light(
-        &mut self,
-        packet: &Packet<'_, S>,
-        ways: &Ways<S>,
-        open: M<S>,
-        instance: &Instance,
-    ) -> M<S> {
-        self.s.vectorize(
-            #[inline(always)]
-            || self.walk_mesh_to_light_here(packet, ways, open, instance),
-        )
-    }
-
-    #[inline(always)]
-    fn walk_mesh_to_light_here(
-        &mut self,
-        packet: &Packet<'_, S>,
-        ways: &Ways<S>,
-        open: M<S>,
-        instance: &Instance,
-    ) -> M<S> {
-        let Some(mesh) = self.frame.snapshot.mesh_at(instance.prim) else { return open };
-        let mut umpire = Blocked { snapshot: self.frame.snapshot, mesh, prim: instance.prim, packet, ways };
-        let mut visits = std::mem::take(self.visits);
-        let left = ways.left.facets_of(self.s, instance.prim);
-        let fan =
-            if ways.target.at_infinity { None } else { self.fan_to_light((packet, ways), open, instance) };
-        let closed = match fan {
-            Some((fan, mut rays)) => {
-                rays[0].left = left;
-                fan.search(self.s, &instance.tree.tree, &mut visits, &mut rays, &mut umpire);
-                self.stats.settled += rays[0].settled;
-                (!rays[0].slot.is(NONE) & open).bits()
-            }
-            None => {
-                let mut closed = 0;
-                for lane in Bits(open.bits()) {
-                    let Some((ray, span)) = umpire.ray(lane) else { continue };
-                    let mut found = LoneBest::nothing_on(span).for_any(true);
-                    let ray = (ray, lane, left.lane(lane));
-                    instance.search_one(self.s, ray, &mut visits, &mut found, &mut umpire);
-                    closed |= u64::from(found.slot.is_some()) << lane;
-                }
-                closed
-            }
-        };
-        self.count(&mut visits);
-        *self.visits = visits;
-        open & !M::from_bits(self.s, closed)
-    }
-
-    /// Ways to a light as rays from it, if they lie close enough together.
-    #[inline(always)]
-    fn fan_to_light(
-        &self,
-        (packet, ways): (&Packet<'_, S>, &Ways<S>),
-        open: M<S>,
-        instance: &Instance,
-    ) -> Option<(Fan, [FanRays<S>; 1])> {
-        let apex = instance.own_points(self.s, splat_wide(self.s, ways.target.place));
-        let (start, off) = self.own_starts((packet, ways), open, instance);
-        let lines = Lines { origin: apex, direction: start - apex, live: open };
-        let bundle = Bundle::<S, 1>::of(self.s, 1, |_| lines, self.reach(instance))?;
-        let (slopes, zero) = (bundle.slopes(0), F::splat(self.s, 0.0));
-        let error = slopes.scale.mul_add(F::splat(self.s, END_ERROR), off);
-        let rays = slopes.rays(self.s, [zero, zero], [slopes.scale, error]);
-        let steep = slopes.error_where_off(self.s, off);
-        Some((bundle.fan.for_any().with_slope_error(steep), [rays]))
-    }
-
-    /// Where ways begin in a mesh's own space, and how far that may be off: settled in `f64` where they leave the mesh
-    /// itself.
-    #[inline(always)]
-    fn own_starts(
-        &self,
-        (packet, ways): (&Packet<'_, S>, &Ways<S>),
-        open: M<S>,
-        instance: &Instance,
-    ) -> (D3<S>, F<S>) {
-        let reach = ways.rays.reach * F::splat(self.s, instance.scale());
-        let start = instance.own_points(self.s, widen3(ways.rays.origin));
-        let off = reach * F::splat(self.s, POINT_ERROR);
-        let own = open & ways.left.prim.is(instance.prim);
-        if !own.any() {
-            return (start, off);
-        }
-        let triangles = instance.facets(self.s, ways.left.facet, own);
-        let (origin, direction) = self.own_lines(packet, instance);
-        let of_lane = |lane: usize| packet.way(lane);
-        let t = self.settled_t(instance.prim, (origin, direction), own, &triangles, of_lane);
-        let settled = direction.scale_add(t, origin);
-        (pick3(own, settled, start), F::pick(own, reach * F::splat(self.s, START_ERROR), off))
     }
 
     /// How far origins relative to the snapshot's may be off, metres of the mesh's own space; and the largest coordinate of

@@ -15,6 +15,7 @@ mod filled;
 mod light;
 mod meet;
 mod mesh;
+mod mesh_to_light;
 mod packet;
 mod plan;
 mod queue;
@@ -24,6 +25,7 @@ mod settle;
 mod shadow;
 mod solid;
 mod spread;
+mod stream;
 mod surface;
 mod umpire;
 mod walk;
@@ -32,7 +34,6 @@ mod window;
 use std::any::Any;
 use std::cell::RefCell;
 
-use catoptra_core::Rgb;
 use fearless_simd::{Level, Simd};
 
 use super::{Backend, Frame};
@@ -43,13 +44,13 @@ use crate::snapshot::LightRow;
 use crate::{Instructions, Region, Size, Snapshot, Stats, Tile, View};
 use ask::Answers;
 use batch::{Batch, Found, Part};
-use beam::Beam;
 use chunk::Chunk;
 use meet::Before;
 use packet::{CameraRays, Primary};
 use plan::{Place, Shapes};
 use queue::Queue;
 use spread::Spreads;
+use stream::Bounce;
 use window::{Window, quarters};
 
 /// The default backend.
@@ -118,15 +119,6 @@ impl<S: Simd> Registers<S> {
         let new = || Box::new(Self { chunk: Chunk::new(s), spreads: Spreads::nothing(s) });
         kept.and_then(|kept| kept.downcast().ok()).unwrap_or_else(new)
     }
-}
-
-/// A stream of reflected rays under way.
-#[derive(Default)]
-struct Bounce {
-    stream: Queue,
-    beams: Vec<Beam>,
-    /// Shapes that its rays may meet.
-    met: Shapes,
 }
 
 /// How often what is looked at is narrowed down: all shapes, a tile's, a quarter's.
@@ -311,65 +303,6 @@ impl<S: Simd> Tracer<'_, S> {
                 );
             }
         }
-    }
-
-    /// Adds the light that arrives along reflected rays, and along those that are reflected again.
-    fn follow(&mut self, tile: &mut Tile) {
-        let Some(bounce) = self.bounce.take() else { return };
-        for depth in 1.. {
-            std::mem::swap(&mut bounce.stream, self.next);
-            self.next.clear();
-            if bounce.stream.len() == 0 {
-                break;
-            }
-            self.trace_stream(bounce, tile, depth);
-        }
-        self.bounce = Some(bounce);
-    }
-
-    /// Adds the light that arrives along the rays of a stream.
-    #[inline(always)]
-    fn trace_stream(&mut self, bounce: &mut Bounce, tile: &mut Tile, depth: u32) {
-        let Bounce { stream, beams, met } = bounce;
-        self.s.vectorize(
-            #[inline(always)]
-            || {
-                beams.clear();
-                beams.extend(Beam::all(self.spreads));
-                self.spreads.starts.clear();
-                self.spreads.units.clear();
-            },
-        );
-        let snapshot = self.frame.snapshot;
-        if self.frame.view.skip.beams {
-            met.met_by(snapshot.columns(), beams, self.outside);
-        } else {
-            met.all(snapshot.columns());
-        }
-        let nothing = met.is_empty() && snapshot.columns().general_unbounded.is_empty();
-        if nothing && snapshot.background() == Rgb::BLACK {
-            self.stats.skipped.nothing_ahead += stream.len() as u64;
-        } else if self.plan_ahead(beams, met) {
-            self.plan_darkness(beams, met);
-            self.stats.rays.reflection += stream.len() as u64;
-            self.s.vectorize(
-                #[inline(always)]
-                || self.shade(&*stream, &&*met, tile, depth),
-            );
-        } else {
-            self.dark.clear();
-            self.trace(&*stream, met, tile, depth);
-        }
-    }
-
-    /// Finds out what may stand between lights and all that the rays of some beams may meet, if that has an end.
-    fn plan_ahead(&mut self, beams: &[Beam], met: &mut Shapes) -> bool {
-        let snapshot = self.frame.snapshot;
-        let known = met.find_places_of(snapshot.columns(), beams);
-        if known {
-            self.plan_lights(&met.places);
-        }
-        known || snapshot.light_rows().is_empty()
     }
 
     /// Finds what the rays of a batch meet, then adds the light that arrives along them.

@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
 use super::fan::{Aim, Fan, FanRays};
-use crate::lanes::{D, D3, F, M, U, splat_wide};
+use crate::lanes::{D, D3, F, M, U, splat_wide, vector_of};
 use crate::numeric::{FAN_SLOPE, FAN_SPREAD, FAN_WIDTH};
 
 /// Rays of a packet as lines from a point each.
@@ -190,12 +190,6 @@ impl<S: Simd> Slopes<S> {
             settled: 0,
         }
     }
-}
-
-/// The vector of one lane.
-#[inline(always)]
-fn vector_of<S: Simd>(v: &D3<S>, lane: usize) -> DVec3 {
-    DVec3::new(v.x.lane(lane), v.y.lane(lane), v.z.lane(lane))
 }
 
 #[inline(always)]

@@ -10,11 +10,15 @@ use fearless_simd::{Simd, f32x8};
 use super::{Edges, Settled, Umpire, Visit, Visits, Waiting, bound_eight, settle};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::Bits;
-use crate::numeric::{BOX_STRETCH, LONE_DEPTH, LONE_FLOOR, LONE_PAD, LONE_SHARE, LONE_SPREAD, LONE_STEEP};
+use crate::numeric::{
+    BOX_STRETCH, LONE_DEPTH, LONE_FLOOR, LONE_OFF, LONE_PAD, LONE_SHARE, LONE_SPREAD, LONE_STEEP,
+};
 
 /// A ray in a mesh's own space.
 pub(crate) struct Lone {
     pub(super) ray: Ray,
+    /// Whether that is the very ray, and not one beside it.
+    exact: bool,
     lane: usize,
     /// The triangle that the ray leaves from.
     left: u32,
@@ -84,19 +88,27 @@ impl Lone {
     /// For a mesh whose corners' coordinates stay within `reach`.
     #[inline(always)]
     pub(crate) fn new(ray: Ray, lane: usize, left: u32, reach: f32) -> Self {
+        Self::beside(ray, 0.0, (lane, left), reach)
+    }
+
+    /// As [`new`](Self::new), where the origin may be off by so much along every axis; the [`Umpire`] has the very ray.
+    #[inline(always)]
+    pub(crate) fn beside(ray: Ray, off: f32, (lane, left): (usize, u32), reach: f32) -> Self {
         let (direction, size) = (ray.direction, ray.direction.abs());
         // In numbers: nothing foretells which way a branch would go.
         let last = (2 - usize::from(size.y > size.z)) * usize::from(!(size.x > size.y.max(size.z)));
         let axes = [(last + 1) % 3, (last + 2) % 3, last];
         let direction = direction.to_array();
         let origin = ray.origin.as_vec3();
-        let largest = origin.abs().max_element();
+        // An origin that is off counts like one of larger coordinates that is rounded.
+        let largest = off.mul_add(LONE_OFF, origin.abs().max_element());
         let pad = largest * LONE_PAD + f32::MIN_POSITIVE;
         let reach = reach + largest;
         let along = 1.0 / direction[last];
         let shear = [direction[axes[0]] * along, direction[axes[1]] * along];
         let mut lone = Self {
             ray,
+            exact: off == 0.0,
             lane,
             left,
             backwards: [0; 3],
@@ -308,7 +320,9 @@ impl Lone {
         let before = if best.any { f64::INFINITY } else { least };
         let held_triangle = held.map(|slot| tree.triangle(slot));
         let next = (&tree.triangle(slot), Edges::Open);
-        let t = match settle(next, held_triangle, before, (&self.ray, best.span)) {
+        let known = if self.exact { Some(self.ray) } else { umpire.ray(self.lane).map(|(ray, _)| ray) };
+        let Some(ray) = known else { return };
+        let t = match settle(next, held_triangle, before, (&ray, best.span)) {
             Settled::Not => None,
             Settled::Nearer(t) => Some(t),
             Settled::Open => umpire.decide(self.lane, facet, held.map(|slot| tree.facet(slot))),

@@ -1,0 +1,133 @@
+//! Which ways to a light a mesh blocks: backwards from a lamp all lanes together, towards the sun lane by lane.
+
+use catoptra_core::{Arithmetic, LaneMask, Ray, Span};
+use fearless_simd::Simd;
+
+use super::Tracer;
+use super::mesh::NONE;
+use super::packet::Packet;
+use super::shadow::Ways;
+use super::umpire::Blocked;
+use crate::kernel::mesh::{Bundle, Fan, FanRays, Lines, Lone, LoneBest, Umpire, Visits};
+use crate::lanes::{Bits, D3, F, M, pick3, splat_wide, vector_of, widen3};
+use crate::numeric::{END_ERROR, POINT_ERROR, START_ERROR};
+use crate::snapshot::Instance;
+
+impl<S: Simd> Tracer<'_, S> {
+    /// The ways still open once a mesh stands there. Compiled apart.
+    pub(super) fn walk_mesh_to_light(
+        &mut self,
+        packet: &Packet<'_, S>,
+        ways: &Ways<S>,
+        open: M<S>,
+        instance: &Instance,
+    ) -> M<S> {
+        self.s.vectorize(
+            #[inline(always)]
+            || self.walk_mesh_to_light_here(packet, ways, open, instance),
+        )
+    }
+
+    #[inline(always)]
+    fn walk_mesh_to_light_here(
+        &mut self,
+        packet: &Packet<'_, S>,
+        ways: &Ways<S>,
+        open: M<S>,
+        instance: &Instance,
+    ) -> M<S> {
+        let Some(mesh) = self.frame.snapshot.mesh_at(instance.prim) else { return open };
+        let mut umpire = Blocked { snapshot: self.frame.snapshot, mesh, prim: instance.prim, packet, ways };
+        let mut visits = std::mem::take(self.visits);
+        let left = ways.left.facets_of(self.s, instance.prim);
+        let fan =
+            if ways.target.at_infinity { None } else { self.fan_to_light((packet, ways), open, instance) };
+        let closed = match fan {
+            Some((fan, mut rays)) => {
+                rays[0].left = left;
+                fan.search(self.s, &instance.tree.tree, &mut visits, &mut rays, &mut umpire);
+                self.stats.settled += rays[0].settled;
+                (!rays[0].slot.is(NONE) & open).bits()
+            }
+            None => self.close_each((packet, ways), open, instance, &mut umpire, &mut visits),
+        };
+        self.count(&mut visits);
+        *self.visits = visits;
+        open & !M::from_bits(self.s, closed)
+    }
+
+    /// The ways to a light that a mesh blocks, one after another; bit by bit.
+    #[inline(always)]
+    fn close_each(
+        &mut self,
+        (packet, ways): (&Packet<'_, S>, &Ways<S>),
+        open: M<S>,
+        instance: &Instance,
+        umpire: &mut Blocked<'_, S>,
+        visits: &mut Visits,
+    ) -> u64 {
+        let left = ways.left.facets_of(self.s, instance.prim);
+        let (start, off) = self.own_starts((packet, ways), open, instance);
+        let sunwards = umpire.mesh.to_object().vector(ways.target.in_frame);
+        let mut closed = 0;
+        for lane in Bits(open.bits()) {
+            let of_lane = (lane, left.lane(lane));
+            // The starts of ways to one point tell nothing of their directions.
+            let known = if ways.target.at_infinity {
+                let ray = Ray::new(vector_of(&start, lane), sunwards);
+                Some((Lone::beside(ray, off.lane(lane), of_lane, instance.tree.reach), Span::AHEAD))
+            } else {
+                let ray = umpire.ray(lane);
+                ray.map(|(ray, span)| (Lone::new(ray, lane, of_lane.1, instance.tree.reach), span))
+            };
+            let Some((lone, span)) = known else { continue };
+            let mut found = LoneBest::nothing_on(span).for_any(true);
+            lone.search(self.s, &instance.tree.tree, visits, &mut found, umpire);
+            closed |= u64::from(found.slot.is_some()) << lane;
+        }
+        closed
+    }
+
+    /// Ways to a light as rays from it, if they lie close enough together.
+    #[inline(always)]
+    fn fan_to_light(
+        &self,
+        (packet, ways): (&Packet<'_, S>, &Ways<S>),
+        open: M<S>,
+        instance: &Instance,
+    ) -> Option<(Fan, [FanRays<S>; 1])> {
+        let apex = instance.own_points(self.s, splat_wide(self.s, ways.target.place));
+        let (start, off) = self.own_starts((packet, ways), open, instance);
+        let lines = Lines { origin: apex, direction: start - apex, live: open };
+        let bundle = Bundle::<S, 1>::of(self.s, 1, |_| lines, self.reach(instance))?;
+        let (slopes, zero) = (bundle.slopes(0), F::splat(self.s, 0.0));
+        let error = slopes.scale.mul_add(F::splat(self.s, END_ERROR), off);
+        let rays = slopes.rays(self.s, [zero, zero], [slopes.scale, error]);
+        let steep = slopes.error_where_off(self.s, off);
+        Some((bundle.fan.for_any().with_slope_error(steep), [rays]))
+    }
+
+    /// Where ways begin in a mesh's own space, and how far that may be off: settled in `f64` where they leave the mesh
+    /// itself.
+    #[inline(always)]
+    fn own_starts(
+        &self,
+        (packet, ways): (&Packet<'_, S>, &Ways<S>),
+        open: M<S>,
+        instance: &Instance,
+    ) -> (D3<S>, F<S>) {
+        let reach = ways.rays.reach * F::splat(self.s, instance.scale());
+        let start = instance.own_points(self.s, widen3(ways.rays.origin));
+        let off = reach * F::splat(self.s, POINT_ERROR);
+        let own = open & ways.left.prim.is(instance.prim);
+        if !own.any() {
+            return (start, off);
+        }
+        let triangles = instance.facets(self.s, ways.left.facet, own);
+        let (origin, direction) = self.own_lines(packet, instance);
+        let of_lane = |lane: usize| packet.way(lane);
+        let t = self.settled_t(instance.prim, (origin, direction), own, &triangles, of_lane);
+        let settled = direction.scale_add(t, origin);
+        (pick3(own, settled, start), F::pick(own, reach * F::splat(self.s, START_ERROR), off))
+    }
+}
