@@ -127,14 +127,34 @@ impl Record {
 
 #[test]
 fn lone_rays_are_certain_only_of_what_is_so() {
-    let (mut random, mut record) = (Random(11), Record::default());
+    let mut record = Record::default();
+    attack_lone(&mut Random(11), &mut record, |_, ray, reach| {
+        let mut lone = Lone::new(*ray, 0, u32::MAX, reach);
+        lone.ray = Ray::new(DVec3::NAN, DVec3::NAN);
+        lone
+    });
+    record.assert_attacked(0.02);
+}
+
+#[test]
+fn lone_rays_whose_origins_are_off_are_certain_only_of_what_is_so() {
+    let mut record = Record::default();
+    attack_lone(&mut Random(17), &mut record, |random, ray, reach| {
+        let off = (ray.origin.length() + f64::from(reach)) * random.power(-34, -16);
+        let beside = Ray::new(ray.origin + random.point() * off, ray.direction);
+        Lone::beside(beside, (off as f32).next_up(), (0, u32::MAX), reach)
+    });
+    record.assert_attacked(0.02);
+}
+
+/// Aims rays at rims, each as `lone` makes it ready for a mesh of that reach.
+fn attack_lone(random: &mut Random, record: &mut Record, lone: impl Fn(&mut Random, &Ray, f32) -> Lone) {
     for _ in 0..300_000 {
-        let Some(target) = Target::any(&mut random) else { continue };
-        let (from, to) = (target.eye(&mut random), target.rim(&mut random));
+        let Some(target) = Target::any(random) else { continue };
+        let (from, to) = (target.eye(random), target.rim(random));
         let ray = Ray::new(from, (to - from) * random.power(-6, 6));
         let mut best = LoneBest::nothing_on(Span::AHEAD);
-        let mut lone = Lone::new(ray, 0, u32::MAX, target.tree.reach);
-        lone.ray = Ray::new(DVec3::NAN, DVec3::NAN);
+        let lone = lone(random, &ray, target.tree.reach);
         let (mut witness, mut visits) = (Witness::default(), Visits::default());
         dispatch!(Level::new(), s => lone.search(s, &target.tree.tree, &mut visits, &mut best, &mut witness));
         if witness.asked != 0 {
@@ -145,7 +165,6 @@ fn lone_rays_are_certain_only_of_what_is_so() {
         let found = best.slot.map(|slot| (target.tree.tree.facet(slot), place));
         record.note(&target, &ray, found, 1.0);
     }
-    record.assert_attacked(0.02);
 }
 
 #[test]
