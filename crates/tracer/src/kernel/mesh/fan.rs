@@ -8,8 +8,9 @@
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, LaneMask};
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8, f32x16};
+use fearless_simd::{Simd, f32x8};
 
+use super::packets::Packets;
 use super::{GROUP, Umpire, Visit, Visits, Waiting};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::{Bits, F, M, U};
@@ -60,6 +61,17 @@ pub(crate) struct FanRays<S: Simd> {
     pub(crate) live: M<S>,
     /// How often a triangle was decided on in `f64`.
     pub(crate) settled: u64,
+}
+
+impl<S: Simd> FanRays<S> {
+    /// Box round the slopes of the rays that are still followed, of which there are some.
+    #[inline(always)]
+    fn around_live(&self, s: S) -> [[f32; 2]; 2] {
+        let (most, least) = (F::splat(s, f32::INFINITY), F::splat(s, f32::NEG_INFINITY));
+        let low = |slopes| F::pick(self.live, slopes, most).0.reduce_min();
+        let high = |slopes| F::pick(self.live, slopes, least).0.reduce_max();
+        [[low(self.u), low(self.v)], [high(self.u), high(self.v)]]
+    }
 }
 
 /// Where rays go: slopes and the sign along the main axis.
@@ -174,7 +186,11 @@ impl Fan {
                 let within = u64::from(visit.packets & packets.within(s, visit.near));
                 let changed = self.pass(s, (tree, block, own), within, rays, umpire);
                 for packet in Bits(changed) {
-                    packets.far[packet % GROUP] = self.far(s, &rays[packet]);
+                    let rays = &mut rays[packet];
+                    if self.any && rays.live.any() {
+                        rays.slopes = self.widened(rays.around_live(s));
+                    }
+                    packets.set(packet % GROUP, rays.slopes, self.far(s, rays));
                 }
                 if changed != 0 {
                     farthest = packets.farthest(s);
@@ -229,7 +245,8 @@ impl Fan {
             let child = child % WIDTH;
             let seen = [sides[0][child], sides[1][child], sides[2][child], sides[3][child]];
             let maybe = some & packets.entering(s, (seen, near[child]));
-            let packets = entering(s, rays, maybe, (seen, near[child]));
+            let unsure = maybe & packets.larger_than_half(s, seen);
+            let packets = (maybe & !unsure) | entering(s, rays, unsure, (seen, near[child]));
             if packets != 0 {
                 waiting.insert(first, Visit { packets, ..Visit::child(node, child, near[child]) });
             }
@@ -265,51 +282,6 @@ impl Fan {
             }
         }
         changed
-    }
-}
-
-/// The packets of a group side by side.
-struct Packets {
-    /// Boxes round their slopes.
-    low: [[f32; GROUP]; 2],
-    high: [[f32; GROUP]; 2],
-    /// At least how far each still looks.
-    far: [f32; GROUP],
-}
-
-impl Packets {
-    const NONE: Self =
-        Self { low: [[0.0; GROUP]; 2], high: [[0.0; GROUP]; 2], far: [f32::NEG_INFINITY; GROUP] };
-
-    #[inline(always)]
-    fn set(&mut self, at: usize, [low, high]: [[f32; 2]; 2], far: f32) {
-        for axis in 0..2 {
-            (self.low[axis][at], self.high[axis][at]) = (low[axis], high[axis]);
-        }
-        self.far[at] = far;
-    }
-
-    /// How far the one that looks farthest does.
-    #[inline(always)]
-    fn farthest<S: Simd>(&self, s: S) -> f32 {
-        f32x16::load_array_ref(s, &self.far).reduce_max()
-    }
-
-    /// Which of them look as far as that.
-    #[inline(always)]
-    fn within<S: Simd>(&self, s: S, near: f32) -> u32 {
-        f32x16::load_array_ref(s, &self.far).simd_ge(f32x16::splat(s, near)).to_bitmask() as u32
-    }
-
-    /// Which of them look as far as that, with a box round their slopes that touches another.
-    #[inline(always)]
-    fn entering<S: Simd>(&self, s: S, ([low_u, high_u, low_v, high_v], near): ([f32; 4], f32)) -> u32 {
-        let row = |row| f32x16::load_array_ref(s, row);
-        let beside = row(&self.high[0]).simd_lt(f32x16::splat(s, low_u))
-            | row(&self.low[0]).simd_gt(f32x16::splat(s, high_u))
-            | row(&self.high[1]).simd_lt(f32x16::splat(s, low_v))
-            | row(&self.low[1]).simd_gt(f32x16::splat(s, high_v));
-        self.within(s, near) & !(beside.to_bitmask() as u32)
     }
 }
 

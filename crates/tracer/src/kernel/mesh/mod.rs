@@ -9,6 +9,7 @@ mod bundle;
 mod edges;
 mod fan;
 mod lone;
+mod packets;
 mod precise;
 mod weigh;
 
