@@ -11,7 +11,7 @@ use super::search::Best;
 use super::umpire::Nearest;
 use crate::Place;
 use crate::accel::WIDTH;
-use crate::kernel::mesh::{Bundle, LaneTriangles, Lines, Lone, LoneBest, Umpire, Visits};
+use crate::kernel::mesh::{Bundle, FanRays, LaneTriangles, Lines, Lone, LoneBest, Umpire, Visits};
 use crate::lanes::{Bits, D, D3, F, M, U, splat_wide};
 use crate::numeric::{END_ERROR, POINT_ERROR};
 use crate::snapshot::{Affine, Instance};
@@ -44,14 +44,13 @@ impl<S: Simd> Tracer<'_, S> {
         let reach = self.reach(instance);
         let (origin, direction) = self.own_lines(packet, instance);
         let lines = Lines { origin, direction, live: packet.live };
-        let slots = match Bundle::<S, 1>::of(self.s, 1, |_| lines, reach) {
+        let mut rays = [FanRays::nothing(self.s)];
+        let slots = match Bundle::of(self.s, &mut rays, |_| lines, reach) {
             Some(bundle) => {
-                let slopes = bundle.slopes(0);
                 // From metres to depth.
-                let scale = slopes.scale * packet.inverse_length;
+                let scale = rays[0].scale * packet.inverse_length;
                 let (begin, end) = (self.begin(packet, scale), self.end(best, scale));
-                let mut rays = [slopes.rays(self.s, begin, end)];
-                rays[0].left = packet.left.facets_of(self.s, instance.prim);
+                rays[0].start(self.s, begin, end, packet.left.facets_of(self.s, instance.prim));
                 bundle.fan.search(self.s, &instance.tree.tree, &mut visits, &mut rays, &mut umpire);
                 self.stats.settled += rays[0].settled;
                 rays[0].slot
@@ -76,22 +75,20 @@ impl<S: Simd> Tracer<'_, S> {
         let open = packet.live & !best.hits();
         let [start, end] = asked.ends(self.s, at);
         let (start, end) = (instance.own_points(self.s, start), instance.own_points(self.s, end));
-        let (zero, reach) = (F::splat(self.s, 0.0), self.reach(instance));
+        let reach = self.reach(instance);
         let mut umpire =
             Nearest { snapshot: self.frame.snapshot, mesh, prim: instance.prim, packet, before: best };
         let mut visits = std::mem::take(self.visits);
         // Forwards where all start at one point, backwards where all end at one; lone where they do neither.
         let ahead = Lines { origin: start, direction: end - start, live: open };
         let back = Lines { origin: end, direction: start - end, live: open };
-        let bundle = Bundle::<S, 1>::of(self.s, 1, |_| ahead, reach)
-            .or_else(|| Bundle::of(self.s, 1, |_| back, reach));
+        let mut rays = [FanRays::nothing(self.s)];
+        let bundle = Bundle::of(self.s, &mut rays, |_| ahead, reach)
+            .or_else(|| Bundle::of(self.s, &mut rays, |_| back, reach));
         let slots = match bundle {
             Some(bundle) => {
-                let slopes = bundle.slopes(0);
-                let off = F::splat(self.s, bundle.slack * 2.0 + f32::MIN_POSITIVE);
-                let error = slopes.scale.mul_add(F::splat(self.s, END_ERROR), off);
-                let mut rays = [slopes.rays(self.s, [zero - off, off], [slopes.scale, error])];
-                rays[0].left = packet.left.facets_of(self.s, instance.prim);
+                let [begin, end] = ends_of_ways(self.s, rays[0].scale, bundle.slack);
+                rays[0].start(self.s, begin, end, packet.left.facets_of(self.s, instance.prim));
                 let fan = bundle.fan.for_any();
                 fan.search(self.s, &instance.tree.tree, &mut visits, &mut rays, &mut umpire);
                 self.stats.settled += rays[0].settled;
@@ -221,6 +218,14 @@ impl<S: Simd> Tracer<'_, S> {
         self.stats.tests.boxes += std::mem::take(&mut visits.nodes) * eight;
         self.stats.tests.shapes += std::mem::take(&mut visits.blocks) * eight;
     }
+}
+
+/// Where ways begin and end that run one length of their directions, as depths, and within which bounds.
+#[inline(always)]
+pub(super) fn ends_of_ways<S: Simd>(s: S, scale: F<S>, slack: f32) -> [[F<S>; 2]; 2] {
+    let off = F::splat(s, slack * 2.0 + f32::MIN_POSITIVE);
+    let error = scale.mul_add(F::splat(s, END_ERROR), off);
+    [[F::splat(s, 0.0) - off, off], [scale, error]]
 }
 
 impl Instance {

@@ -39,12 +39,10 @@ impl<S: Simd> Tracer<'_, S> {
         let Some(mesh) = self.frame.snapshot.mesh_at(instance.prim) else { return open };
         let mut umpire = Blocked { snapshot: self.frame.snapshot, mesh, prim: instance.prim, packet, ways };
         let mut visits = std::mem::take(self.visits);
-        let left = ways.left.facets_of(self.s, instance.prim);
         let fan =
             if ways.target.at_infinity { None } else { self.fan_to_light((packet, ways), open, instance) };
         let closed = match fan {
             Some((fan, mut rays)) => {
-                rays[0].left = left;
                 fan.search(self.s, &instance.tree.tree, &mut visits, &mut rays, &mut umpire);
                 self.stats.settled += rays[0].settled;
                 (!rays[0].slot.is(NONE) & open).bits()
@@ -99,12 +97,14 @@ impl<S: Simd> Tracer<'_, S> {
         let apex = instance.own_points(self.s, splat_wide(self.s, ways.target.place));
         let (start, off) = self.own_starts((packet, ways), open, instance);
         let lines = Lines { origin: apex, direction: start - apex, live: open };
-        let bundle = Bundle::<S, 1>::of(self.s, 1, |_| lines, self.reach(instance))?;
-        let (slopes, zero) = (bundle.slopes(0), F::splat(self.s, 0.0));
-        let error = slopes.scale.mul_add(F::splat(self.s, END_ERROR), off);
-        let rays = slopes.rays(self.s, [zero, zero], [slopes.scale, error]);
-        let steep = slopes.error_where_off(self.s, off);
-        Some((bundle.fan.for_any().with_slope_error(steep), [rays]))
+        let mut rays = [FanRays::nothing(self.s)];
+        let bundle = Bundle::of(self.s, &mut rays, |_| lines, self.reach(instance))?;
+        let (scale, zero) = (rays[0].scale, F::splat(self.s, 0.0));
+        let error = scale.mul_add(F::splat(self.s, END_ERROR), off);
+        let left = ways.left.facets_of(self.s, instance.prim);
+        rays[0].start(self.s, [zero, zero], [scale, error], left);
+        let steep = rays[0].error_where_off(self.s, off);
+        Some((bundle.fan.for_any().with_slope_error(steep), rays))
     }
 
     /// Where ways begin in a mesh's own space, and how far that may be off: settled in `f64` where they leave the mesh

@@ -13,9 +13,9 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Shape, Span, TriangleMesh};
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::{Bundle, Lines, Lone, LoneBest, Umpire, Visits};
+use super::{Bundle, FanRays, Lines, Lone, LoneBest, Umpire, Visits};
 use crate::accel::{MeshTree, Preset};
-use crate::lanes::{D, D3, F, M};
+use crate::lanes::{D, D3, F, M, U};
 use crate::random::Random;
 
 /// Notes which lanes it was asked about.
@@ -193,9 +193,10 @@ fn attack_fan<S: Simd>(s: S, random: &mut Random, target: &Target, record: &mut 
     };
     let (origin, direction) = (triple(&|ray| ray.origin), triple(&|ray| ray.direction));
     let lines = Lines { origin, direction, live: M::splat(s, true) };
-    let Some(bundle) = Bundle::<S, 1>::of(s, 1, |_| lines, (0.0, target.tree.reach)) else { return };
+    let mut rays_of_fan = [FanRays::nothing(s)];
+    let Some(bundle) = Bundle::of(s, &mut rays_of_fan, |_| lines, (0.0, target.tree.reach)) else { return };
     let (zero, most) = (F::splat(s, 0.0), F::splat(s, f32::MAX));
-    let mut rays_of_fan = [bundle.slopes(0).rays(s, [zero, zero], [most, zero])];
+    rays_of_fan[0].start(s, [zero, zero], [most, zero], U::splat(s, u32::MAX));
     let (mut witness, mut visits) = (Witness::default(), Visits::default());
     bundle.fan.search(s, &target.tree.tree, &mut visits, &mut rays_of_fan, &mut witness);
     let [found] = rays_of_fan;

@@ -17,72 +17,59 @@ pub(crate) struct Lines<S: Simd> {
     pub(crate) live: M<S>,
 }
 
-/// Packets of lines through one point, up to so many.
-pub(crate) struct Bundle<S: Simd, const MOST: usize> {
+/// What lines through one point have in common.
+pub(crate) struct Bundle {
     pub(crate) fan: Fan,
-    slopes: [Slopes<S>; MOST],
     /// How far the lines pass the point by.
     pub(crate) slack: f32,
 }
 
-/// Slopes of a packet of lines; lanes that are none repeat one that is.
-#[derive(Clone, Copy)]
-pub(crate) struct Slopes<S: Simd> {
-    u: F<S>,
-    v: F<S>,
-    /// Depth per length of a direction.
-    pub(crate) scale: F<S>,
-    live: M<S>,
-    /// Box round the slopes.
-    around: [[f32; 2]; 2],
-}
-
-impl<S: Simd, const MOST: usize> Bundle<S, MOST> {
-    /// Of so many packets, if their lines go through one point and lie close enough together; for a mesh of that reach.
-    /// Origins may be `off` by so much, beyond the roundings of `f64`. Compiled apart.
+impl Bundle {
+    /// Of the lines of some packets, if they go through one point and lie close enough together; for a mesh of that reach.
+    /// Origins may be `off` by so much, beyond the roundings of `f64`. The rays then have the lines' slopes. Compiled apart.
     #[inline(always)]
-    pub(crate) fn of(
+    pub(crate) fn of<S: Simd>(
         s: S,
-        packets: usize,
+        rays: &mut [FanRays<S>],
         lines: impl Fn(usize) -> Lines<S>,
         reach: (f32, f32),
     ) -> Option<Self> {
         s.vectorize(
             #[inline(always)]
-            || Self::of_here(s, packets, lines, reach),
+            || Self::of_here(s, rays, lines, reach),
         )
     }
 
     #[inline(always)]
-    fn of_here(
+    fn of_here<S: Simd>(
         s: S,
-        packets: usize,
+        rays: &mut [FanRays<S>],
         lines: impl Fn(usize) -> Lines<S>,
         (off, reach): (f32, f32),
     ) -> Option<Self> {
         let (first, (apex, along)) =
-            (0..packets).find_map(|packet| Some((packet, lines(packet).first()?)))?;
+            (0..rays.len()).find_map(|packet| Some((packet, lines(packet).first()?)))?;
         let aim = Aim::of(along);
         // Where nothing goes together, the first packet mostly tells, before all that is to be kept of others.
         if lines(first).astray(s, &aim, apex).1.any() {
             return None;
         }
-        let mut slopes = [Slopes::along(s, &aim, along); MOST];
-        let (mut apart, mut least) = (F::splat(s, 0.0), slopes[0].scale);
+        let model = aim.slopes_of(s, along);
+        let (mut apart, mut least) = (F::splat(s, 0.0), model[2]);
         let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
-        for (packet, slopes) in slopes.iter_mut().enumerate().take(packets) {
+        for (packet, rays) in rays.iter_mut().enumerate() {
             let lines = lines(packet);
-            slopes.become_those_of(s, &aim, &lines);
+            rays.follow(s, &aim, &lines, model);
             let (from, astray) = lines.astray(s, &aim, apex);
             apart = F::pick(lines.live, apart.max(from), apart);
             // Written so that NaN counts.
-            if (astray | (lines.live & !slopes.are_small(s))).any() {
+            if (astray | (lines.live & !rays.are_small(s))).any() {
                 return None;
             }
-            least = least.min(slopes.scale);
+            least = least.min(rays.scale);
             for axis in 0..2 {
-                low[axis] = low[axis].min(slopes.around[0][axis]);
-                high[axis] = high[axis].max(slopes.around[1][axis]);
+                low[axis] = low[axis].min(rays.slopes[0][axis]);
+                high[axis] = high[axis].max(rays.slopes[1][axis]);
             }
         }
         let least = least.0.reduce_min();
@@ -93,13 +80,18 @@ impl<S: Simd, const MOST: usize> Bundle<S, MOST> {
             return None;
         }
         let fan = Fan::new(&aim, apex, slack, [low, high], reach).with_slope_error(2.0 * slack / least);
-        Some(Self { fan, slopes, slack })
+        Some(Self { fan, slack })
     }
+}
 
-    /// The slopes of a packet.
+impl Aim {
+    /// Slopes and depth per length of one direction, in every lane.
     #[inline(always)]
-    pub(crate) fn slopes(&self, packet: usize) -> &Slopes<S> {
-        &self.slopes[packet % MOST]
+    fn slopes_of<S: Simd>(&self, s: S, direction: DVec3) -> [F<S>; 3] {
+        let [u, v, z] = self.axes;
+        let (du, dv, dz) = (direction[u], direction[v], direction[z]);
+        let depth = dz * f64::from(self.sign);
+        [F::splat(s, (du / dz) as f32), F::splat(s, (dv / dz) as f32), F::splat(s, depth as f32)]
     }
 }
 
@@ -127,35 +119,39 @@ impl<S: Simd> Lines<S> {
     }
 }
 
-impl<S: Simd> Slopes<S> {
-    /// Of one line in every lane.
+impl<S: Simd> FanRays<S> {
+    /// No rays.
     #[inline(always)]
-    fn along(s: S, aim: &Aim, direction: DVec3) -> Self {
-        let [u, v, z] = aim.axes;
-        let (du, dv, dz) = (direction[u], direction[v], direction[z]);
-        let slope = [(du / dz) as f32, (dv / dz) as f32];
+    pub(crate) fn nothing(s: S) -> Self {
+        let (zero, none) = (F::splat(s, 0.0), U::splat(s, u32::MAX));
         Self {
-            u: F::splat(s, slope[0]),
-            v: F::splat(s, slope[1]),
-            scale: F::splat(s, (dz * f64::from(aim.sign)) as f32),
+            u: zero,
+            v: zero,
+            slopes: [[0.0; 2]; 2],
+            begin: [zero; 2],
+            z: zero,
+            error: zero,
+            slot: none,
+            left: none,
+            scale: zero,
             live: M::splat(s, false),
-            around: [slope, slope],
+            settled: 0,
         }
     }
 
-    /// Takes over the lines that are any.
+    /// Takes over the lines that are any; lanes that are none follow a model.
     #[inline(always)]
-    fn become_those_of(&mut self, s: S, aim: &Aim, lines: &Lines<S>) {
+    fn follow(&mut self, s: S, aim: &Aim, lines: &Lines<S>, model: [F<S>; 3]) {
         let [u, v, z] = aim.axes;
         let (du, dv) = (component(&lines.direction, u), component(&lines.direction, v));
         let dz = component(&lines.direction, z);
         let (live, inverse) = (lines.live, D::splat(s, 1.0) / dz);
-        self.u = F::pick(live, (du * inverse).narrow(), self.u);
-        self.v = F::pick(live, (dv * inverse).narrow(), self.v);
-        self.scale = F::pick(live, lines.depths(s, aim), self.scale);
+        self.u = F::pick(live, (du * inverse).narrow(), model[0]);
+        self.v = F::pick(live, (dv * inverse).narrow(), model[1]);
+        self.scale = F::pick(live, lines.depths(s, aim), model[2]);
         self.live = live;
         let (u, v) = (self.u.0, self.v.0);
-        self.around = [[u.reduce_min(), v.reduce_min()], [u.reduce_max(), v.reduce_max()]];
+        self.slopes = [[u.reduce_min(), v.reduce_min()], [u.reduce_max(), v.reduce_max()]];
     }
 
     /// Whether a line runs more along the main axis than across it, or nearly so.
@@ -173,22 +169,12 @@ impl<S: Simd> Slopes<S> {
         F::pick(self.live, most, F::splat(s, 0.0)).0.reduce_max()
     }
 
-    /// The rays along the lines between two depths, each of which is known within a bound.
+    /// Begins a search between two depths, each of which is known within a bound, from the triangles that are left.
     #[inline(always)]
-    pub(crate) fn rays(&self, s: S, begin: [F<S>; 2], end: [F<S>; 2]) -> FanRays<S> {
-        FanRays {
-            u: self.u,
-            v: self.v,
-            slopes: self.around,
-            begin,
-            z: end[0],
-            error: end[1],
-            slot: U::splat(s, u32::MAX),
-            left: U::splat(s, u32::MAX),
-            scale: self.scale,
-            live: self.live,
-            settled: 0,
-        }
+    pub(crate) fn start(&mut self, s: S, begin: [F<S>; 2], end: [F<S>; 2], left: U<S>) {
+        self.begin = begin;
+        [self.z, self.error] = end;
+        (self.left, self.slot, self.settled) = (left, U::splat(s, u32::MAX), 0);
     }
 }
 

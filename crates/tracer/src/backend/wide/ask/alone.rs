@@ -3,17 +3,16 @@
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, LaneMask, Ray};
+use catoptra_core::{LaneMask, Ray};
 use fearless_simd::Simd;
 
 use super::{Answers, Asked};
 use crate::backend::wide::Tracer;
-use crate::backend::wide::mesh::NONE;
+use crate::backend::wide::mesh::{NONE, ends_of_ways};
 use crate::backend::wide::umpire::Alone;
 use crate::film::NOTHING;
-use crate::kernel::mesh::{Bundle, GROUP, Lines, LoneBest, Umpire};
+use crate::kernel::mesh::{Bundle, FanRays, GROUP, Lines, LoneBest, Umpire};
 use crate::lanes::{Bits, F, M, U};
-use crate::numeric::END_ERROR;
 use crate::snapshot::{Instance, Row};
 
 /// The mesh that is all there is.
@@ -76,7 +75,7 @@ impl<'a, S: Simd> Tracer<'a, S> {
         only: Only<'_>,
         answers: &mut Answers<'_, '_>,
     ) {
-        let mut backwards = false;
+        let (mut rays, mut backwards) = ([FanRays::nothing(self.s); GROUP], false);
         for at in (0..asked.len()).step_by(GROUP * F::<S>::LANES) {
             let packets = (asked.len() - at).div_ceil(F::<S>::LANES).min(GROUP);
             let mut group = Group { at, packets, live: [M::splat(self.s, false); GROUP] };
@@ -85,7 +84,7 @@ impl<'a, S: Simd> Tracer<'a, S> {
             }
             self.s.vectorize(
                 #[inline(always)]
-                || self.answer_group(asked, only, &group, (answers, &mut backwards)),
+                || self.answer_group(asked, only, &group, (answers, &mut rays, &mut backwards)),
             );
         }
     }
@@ -96,14 +95,14 @@ impl<'a, S: Simd> Tracer<'a, S> {
         asked: &Asked<'_>,
         only: Only<'_>,
         group: &Group<S>,
-        (answers, backwards): (&mut Answers<'_, '_>, &mut bool),
+        (answers, rays, backwards): (&mut Answers<'_, '_>, &mut [FanRays<S>; GROUP], &mut bool),
     ) {
         let mut slots = [U::splat(self.s, NONE); GROUP];
         // What does not go together is halved; what does doubles what is tried next.
         let (mut first, mut size) = (0, group.packets);
         while first < group.packets {
             let part = group.part(self.s, first, size.min(group.packets - first));
-            if self.find_together(asked, only, &part, (&mut slots[first..], backwards)) {
+            if self.find_together(asked, only, &part, (&mut slots[first..], rays, backwards)) {
                 (first, size) = (first + part.packets, 2 * part.packets);
             } else if part.packets == 1 {
                 slots[first] = self.find_each(asked, only, &part);
@@ -125,40 +124,37 @@ impl<'a, S: Simd> Tracer<'a, S> {
         asked: &Asked<'_>,
         only: Only<'_>,
         group: &Group<S>,
-        (slots, backwards): (&mut [U<S>], &mut bool),
+        (slots, rays, backwards): (&mut [U<S>], &mut [FanRays<S>; GROUP], &mut bool),
     ) -> bool {
+        let rays = &mut rays[..group.packets];
         let bundle = if asked.any {
             // The way that went well last is tried first.
-            let mut bundle = self.bundle_of_ways(asked, only, group, *backwards);
-            if bundle.is_none() && group.packets == 1 {
-                bundle = self.bundle_of_ways(asked, only, group, !*backwards);
+            let bundle = self.bundle_of_ways(asked, only, group, (rays, *backwards));
+            bundle.or_else(|| {
+                let bundle = self.bundle_of_ways(asked, only, group, (rays, !*backwards));
                 *backwards ^= bundle.is_some();
-            }
-            bundle
+                bundle
+            })
         } else {
-            self.bundle_of_rays(asked, only, group)
+            self.bundle_of_rays(asked, only, group, rays)
         };
         let Some(bundle) = bundle else { return false };
-        let none = [F::splat(self.s, 0.0); 2];
-        let mut rays = [bundle.slopes(0).rays(self.s, none, none); GROUP];
-        for (packet, rays) in rays.iter_mut().enumerate().take(group.packets) {
+        for (packet, rays) in rays.iter_mut().enumerate() {
             let at = group.start(packet);
-            let slopes = bundle.slopes(packet);
             let [begin, end] = if asked.any {
-                ends_of_ways(self.s, slopes.scale, bundle.slack)
+                ends_of_ways(self.s, rays.scale, bundle.slack)
             } else {
-                asked.depths(self.s, at, slopes.scale)
+                asked.depths(self.s, at, rays.scale)
             };
-            *rays = slopes.rays(self.s, begin, end);
-            rays.left = asked.left(self.s, at).facets_of(self.s, only.instance.prim);
+            rays.start(self.s, begin, end, asked.left(self.s, at).facets_of(self.s, only.instance.prim));
         }
         let mut umpire = self.umpire(asked, only, group);
         let fan = if asked.any { bundle.fan.for_any() } else { bundle.fan };
         let mut visits = std::mem::take(self.visits);
-        fan.search(self.s, &only.instance.tree.tree, &mut visits, &mut rays[..group.packets], &mut umpire);
+        fan.search(self.s, &only.instance.tree.tree, &mut visits, rays, &mut umpire);
         self.count(&mut visits);
         *self.visits = visits;
-        for (slot, rays) in slots.iter_mut().zip(&rays[..group.packets]) {
+        for (slot, rays) in slots.iter_mut().zip(rays) {
             *slot = rays.slot;
             self.stats.settled += rays.settled;
         }
@@ -171,10 +167,11 @@ impl<'a, S: Simd> Tracer<'a, S> {
         asked: &Asked<'_>,
         only: Only<'_>,
         group: &Group<S>,
-    ) -> Option<Bundle<S, GROUP>> {
+        rays: &mut [FanRays<S>],
+    ) -> Option<Bundle> {
         Bundle::of(
             self.s,
-            group.packets,
+            rays,
             #[inline(always)]
             |packet| {
                 let (origin, direction) = asked.own_lines(self.s, group.start(packet), only.instance);
@@ -191,11 +188,11 @@ impl<'a, S: Simd> Tracer<'a, S> {
         asked: &Asked<'_>,
         only: Only<'_>,
         group: &Group<S>,
-        backwards: bool,
-    ) -> Option<Bundle<S, GROUP>> {
+        (rays, backwards): (&mut [FanRays<S>], bool),
+    ) -> Option<Bundle> {
         Bundle::of(
             self.s,
-            group.packets,
+            rays,
             #[inline(always)]
             |packet| {
                 let [start, end] = asked.ends(self.s, group.start(packet));
@@ -290,12 +287,4 @@ impl<'a, S: Simd> Tracer<'a, S> {
         }
         self.answer_odd(asked, at, packet.live[0], answers);
     }
-}
-
-/// Where ways begin and end that run one length of their directions, as depths, and within which bounds.
-#[inline(always)]
-fn ends_of_ways<S: Simd>(s: S, scale: F<S>, slack: f32) -> [[F<S>; 2]; 2] {
-    let off = F::splat(s, slack * 2.0 + f32::MIN_POSITIVE);
-    let error = scale.mul_add(F::splat(s, END_ERROR), off);
-    [[F::splat(s, 0.0) - off, off], [scale, error]]
 }
