@@ -13,7 +13,7 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Shape, Span, TriangleMesh};
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::{Bundle, FanRays, Lines, Lone, LoneBest, Umpire, Visits};
+use super::{Bundle, Fan, FanRays, Lines, Lone, LoneBest, Umpire, Visits};
 use crate::accel::{MeshTree, Preset};
 use crate::lanes::{D, D3, F, M, U};
 use crate::random::Random;
@@ -108,13 +108,18 @@ impl Record {
         assert_eq!(found.map(|found| found.0), right.map(|right| right.0), "{ray:?} {:?}", target.corners);
         match (found, right) {
             (Some((_, [depth, error])), Some((_, t))) => {
-                self.hits += 1;
-                let ratio = (depth - t * depth_per_t).abs() / error;
-                assert!(ratio <= 1.0, "{ratio} of the bound: {ray:?} {:?}", target.corners);
-                self.worst = self.worst.max(ratio);
+                self.note_depth(target, ray, [depth, error], t * depth_per_t);
             }
             _ => self.misses += 1,
         }
+    }
+
+    /// Compares a depth that is known within a bound with the exact one.
+    fn note_depth(&mut self, target: &Target, ray: &Ray, [depth, error]: [f64; 2], right: f64) {
+        self.hits += 1;
+        let ratio = (depth - right).abs() / error;
+        assert!(ratio <= 1.0, "{ratio} of the bound: {ray:?} {:?}", target.corners);
+        self.worst = self.worst.max(ratio);
     }
 
     /// Asserts that all there is to attack was attacked.
@@ -177,8 +182,34 @@ fn rays_through_one_point_are_certain_only_of_what_is_so() {
     record.assert_attacked(0.02);
 }
 
-/// Looks at a rim from one point, which rays pass by some roundings in half of all cases.
-fn attack_fan<S: Simd>(s: S, random: &mut Random, target: &Target, record: &mut Record) {
+#[test]
+fn planes_from_f64_hold_their_bounds() {
+    let (mut random, mut record) = (Random(19), Record::default());
+    for _ in 0..30_000 {
+        let Some(target) = Target::any(&mut random) else { continue };
+        dispatch!(Level::new(), s => attack_planes(s, &mut random, &target, &mut record));
+    }
+    println!("{record:?}");
+    assert!(record.hits > 100_000 && record.worst > 0.1, "{record:?}");
+}
+
+/// Holds the depths of all crossings against exact ones.
+fn attack_planes<S: Simd>(s: S, random: &mut Random, target: &Target, record: &mut Record) {
+    let Some((rays, bundle, [of_fan])) = aimed(s, random, target) else { return };
+    for slot in 0..target.shapes.len() as u32 {
+        let shape = &target.shapes[target.tree.tree.facet(slot) as usize];
+        let crossing = of_fan.cross(s, &bundle.fan.plane_of(&target.tree.tree.triangle(slot)));
+        for (lane, ray) in rays.iter().enumerate().filter(|(lane, _)| crossing.nearer.bits() >> lane & 1 == 1)
+        {
+            let Some(hit) = shape.cross(ray, Span::AHEAD, None) else { continue };
+            let place = [f64::from(crossing.z.lane(lane)), f64::from(crossing.error.lane(lane))];
+            record.note_depth(target, ray, place, hit.t * depth_per_t(&bundle.fan, ray));
+        }
+    }
+}
+
+/// Rays at a rim from one point, which they pass by some roundings in half of all cases.
+fn aimed<S: Simd>(s: S, random: &mut Random, target: &Target) -> Option<(Vec<Ray>, Bundle, [FanRays<S>; 1])> {
     let eye = target.eye(random);
     let off = [0.0, eye.distance(target.corners[0]) * random.power(-30, -20)][random.bits() as usize % 2];
     let rays: Vec<Ray> = (0..F::<S>::LANES)
@@ -194,9 +225,20 @@ fn attack_fan<S: Simd>(s: S, random: &mut Random, target: &Target, record: &mut 
     let (origin, direction) = (triple(&|ray| ray.origin), triple(&|ray| ray.direction));
     let lines = Lines { origin, direction, live: M::splat(s, true) };
     let mut rays_of_fan = [FanRays::nothing(s)];
-    let Some(bundle) = Bundle::of(s, &mut rays_of_fan, |_| lines, (0.0, target.tree.reach)) else { return };
+    let bundle = Bundle::of(s, &mut rays_of_fan, |_| lines, (0.0, target.tree.reach))?;
     let (zero, most) = (F::splat(s, 0.0), F::splat(s, f32::MAX));
     rays_of_fan[0].start(s, [zero, zero], [most, zero], U::splat(s, u32::MAX));
+    Some((rays, bundle, rays_of_fan))
+}
+
+/// Depth per `t` of a ray.
+fn depth_per_t(fan: &Fan, ray: &Ray) -> f64 {
+    ray.direction[fan.axes[2]] * f64::from(fan.sign)
+}
+
+/// Looks at a rim from one point.
+fn attack_fan<S: Simd>(s: S, random: &mut Random, target: &Target, record: &mut Record) {
+    let Some((rays, bundle, mut rays_of_fan)) = aimed(s, random, target) else { return };
     let (mut witness, mut visits) = (Witness::default(), Visits::default());
     bundle.fan.search(s, &target.tree.tree, &mut visits, &mut rays_of_fan, &mut witness);
     let [found] = rays_of_fan;
@@ -208,7 +250,6 @@ fn attack_fan<S: Simd>(s: S, random: &mut Random, target: &Target, record: &mut 
         let slot = Some(found.slot.lane(lane)).filter(|&slot| slot != u32::MAX);
         let place = [f64::from(found.z.lane(lane)), f64::from(found.error.lane(lane))];
         let found = slot.map(|slot| (target.tree.tree.facet(slot), place));
-        let depth_per_t = ray.direction[bundle.fan.axes[2]] * f64::from(bundle.fan.sign);
-        record.note(target, ray, found, depth_per_t);
+        record.note(target, ray, found, depth_per_t(&bundle.fan, ray));
     }
 }

@@ -14,7 +14,7 @@ use crate::numeric::{FAN_PLANE, FAN_SLOPE, MEET_SLOPE_ERROR, MEET_TOP_ERROR};
 
 /// The plane of a triangle, for rays through one point.
 #[derive(Clone, Copy)]
-struct Plane {
+pub(super) struct Plane {
     normal: [f32; 3],
     slope_error: f32,
     /// The point's distance from it along the normal.
@@ -23,11 +23,11 @@ struct Plane {
 }
 
 /// What is certain of where rays meet a plane.
-struct Crossing<S: Simd> {
-    z: F<S>,
-    error: F<S>,
+pub(super) struct Crossing<S: Simd> {
+    pub(super) z: F<S>,
+    pub(super) error: F<S>,
     /// In front of all that they have met, and within their stretch.
-    nearer: M<S>,
+    pub(super) nearer: M<S>,
     /// Behind that, or before their stretch.
     beside: M<S>,
 }
@@ -42,7 +42,7 @@ impl<S: Simd> FanRays<S> {
 
     /// Where the rays meet a plane.
     #[inline(always)]
-    fn cross(&self, s: S, plane: &Plane) -> Crossing<S> {
+    pub(super) fn cross(&self, s: S, plane: &Plane) -> Crossing<S> {
         let slope = self.value(s, plane.normal);
         let slope_error = bound(s, F::splat(s, plane.slope_error));
         let inverse = F::splat(s, 1.0) / slope;
@@ -161,7 +161,7 @@ impl Fan {
     }
 
     /// The plane of a triangle from `f64`: bounds are relative to its normal, so thin triangles have no larger ones.
-    fn plane_of(&self, corners: &[[f32; 3]; 3]) -> Plane {
+    pub(super) fn plane_of(&self, corners: &[[f32; 3]; 3]) -> Plane {
         let [u, v, z] = self.axes;
         let own = |p: &[f32; 3]| DVec3::new(p[u].into(), p[v].into(), p[z].into()) * f64::from(self.sign);
         let [a, b, c] = [own(&corners[0]), own(&corners[1]), own(&corners[2])];
