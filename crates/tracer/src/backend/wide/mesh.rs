@@ -277,10 +277,22 @@ impl Instance {
     /// The triangles of the mesh that lanes name.
     #[inline(always)]
     pub(super) fn facets<S: Simd>(&self, s: S, facets: U<S>, lanes: M<S>) -> LaneTriangles<S> {
-        let (triangles, at) = (self.tree.mesh().triangles(), self.tree.mesh().positions());
+        self.at_corners(s, facets, lanes, self.tree.mesh().positions())
+    }
+
+    /// The same with something else that corners have in the place of their positions, such as normals.
+    #[inline(always)]
+    pub(super) fn at_corners<S: Simd>(
+        &self,
+        s: S,
+        facets: U<S>,
+        lanes: M<S>,
+        of: &[[f32; 3]],
+    ) -> LaneTriangles<S> {
+        let triangles = self.tree.mesh().triangles();
         let mut all = LaneTriangles::nothing(s);
         for (facet, same) in facets.groups(lanes) {
-            all.set(s, same, facet, &triangles[facet as usize].map(|corner| at[corner as usize]));
+            all.set(s, same, facet, &triangles[facet as usize].map(|corner| of[corner as usize]));
         }
         all
     }

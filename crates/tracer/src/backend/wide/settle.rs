@@ -11,7 +11,7 @@ use super::Tracer;
 use super::packet::Packet;
 use super::search::Best;
 use crate::kernel::{PlaneRow, cross};
-use crate::lanes::{D, D3, F, F3, M, U, narrow3, pick3, splat_wide, splat3, widen3};
+use crate::lanes::{D, D3, F, M, narrow3, pick3, splat_wide};
 use crate::snapshot::{Instance, Row};
 
 /// Points and normals of the lanes that meet something, in `f64`.
@@ -160,7 +160,7 @@ impl<S: Simd> Tracer<'_, S> {
         instance: &Instance,
     ) -> Settled<S> {
         let mesh = instance.tree.mesh();
-        let at_corners = |of: &[[f32; 3]]| at_corners(self.s, best.facet, mask, mesh.triangles(), of);
+        let at_corners = |of: &[[f32; 3]]| instance.at_corners(self.s, best.facet, mask, of).wide();
         let [a, b, c] = at_corners(mesh.positions());
         let (e, f) = (b - a, c - a);
         let across = cross(e, f);
@@ -176,9 +176,9 @@ impl<S: Simd> Tracer<'_, S> {
         let [of_b, of_c] = weights.map(|weight| weight / across.dot(across));
         let [at_a, at_b, at_c] = at_corners(normals);
         let blend = (at_c - at_a).scale_add(of_c, (at_b - at_a).scale_add(of_b, at_a));
-        // Normals that cancel out tell nothing.
-        let zero = D::splat(self.s, 0.0);
-        let some = !blend.dot(blend).at_most(zero);
+        // Normals that cancel out tell nothing, nor does NaN.
+        let (zero, size) = (D::splat(self.s, 0.0), blend.dot(blend));
+        let some = zero.at_most(size) & !size.at_most(zero);
         let shading = pick3(some, unit(self.s, blend), own_normal);
         Settled { point, normal, shading: instance.world_normals(self.s, shading) }
     }
@@ -201,26 +201,6 @@ impl<S: Simd> Tracer<'_, S> {
         }
         lanes.settled(self.s)
     }
-}
-
-/// What the corners of a mesh's triangles have, a triangle in every lane; 0 in lanes that are on none.
-#[inline(always)]
-fn at_corners<S: Simd>(
-    s: S,
-    facets: U<S>,
-    lanes: M<S>,
-    triangles: &[[u32; 3]],
-    of: &[[f32; 3]],
-) -> [D3<S>; 3] {
-    let zero = splat3(s, [0.0; 3]);
-    let (mut a, mut b, mut c) = (zero, zero, zero);
-    for (facet, same) in facets.groups(lanes) {
-        let [at_a, at_b, at_c] = triangles[facet as usize].map(|corner| of[corner as usize]);
-        a = F3::select(same, splat3(s, at_a), a);
-        b = F3::select(same, splat3(s, at_b), b);
-        c = F3::select(same, splat3(s, at_c), c);
-    }
-    [widen3(a), widen3(b), widen3(c)]
 }
 
 /// Most lanes that any packet has.

@@ -93,11 +93,17 @@ impl<S: Simd> LaneTriangles<S> {
         self.facet = U::pick(lanes, U::splat(s, facet), self.facet);
     }
 
+    /// Their corners in `f64`.
+    #[inline(always)]
+    pub(crate) fn wide(&self) -> [D3<S>; 3] {
+        [widen3(self.a), widen3(self.b), widen3(self.c)]
+    }
+
     /// As [`depth`], for rays in every lane; and where the bound on the error is below [`DEPTH_ERROR`] of it.
     #[inline(always)]
     pub(crate) fn depths(&self, s: S, origin: D3<S>, direction: D3<S>) -> (D<S>, M<S>) {
-        let a = widen3(self.a);
-        let (e, f) = (widen3(self.b) - a, widen3(self.c) - a);
+        let [a, b, c] = self.wide();
+        let (e, f) = (b - a, c - a);
         let (normal, from) = (cross(e, f), a - origin);
         let length = largest(e).max(largest(f));
         let length2 = length * length;
