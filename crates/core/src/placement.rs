@@ -129,8 +129,16 @@ impl Placement {
     /// This one first, then `outer`: a member's placement within a group that is itself placed.
     #[must_use]
     pub fn then(&self, outer: &Self) -> Self {
+        // Rays are carried over by these very numbers: where one does not turn, the other's stay what they are.
+        let rotation = if outer.rotation == DQuat::IDENTITY {
+            self.rotation
+        } else if self.rotation == DQuat::IDENTITY {
+            outer.rotation
+        } else {
+            (outer.rotation * self.rotation).normalize()
+        };
         Self {
-            rotation: (outer.rotation * self.rotation).normalize(),
+            rotation,
             translation: outer.point(self.translation),
             scale: outer.scale * self.scale,
         }
@@ -174,6 +182,16 @@ mod tests {
         let outer = Placement::IDENTITY.turned(DVec3::ZERO, DVec3::Y, 0.4).unwrap().moved(DVec3::X).unwrap();
         let p = DVec3::new(1.0, 2.0, 3.0);
         assert!((some().then(&outer).point(p) - outer.point(some().point(p))).length() < 1e-13);
+    }
+
+    #[test]
+    fn what_is_placed_where_it_is_keeps_every_bit() {
+        for step in 1..200 {
+            let angle = 0.1 * f64::from(step);
+            let turned = some().turned(DVec3::X, DVec3::new(0.3, -0.2, angle), angle).unwrap();
+            assert_eq!(turned.then(&Placement::IDENTITY), turned);
+            assert_eq!(Placement::IDENTITY.then(&turned), turned);
+        }
     }
 
     #[test]
