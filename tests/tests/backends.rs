@@ -2,10 +2,8 @@
 
 use std::path::Path;
 
-use catoptra_core::glam::DVec3;
-use catoptra_core::light::DirectionalLight;
-use catoptra_core::{Rgb, Scene};
-use catoptra_lab::scenes::placed_mesh;
+use catoptra_core::Scene;
+use catoptra_lab::scenes::placed_mesh_under_the_sun;
 use catoptra_tests::{Comparison, Rates, film, parsed, shipped_scenes, triangles};
 use catoptra_tracer::{Size, backends};
 
@@ -65,9 +63,6 @@ fn every_backend_equals_the_oracle_within_a_solid_of_mirrors() {
 
 #[test]
 fn every_backend_equals_the_oracle_on_placed_meshes_under_lamps_and_the_sun() {
-    let mut scene = placed_mesh(12).expect("a scene");
-    let sun = DirectionalLight::new(DVec3::new(0.5, -1.0, -0.6), Rgb::grey(2.0)).expect("a light");
-    scene.add_light("sun", sun, None).expect("a scene");
-    let failures = failures("placed meshes", &scene);
+    let failures = failures("placed meshes", &placed_mesh_under_the_sun(12).expect("a scene"));
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }

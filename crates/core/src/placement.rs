@@ -137,11 +137,7 @@ impl Placement {
         } else {
             (outer.rotation * self.rotation).normalize()
         };
-        Self {
-            rotation,
-            translation: outer.point(self.translation),
-            scale: outer.scale * self.scale,
-        }
+        Self { rotation, translation: outer.point(self.translation), scale: outer.scale * self.scale }
     }
 }
 

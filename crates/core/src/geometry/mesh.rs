@@ -47,19 +47,6 @@ impl Mesh {
     pub fn to_object(&self) -> &Placement {
         &self.to_object
     }
-
-    /// The crossing with a triangle that a ray in the mesh's own space is known to meet: nothing is decided, and how far
-    /// `t` may be off is not worked out.
-    ///
-    /// # Panics
-    /// A triangle number out of range.
-    #[must_use]
-    pub fn met(&self, own: &Ray, triangle: u32) -> Option<Crossing> {
-        let [a, b, c] = self.source.mesh.corners(triangle);
-        let normal = (b - a).cross(c - a);
-        let t = normal.dot(a - own.origin) / normal.dot(own.direction);
-        self.crossing(own, Located { t, error: f64::INFINITY }, triangle)
-    }
 }
 
 impl Part for Mesh {

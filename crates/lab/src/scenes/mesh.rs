@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use catoptra_core::geometry::{Mesh, Plane};
 use catoptra_core::glam::DVec3;
-use catoptra_core::light::{AmbientLight, PointLight};
+use catoptra_core::light::{AmbientLight, DirectionalLight, PointLight};
 use catoptra_core::material::{Matte, Phong};
 use catoptra_core::part::make;
 use catoptra_core::{Camera, Edit, MeshSource, Node, Placement, Rgb, Scene, TriangleMesh, Value, Values};
@@ -74,5 +74,16 @@ pub fn placed_mesh(rings: u32) -> Result<Scene, NoScene> {
     scene.add_light("spot", spot(from, to - from, Rgb::grey(60.0), [0.4, 0.7])?, None)?;
     let camera = Camera::look_at(DVec3::new(0.3, 2.6, 6.1), DVec3::new(0.1, 1.2, 0.0), DVec3::Y, 0.8)?;
     scene.add_camera("eye", camera, None)?;
+    Ok(scene)
+}
+
+/// [`placed_mesh`] under the sun as well.
+///
+/// # Errors
+/// None with these numbers.
+pub fn placed_mesh_under_the_sun(rings: u32) -> Result<Scene, NoScene> {
+    let mut scene = placed_mesh(rings)?;
+    let sun = DirectionalLight::new(DVec3::new(0.5, -1.0, -0.6), Rgb::grey(2.0))?;
+    scene.add_light("sun", sun, None)?;
     Ok(scene)
 }

@@ -9,7 +9,7 @@ use catoptra_core::part::make;
 use catoptra_core::{InvalidPart, Rgb, SceneError, Value, Values};
 
 pub use many::{Reach, many_instances, many_lights, many_spheres};
-pub use mesh::{ball_mesh, placed_mesh, wavy_ball};
+pub use mesh::{ball_mesh, placed_mesh, placed_mesh_under_the_sun, wavy_ball};
 
 /// A scene that cannot be made.
 #[derive(Debug, thiserror::Error)]
