@@ -167,6 +167,19 @@ pub(crate) const FAN_PLANE: f32 = 4.0 * U;
 /// Error of `(e × f) · p`, relative to L² P: as [`MEET_TOP_ERROR`].
 pub(crate) const FAN_TOP: f32 = 48.0 * U;
 
+/// Error of a depth from roundings alone, relative to itself: a quotient of two rounded numbers, and sums with bounds;
+/// rounded up.
+pub(crate) const FAN_DEPTH: f32 = 8.0 * U;
+
+/// Error of top₁ n₂ − top₂ n₁ in `f64`, relative to each product: two roundings of products and one of a difference;
+/// rounded up.
+pub(crate) const ORDER_ERROR: f64 = 4.0 * W;
+
+/// Error of the sum of the components of n₁ × n₂ in `f64`, relative to L₁² L₂², the squares of the edges' largest
+/// coordinates: 7u 2L² in each component of n, which are below 2L², makes 4 · 14u in each of three, and 3u · 8 for their own
+/// products; rounded up.
+pub(crate) const ORDER_SHEAR: f64 = 256.0 * W;
+
 /// How far lines may pass a point by to be taken for lines through it, per metre that they run: ends of rays that were
 /// given in `f32` lie within a few roundings of each other.
 pub(crate) const FAN_SPREAD: f32 = 64.0 * U;

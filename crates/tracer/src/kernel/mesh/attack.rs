@@ -198,7 +198,8 @@ fn attack_planes<S: Simd>(s: S, random: &mut Random, target: &Target, record: &m
     let Some((rays, bundle, [of_fan])) = aimed(s, random, target) else { return };
     for slot in 0..target.shapes.len() as u32 {
         let shape = &target.shapes[target.tree.tree.facet(slot) as usize];
-        let crossing = of_fan.cross(s, &bundle.fan.plane_of(&target.tree.tree.triangle(slot)));
+        let precise = bundle.fan.precise_plane(&target.tree.tree.triangle(slot));
+        let crossing = of_fan.cross(s, &bundle.fan.plane_of(&precise));
         for (lane, ray) in rays.iter().enumerate().filter(|(lane, _)| crossing.nearer.bits() >> lane & 1 == 1)
         {
             let Some(hit) = shape.cross(ray, Span::AHEAD, None) else { continue };
@@ -248,7 +249,8 @@ fn attack_fan<S: Simd>(s: S, random: &mut Random, target: &Target, record: &mut 
             continue;
         }
         let slot = Some(found.slot.lane(lane)).filter(|&slot| slot != u32::MAX);
-        let place = [f64::from(found.z.lane(lane)), f64::from(found.error.lane(lane))];
+        let [low, high] = found.end.map(|end| f64::from(end.lane(lane)));
+        let place = [(low + high) / 2.0, (high - low) / 2.0];
         let found = slot.map(|slot| (target.tree.tree.facet(slot), place));
         record.note(target, ray, found, depth_per_t(&bundle.fan, ray));
     }

@@ -129,8 +129,7 @@ impl<S: Simd> FanRays<S> {
             v: zero,
             slopes: [[0.0; 2]; 2],
             begin: [zero; 2],
-            z: zero,
-            error: zero,
+            end: [zero; 2],
             slot: none,
             left: none,
             scale: zero,
@@ -169,11 +168,11 @@ impl<S: Simd> FanRays<S> {
         F::pick(self.live, most, F::splat(s, 0.0)).0.reduce_max()
     }
 
-    /// Begins a search between two depths, each of which is known within a bound, from the triangles that are left.
+    /// Begins a search from the triangles that are left: between those depths lies the begin; the end is known within a bound.
     #[inline(always)]
-    pub(crate) fn start(&mut self, s: S, begin: [F<S>; 2], end: [F<S>; 2], left: U<S>) {
+    pub(crate) fn start(&mut self, s: S, begin: [F<S>; 2], [end, error]: [F<S>; 2], left: U<S>) {
         self.begin = begin;
-        [self.z, self.error] = end;
+        self.end = [end - error, end + error];
         (self.left, self.slot, self.settled) = (left, U::splat(s, u32::MAX), 0);
     }
 }

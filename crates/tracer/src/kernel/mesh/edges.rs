@@ -5,7 +5,7 @@ use fearless_simd::{Simd, f32x8};
 
 use super::{Fan, bound_eight};
 use crate::accel::{Block8, WIDTH};
-use crate::numeric::{FAN_EDGE, FAN_TOP};
+use crate::numeric::{FAN_DEPTH, FAN_EDGE, FAN_TOP};
 
 /// Eight triangles as seen from the point.
 pub(super) struct Prepared {
@@ -15,48 +15,54 @@ pub(super) struct Prepared {
     /// The triangle's own normal, and the point's distance from its plane along that.
     pub(super) normal: [[f32; WIDTH]; 3],
     pub(super) top: [f32; WIDTH],
-    pub(super) top_error: [f32; WIDTH],
-    pub(super) slope_error: [f32; WIDTH],
+    /// What the errors of depths grow with; see [`Plane`](super::planes::Plane).
+    pub(super) depth_errors: [[f32; WIDTH]; 2],
 }
 
 /// Three numbers for each of eight triangles.
 type Eight3<S> = [f32x8<S>; 3];
 
 impl Fan {
-    /// A block as seen from the point, and the triangles that some ray may meet.
+    /// A block as seen from the point, and which of some triangles rays may meet, if any.
     #[inline(always)]
-    pub(super) fn prepare<S: Simd>(&self, s: S, block: &Block8) -> (Prepared, u64) {
+    pub(super) fn prepare<S: Simd>(&self, s: S, block: &Block8, own: u64) -> Option<(Prepared, u64)> {
         let (a, b, c) = (self.corner(s, block, 0), self.corner(s, block, 1), self.corner(s, block, 2));
         let edges = [minus(c, b), minus(a, c), minus(b, a)];
-        let normal = cross(edges[1], edges[2]);
-        let length = largest(edges);
+        let length = longest(edges[0]).max(longest(edges[1])).max(longest(edges[2]));
         let (p, q, r) = (self.seen_from_apex(s, a), self.seen_from_apex(s, b), self.seen_from_apex(s, c));
-        let size = largest([p, q, r]);
+        let size = longest(p) + length;
         let planes = [cross(edges[0], q), cross(edges[1], r), cross(edges[2], p)];
         let slopes = self.widened([self.low, self.high]);
         let [low, high] = slopes;
         let spread = 1.0 + low[0].abs().max(high[0].abs()) + low[1].abs().max(high[1].abs());
-        let relative = FAN_EDGE * spread + 4.0 * self.slope_error;
-        let per_length = size.mul_add_precise(
-            f32x8::splat(s, relative),
-            f32x8::splat(s, 2.0 * spread * self.slack + f32::MIN_POSITIVE),
-        );
-        let edge_error =
-            bound_eight(s, length.mul_add_precise(per_length, f32x8::splat(s, f32::MIN_POSITIVE)));
-        let maybe = seen(s, &planes, edge_error, slopes);
-        let length2 = length * length;
+        let relative = f32x8::splat(s, FAN_EDGE * spread + 4.0 * self.slope_error);
+        let least = f32x8::splat(s, f32::MIN_POSITIVE);
+        let per_length = size.mul_add_precise(relative, f32x8::splat(s, 2.0 * spread * self.slack) + least);
+        let edge_error = bound_eight(s, length.mul_add_precise(per_length, least));
+        let seen = seen(s, &planes, edge_error, slopes) & own;
+        if seen == 0 {
+            return None;
+        }
+        let normal = cross(edges[1], edges[2]);
         let top = p[0].mul_add_precise(normal[0], p[1].mul_add_precise(normal[1], p[2] * normal[2]));
-        let per_length2 = size
-            .mul_add_precise(f32x8::splat(s, FAN_TOP), f32x8::splat(s, 6.0 * self.slack + f32::MIN_POSITIVE));
+        let per_length2 =
+            size.mul_add_precise(f32x8::splat(s, FAN_TOP), f32x8::splat(s, 6.0 * self.slack) + least);
+        let deepest = p[2].max(q[2]).max(r[2]).max(f32x8::splat(s, 0.0)) + f32x8::splat(s, 2.0 * self.slack);
+        let length2 = length * length;
+        let (slope_error, top_error) = (length2 * relative, length2.mul_add_precise(per_length2, least));
+        let most = (deepest * f32x8::splat(s, 1.5)).mul_add_precise(slope_error, top_error);
+        let certain = (most * f32x8::splat(s, 4.0)).simd_lt(top.abs());
+        let share = certain.select(f32x8::splat(s, 1.5) / top.abs(), f32x8::splat(s, f32::INFINITY));
+        let of_square = bound_eight(s, slope_error * share);
+        let of_depth = bound_eight(s, top_error.mul_add_precise(share, f32x8::splat(s, FAN_DEPTH)));
         let prepared = Prepared {
             edges: [stored(planes[0]), stored(planes[1]), stored(planes[2])],
             edge_error: edge_error.to_array(),
             normal: stored(normal),
             top: top.to_array(),
-            top_error: (length2 * per_length2).to_array(),
-            slope_error: (length2 * f32x8::splat(s, relative)).to_array(),
+            depth_errors: [of_square.to_array(), of_depth.to_array()],
         };
-        (prepared, maybe)
+        Some((prepared, seen))
     }
 
     /// A corner of every triangle, axis by axis as in `axes`.
@@ -129,13 +135,6 @@ fn cross<S: Simd>(a: Eight3<S>, b: Eight3<S>) -> Eight3<S> {
         a[2].mul_sub_precise(b[0], a[0] * b[2]),
         a[0].mul_sub_precise(b[1], a[1] * b[0]),
     ]
-}
-
-/// The largest coordinate of three vectors.
-#[inline(always)]
-fn largest<S: Simd>(v: [Eight3<S>; 3]) -> f32x8<S> {
-    let [a, b, c] = v;
-    longest(a).max(longest(b)).max(longest(c))
 }
 
 /// The largest coordinate of a vector.

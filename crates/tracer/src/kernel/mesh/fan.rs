@@ -49,9 +49,8 @@ pub(crate) struct FanRays<S: Simd> {
     pub(crate) slopes: [[f32; 2]; 2],
     /// Depths between which the stretch begins.
     pub(crate) begin: [F<S>; 2],
-    /// Depth of the nearest crossing so far, or of the end of the stretch, within `error`.
-    pub(crate) z: F<S>,
-    pub(crate) error: F<S>,
+    /// Depths between which the nearest crossing so far lies, or the end of the stretch.
+    pub(crate) end: [F<S>; 2],
     /// Place of the nearest triangle in the tree's blocks; [`u32::MAX`] for none.
     pub(crate) slot: U<S>,
     /// Triangle that each ray leaves from.
@@ -203,7 +202,7 @@ impl Fan {
     #[inline(always)]
     fn far<S: Simd>(&self, s: S, rays: &FanRays<S>) -> f32 {
         let none = F::splat(s, f32::NEG_INFINITY);
-        F::pick(rays.live, rays.z + rays.error, none).0.reduce_max()
+        F::pick(rays.live, rays.end[1], none).0.reduce_max()
     }
 
     /// A row of a node as seen from the point; `side` 0 for the lower sides, 1 for the upper.
@@ -263,12 +262,8 @@ impl Fan {
         rays: &mut [FanRays<S>],
         umpire: &mut dyn Umpire,
     ) -> u64 {
-        let (prepared, seen) = self.prepare(s, &tree.blocks[block]);
-        let seen = seen & own;
+        let Some((prepared, seen)) = self.prepare(s, &tree.blocks[block], own) else { return 0 };
         let mut changed = 0;
-        if seen == 0 {
-            return 0;
-        }
         for packet in Bits(packets) {
             let Some(packet_rays) = rays.get_mut(packet) else { continue };
             let seen =
@@ -296,7 +291,7 @@ fn entering<S: Simd>(s: S, rays: &[FanRays<S>], packets: u32, (slopes, near): ([
             | F::splat(s, high_u).less(rays.u)
             | rays.v.less(F::splat(s, low_v))
             | F::splat(s, high_v).less(rays.v);
-        let behind = (rays.z + rays.error).less(F::splat(s, near));
+        let behind = rays.end[1].less(F::splat(s, near));
         entering |= u32::from((rays.live & !(beside | behind)).any()) << packet;
     }
     entering

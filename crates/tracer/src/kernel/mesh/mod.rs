@@ -10,6 +10,7 @@ mod edges;
 mod fan;
 mod lone;
 mod packets;
+mod planes;
 mod precise;
 mod weigh;
 
