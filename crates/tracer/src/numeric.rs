@@ -138,6 +138,7 @@ pub(crate) const LONE_FLOOR: f32 = 12.0 * U;
 ///
 /// A is off by 3E, so where it is beyond twice this many E three quarters of it are certain; of the depth's two terms each
 /// is off by ED and A's own error by 3ED: 5ED over three quarters of A, rounded up.
+/// Products that underflow are off by at most 2⁻¹⁴⁹ each, which the least normal number added to them has room for.
 pub(crate) const LONE_STEEP: f32 = 8.0;
 
 /// Error of `t` from that depth, relative to itself: two roundings; and of a `t` that is rounded to `f32`, of the ends of a

@@ -26,4 +26,9 @@ impl Random {
     pub(crate) fn power(&mut self, low: i32, high: i32) -> f64 {
         2.0_f64.powi(low + (self.bits() % (high - low + 1) as u64) as i32)
     }
+
+    /// A size in metres: an ordinary one, or one that leads `f32` to its ends.
+    pub(crate) fn unit(&mut self) -> f64 {
+        if self.bits().is_multiple_of(2) { 1.0 } else { self.power(-64, 40) }
+    }
 }

@@ -23,15 +23,15 @@ struct Record {
     worst: f64,
 }
 
-/// Rays as the backend makes them, and the same in `f64`.
-fn aimed<S: Simd>(s: S, random: &mut Random, rim: &[DVec3]) -> (Rays<S>, Vec<Ray>) {
+/// Rays as the backend makes them, and the same in `f64`; about shapes in so many metres.
+fn aimed<S: Simd>(s: S, random: &mut Random, rim: &[DVec3], unit: f64) -> (Rays<S>, Vec<Ray>) {
     let lanes = F::<S>::LANES;
-    let reach = random.power(-2, 8);
+    let reach = unit * random.power(-2, 8);
     let rays: Vec<Ray> = (0..lanes)
         .map(|_| {
             let (a, b) = (rim[random.bits() as usize % rim.len()], rim[random.bits() as usize % rim.len()]);
             let share = [0.0, 0.5, random.number()][random.bits() as usize % 3];
-            let target = a.lerp(b, share) + random.point() * random.power(-40, -10);
+            let target = a.lerp(b, share) + random.point() * unit * random.power(-40, -10);
             let from = target + random.point() * reach;
             Ray::new(from, target - from)
         })
@@ -59,18 +59,20 @@ fn propose<S: Simd>(s: S, shape: &Shape, rays: &Rays<S>) -> Option<Proposal<S>> 
     })
 }
 
-fn attack(target: impl Fn(&mut Random) -> Option<Target>) -> Record {
+/// Targets of the size of so many metres.
+fn attack(target: impl Fn(&mut Random, f64) -> Option<Target>) -> Record {
     let mut record = Record::default();
     let mut random = Random(7);
-    for _ in 0..4_000 {
-        let Some((shape, rim)) = target(&mut random) else { continue };
-        dispatch!(Level::new(), s => try_one(s, &mut random, &shape, &rim, &mut record));
+    for _ in 0..8_000 {
+        let unit = random.unit();
+        let Some(target) = target(&mut random, unit) else { continue };
+        dispatch!(Level::new(), s => try_one(s, &mut random, (&target, unit), &mut record));
     }
     record
 }
 
-fn try_one<S: Simd>(s: S, random: &mut Random, shape: &Shape, rim: &[DVec3], record: &mut Record) {
-    let (packet, rays) = aimed(s, random, rim);
+fn try_one<S: Simd>(s: S, random: &mut Random, ((shape, rim), unit): (&Target, f64), record: &mut Record) {
+    let (packet, rays) = aimed(s, random, rim, unit);
     let Some(proposal) = propose(s, shape, &packet) else { return };
     for (lane, ray) in rays.iter().enumerate() {
         let is = |mask: M<S>| mask.bits() >> lane & 1 == 1;
@@ -100,11 +102,15 @@ fn assert_attacked(record: &Record, least: f64) {
 
 #[test]
 fn planes() {
-    let record = attack(|random| {
-        let (point, normal) = (random.point() * random.power(-4, 10), random.point());
+    let record = attack(|random, unit| {
+        let (point, normal) = (random.point() * unit * random.power(-4, 10), random.point());
         let along = normal.cross(random.point());
         // A rim far along the plane makes rays graze it.
-        let rim = vec![point, point + along * random.power(0, 10), point + normal * random.power(-20, 0)];
+        let rim = vec![
+            point,
+            point + along * unit * random.power(0, 10),
+            point + normal * unit * random.power(-20, 0),
+        ];
         Some((Plane::new(point, normal).ok()?.into(), rim))
     });
     assert_attacked(&record, 0.05);
@@ -112,8 +118,8 @@ fn planes() {
 
 #[test]
 fn spheres() {
-    let record = attack(|random| {
-        let (center, radius) = (random.point() * random.power(-4, 6), random.power(-6, 6));
+    let record = attack(|random, unit| {
+        let (center, radius) = (random.point() * unit * random.power(-4, 6), unit * random.power(-6, 6));
         let axis = random.point().normalize();
         let side = axis.any_orthonormal_vector();
         let rim = (0..8).map(|i| center + (axis * f64::from(i).sin() + side * f64::from(i).cos()) * radius);
@@ -124,9 +130,10 @@ fn spheres() {
 
 #[test]
 fn rectangles() {
-    let record = attack(|random| {
-        let (corner, u) = (random.point() * random.power(-4, 6), random.point() * random.power(-4, 4));
-        let v = u.normalize().any_orthonormal_vector() * random.power(-4, 4);
+    let record = attack(|random, unit| {
+        let corner = random.point() * unit * random.power(-4, 6);
+        let u = random.point() * unit * random.power(-4, 4);
+        let v = u.normalize().any_orthonormal_vector() * unit * random.power(-4, 4);
         let rim = vec![corner, corner + u, corner + u + v, corner + v];
         Some((Rectangle::new(corner, u, v).ok()?.into(), rim))
     });
@@ -135,8 +142,8 @@ fn rectangles() {
 
 #[test]
 fn triangles() {
-    let record = attack(|random| {
-        let (place, size) = (random.point() * random.power(-4, 6), random.power(-6, 4));
+    let record = attack(|random, unit| {
+        let (place, size) = (random.point() * unit * random.power(-4, 6), unit * random.power(-6, 4));
         let [a, b, c] = [(); 3].map(|()| place + random.point() * size);
         Some((Triangle::new(a, b, c).ok()?.into(), vec![a, b, c]))
     });

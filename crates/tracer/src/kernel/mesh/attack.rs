@@ -55,7 +55,8 @@ struct Target {
 impl Target {
     /// A triangle and, in half of all cases, one that is the same but for some roundings.
     fn any(random: &mut Random) -> Option<Self> {
-        let (place, size) = (random.point() * random.power(-8, 4), random.power(-8, 4));
+        let unit = random.unit();
+        let (place, size) = (random.point() * unit * random.power(-8, 4), unit * random.power(-8, 4));
         let thin = random.power(-8, 0);
         let [a, b, c] = [(); 3].map(|()| place + random.point() * size);
         let c = a.lerp(c, thin);

@@ -263,11 +263,16 @@ impl Lone {
         let (e, f) = (b.z - a.z, c.z - a.z);
         let z = e.mul_add_precise(v, f * w).mul_add_precise(inverse, a.z);
         let steep = error * f32x8::splat(s, LONE_STEEP);
-        let z_error =
-            (steep * inverse.abs()).mul_add_precise(e.abs().max(f.abs()), f32x8::splat(s, self.slack));
+        // Products of corners of tiny scenes may underflow, and so may depths.
+        let least = f32x8::splat(s, f32::MIN_POSITIVE);
+        let z_error = steep
+            .mul_add_precise(e.abs().max(f.abs()), least)
+            .mul_add_precise(inverse.abs(), f32x8::splat(s, self.slack));
         let t = z * f32x8::splat(s, self.along);
-        let t_error =
-            t.abs().mul_add_precise(f32x8::splat(s, LONE_DEPTH), z_error * f32x8::splat(s, self.along.abs()));
+        let t_error = t.abs().mul_add_precise(
+            f32x8::splat(s, LONE_DEPTH),
+            z_error.mul_add_precise(f32x8::splat(s, self.along.abs()), least),
+        );
         let t_error = bound_eight(s, t_error);
         let known = (low.simd_gt(error) | high.simd_lt(-error)) & area.abs().simd_gt(steep + steep);
         let past = (t - t_error).simd_gt(best.t + best.error) | (t + t_error).simd_lt(best.begin[0]);

@@ -106,12 +106,16 @@ impl Fan {
             + f64::from(self.slope_error) * (size.x + size.y)
             + precise.slope_error;
         let top_error = self.top_error(precise);
-        let certain = 4.0 * (1.5 * precise.deepest).mul_add(slope_error, top_error) < top.abs();
+        // A normal as large as a unit vector, so that `f32` holds those of tiny triangles as well.
+        let scale = 1.0 / size.max_element();
+        let rounded = (top * scale) as f32;
+        let certain =
+            4.0 * (1.5 * precise.deepest).mul_add(slope_error, top_error) < top.abs() && rounded.is_normal();
         let share = if certain { 1.5 / top.abs() } else { f64::INFINITY };
         let above = |error: f64| (error as f32).next_up();
         Plane {
-            normal: normal.as_vec3().to_array(),
-            top: top as f32,
+            normal: (normal * scale).as_vec3().to_array(),
+            top: rounded,
             errors: [above(slope_error * share), above(top_error * share + f64::from(FAN_DEPTH))],
         }
     }
