@@ -1,4 +1,4 @@
-//! What do rays of anyone's choice meet? Rays and answers in columns, shared out among threads.
+//! What do rays of anyone's choice meet? Rays in blocks and answers in columns, shared out among threads.
 //!
 //! The answers are those of pictures: a backend searches with the code that it renders with.
 
@@ -10,24 +10,40 @@ use crate::film::NOTHING;
 use crate::snapshot::Way;
 use crate::{Backend, Hit, Place, Pool, Snapshot, Stats};
 
-/// Columns hold whole groups of this many rays, so that a packet of any width is one stretch of a column.
-const GROUP: usize = 64;
+/// Rays of a block, and the whole groups that columns of answers hold: a packet of any width is one stretch of them.
+const BLOCK: usize = 16;
 
 /// Rays handed to a thread in one go.
-const SHARE: usize = 64 * GROUP;
+const SHARE: usize = 256 * BLOCK;
 
-/// Rays of the world in `f64`, column by column, each asked about on the closed stretch `min <= t <= max`, where `t`
-/// counts in lengths of the ray's direction.
+/// Rays side by side, number by number. All that a packet reads lies together: memory is read in one stream.
+#[derive(Debug, Clone)]
+#[repr(align(64))]
+pub(crate) struct RayBlock {
+    pub(crate) origin: [[f64; BLOCK]; 3],
+    pub(crate) direction: [[f64; BLOCK]; 3],
+    pub(crate) min: [f64; BLOCK],
+    pub(crate) max: [f64; BLOCK],
+}
+
+impl RayBlock {
+    const EMPTY: Self = Self {
+        origin: [[0.0; BLOCK]; 3],
+        direction: [[0.0; BLOCK]; 3],
+        min: [0.0; BLOCK],
+        max: [0.0; BLOCK],
+    };
+}
+
+/// Rays of the world in `f64`, each asked about on the closed stretch `min <= t <= max`, where `t` counts in lengths of
+/// the ray's direction.
 ///
 /// What lies behind the origin is never met, so a negative `min` counts as 0. A ray that is not
 /// [valid](Ray::is_valid), and a stretch whose ends are not in order, meet nothing.
 #[derive(Debug, Clone, Default)]
 pub struct RayList {
-    pub(crate) length: usize,
-    pub(crate) origin: [Vec<f64>; 3],
-    pub(crate) direction: [Vec<f64>; 3],
-    pub(crate) min: Vec<f64>,
-    pub(crate) max: Vec<f64>,
+    length: usize,
+    blocks: Vec<RayBlock>,
     /// The places that rays leave from; empty where no ray leaves a surface.
     pub(crate) prim: Vec<u32>,
     pub(crate) facet: Vec<u32>,
@@ -55,32 +71,30 @@ impl RayList {
     /// Appends a ray of the world, asked about on `min <= t <= max`, that may leave a surface: what it leaves is not
     /// met again there.
     pub fn push(&mut self, ray: &Ray, [min, max]: [f64; 2], leaving: Option<Place>) {
-        self.make_room();
-        let at = self.length;
-        for axis in 0..3 {
-            self.origin[axis][at] = ray.origin[axis];
-            self.direction[axis][at] = ray.direction[axis];
+        let (block, lane) = (self.length / BLOCK, self.length % BLOCK);
+        if lane == 0 {
+            self.blocks.push(RayBlock::EMPTY);
+            if !self.prim.is_empty() {
+                self.make_room_for_places();
+            }
         }
-        (self.min[at], self.max[at]) = (min, max);
+        let rays = &mut self.blocks[block];
+        for axis in 0..3 {
+            rays.origin[axis][lane] = ray.origin[axis];
+            rays.direction[axis][lane] = ray.direction[axis];
+        }
+        (rays.min[lane], rays.max[lane]) = (min, max);
         if let Some(place) = leaving {
-            self.prim.resize(self.min.len(), NOTHING);
-            self.facet.resize(self.min.len(), 0);
-            (self.prim[at], self.facet[at]) = (place.prim, place.facet);
+            self.make_room_for_places();
+            (self.prim[self.length], self.facet[self.length]) = (place.prim, place.facet);
         }
         self.length += 1;
     }
 
-    fn make_room(&mut self) {
-        if self.length < self.min.len() {
-            return;
-        }
-        let room = self.length + GROUP;
-        let columns = self.origin.iter_mut().chain(&mut self.direction);
-        columns.chain([&mut self.min, &mut self.max]).for_each(|column| column.resize(room, 0.0));
-        if !self.prim.is_empty() {
-            self.prim.resize(room, NOTHING);
-            self.facet.resize(room, 0);
-        }
+    fn make_room_for_places(&mut self) {
+        let room = self.blocks.len() * BLOCK;
+        self.prim.resize(room, NOTHING);
+        self.facet.resize(room, 0);
     }
 
     /// All of them.
@@ -90,7 +104,7 @@ impl RayList {
     }
 }
 
-/// Some rays of a list, from the start of a group on.
+/// Some rays of a list, from the start of a block on.
 #[derive(Debug, Clone, Copy)]
 pub struct RaySlice<'a> {
     pub(crate) rays: &'a RayList,
@@ -119,10 +133,9 @@ impl RaySlice<'_> {
     #[inline]
     pub fn ray(&self, at: usize) -> Ray {
         assert!(at < self.length, "ray {at} of {}", self.length);
-        let vector = |[x, y, z]: &[Vec<f64>; 3]| {
-            DVec3::new(x[self.first + at], y[self.first + at], z[self.first + at])
-        };
-        Ray::new(vector(&self.rays.origin), vector(&self.rays.direction))
+        let (rays, lane) = self.block(at);
+        let vector = |[x, y, z]: &[[f64; BLOCK]; 3]| DVec3::new(x[lane], y[lane], z[lane]);
+        Ray::new(vector(&rays.origin), vector(&rays.direction))
     }
 
     /// The stretch that a ray is asked about; `None` where it is empty.
@@ -133,7 +146,8 @@ impl RaySlice<'_> {
     #[inline]
     pub fn span(&self, at: usize) -> Option<Span> {
         assert!(at < self.length, "ray {at} of {}", self.length);
-        let (min, max) = (self.rays.min[self.first + at], self.rays.max[self.first + at]);
+        let (rays, lane) = self.block(at);
+        let (min, max) = (rays.min[lane], rays.max[lane]);
         (min <= max && max >= 0.0).then(|| Span { min: min.max(0.0), max })
     }
 
@@ -147,6 +161,13 @@ impl RaySlice<'_> {
         assert!(at < self.length, "ray {at} of {}", self.length);
         let prim = *self.rays.prim.get(self.first + at)?;
         (prim != NOTHING).then(|| Place { prim, facet: self.rays.facet[self.first + at] })
+    }
+
+    /// The block that a ray stands in, and where in it.
+    #[inline(always)]
+    pub(crate) fn block(&self, at: usize) -> (&RayBlock, usize) {
+        let at = self.first + at;
+        (&self.rays.blocks[at / BLOCK], at % BLOCK)
     }
 
     /// Asks about a ray, unless it can meet nothing: in the snapshot's frame, or where that rounds it, in the world.
@@ -217,7 +238,7 @@ impl HitList {
     }
 
     fn resize(&mut self, length: usize) {
-        let room = length.next_multiple_of(GROUP);
+        let room = length.next_multiple_of(BLOCK);
         self.length = length;
         self.prim.resize(room, NOTHING);
         self.facet.resize(room, 0);
@@ -225,7 +246,7 @@ impl HitList {
     }
 }
 
-/// Room for the answers about some rays, in whole groups.
+/// Room for the answers about some rays, in whole blocks.
 #[derive(Debug)]
 pub struct HitSlice<'a> {
     pub(crate) prim: &'a mut [u32],

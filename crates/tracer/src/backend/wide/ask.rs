@@ -59,10 +59,12 @@ impl Asked<'_> {
     /// Origins and directions from ray `at` on.
     #[inline(always)]
     pub(super) fn precise<S: Simd>(&self, s: S, at: usize) -> (D3<S>, D3<S>) {
-        let at = self.rays.first + at;
-        let rays = self.rays.rays;
-        let origin = splat_wide(s, self.snapshot.origin());
-        (load_wide3(s, &rays.origin, at) - origin, load_wide3(s, &rays.direction, at))
+        let (rays, lane) = self.rays.block(at);
+        let [x, y, z] = &rays.origin;
+        let origin = load_wide3(s, &[&x[..], &y[..], &z[..]], lane);
+        let [x, y, z] = &rays.direction;
+        let direction = load_wide3(s, &[&x[..], &y[..], &z[..]], lane);
+        (origin - splat_wide(s, self.snapshot.origin()), direction)
     }
 
     /// As [`precise`](Self::precise), in a mesh's own space.
@@ -76,36 +78,44 @@ impl Asked<'_> {
     #[inline(always)]
     pub(super) fn ends<S: Simd>(&self, s: S, at: usize) -> [D3<S>; 2] {
         let (origin, direction) = self.precise(s, at);
-        let from = self.rays.first + at;
-        let min = D::load(s, &self.rays.rays.min[from..]).max(D::splat(s, 0.0));
-        let max = D::load(s, &self.rays.rays.max[from..]);
+        let (rays, lane) = self.rays.block(at);
+        let min = D::load(s, &rays.min[lane..]).max(D::splat(s, 0.0));
+        let max = D::load(s, &rays.max[lane..]);
         [direction.scale_add(min, origin), direction.scale_add(max, origin)]
     }
 
     /// Metres between which the stretches begin.
     #[inline(always)]
     pub(super) fn begins<S: Simd>(&self, s: S, at: usize) -> [F<S>; 2] {
-        let min = self.end(s, &self.rays.rays.min, at).max(F::splat(s, 0.0));
+        let (rays, lane) = self.rays.block(at);
+        let min = self.in_metres(s, &rays.min[lane..], at).max(F::splat(s, 0.0));
         let error = min * F::splat(s, END_ERROR);
         [min - error, min + error]
     }
 
-    /// Ends of the stretches in metres, within [`END_ERROR`] of themselves.
+    /// Metres at which the stretches end, within [`END_ERROR`] of themselves.
     #[inline(always)]
-    fn end<S: Simd>(&self, s: S, ends: &[f64], at: usize) -> F<S> {
+    fn ends_in_metres<S: Simd>(&self, s: S, at: usize) -> F<S> {
+        let (rays, lane) = self.rays.block(at);
+        self.in_metres(s, &rays.max[lane..], at)
+    }
+
+    /// Lengths of the directions in metres, within [`END_ERROR`] of themselves.
+    #[inline(always)]
+    fn in_metres<S: Simd>(&self, s: S, lengths: &[f64], at: usize) -> F<S> {
         let (_, direction) = self.precise(s, at);
         let (_, inverse_length) = kernel_rays(s, narrow3(direction), narrow3(direction));
-        D::load(s, &ends[self.rays.first + at..]).narrow() / inverse_length
+        D::load(s, lengths).narrow() / inverse_length
     }
 
     /// Depths between which the stretches begin, and those at which they end and how far these may be off; for rays of so
     /// much depth per `t`.
     #[inline(always)]
     pub(super) fn depths<S: Simd>(&self, s: S, at: usize, scale: F<S>) -> [[F<S>; 2]; 2] {
-        let (from, rays) = (self.rays.first + at, self.rays.rays);
+        let (rays, lane) = self.rays.block(at);
         let (error, most) = (F::splat(s, END_ERROR), F::splat(s, f32::MAX));
-        let begin = D::load(s, &rays.min[from..]).narrow().max(F::splat(s, 0.0)) * scale;
-        let end = (D::load(s, &rays.max[from..]).narrow() * scale).min(most);
+        let begin = D::load(s, &rays.min[lane..]).narrow().max(F::splat(s, 0.0)) * scale;
+        let end = (D::load(s, &rays.max[lane..]).narrow() * scale).min(most);
         let near = end.less(F::splat(s, f32::MAX / 4.0));
         let off = begin * error;
         [[begin - off, begin + off], [F::pick(near, end, most), F::pick(near, end * error, F::splat(s, 0.0))]]
@@ -125,9 +135,9 @@ impl Asked<'_> {
     #[inline(always)]
     pub(super) fn live<S: Simd>(&self, s: S, at: usize) -> M<S> {
         let (origin, direction) = self.precise(s, at);
-        let (from, count) = (self.rays.first + at, (self.rays.len() - at).min(F::<S>::LANES));
+        let count = (self.rays.len() - at).min(F::<S>::LANES);
         let there = M::from_bits(s, u64::MAX >> (64 - count));
-        there & self.in_order(s, from) & self.is_exact(s, from) & is_ordinary(s, origin, direction)
+        there & self.in_order(s, at) & self.is_exact(s, at) & is_ordinary(s, origin, direction)
     }
 
     /// The packet that starts with ray `at`.
@@ -148,12 +158,13 @@ impl Asked<'_> {
 
     /// Rays that are carried over into the snapshot's frame without rounding; the others are answered one by one.
     #[inline(always)]
-    fn is_exact<S: Simd>(&self, s: S, from: usize) -> M<S> {
+    fn is_exact<S: Simd>(&self, s: S, at: usize) -> M<S> {
+        let (rays, lane) = self.rays.block(at);
         let frame = self.snapshot.frame();
         let mut exact = M::splat(s, true);
         if frame != DVec3::ZERO {
-            for (column, zero) in self.rays.rays.origin.iter().zip(frame.to_array()) {
-                let (given, zero) = (D::load(s, &column[from..]), D::splat(s, zero));
+            for (column, zero) in rays.origin.iter().zip(frame.to_array()) {
+                let (given, zero) = (D::load(s, &column[lane..]), D::splat(s, zero));
                 let own = given - zero;
                 let (back, other) = (own + zero, given - own);
                 exact = exact & back.at_most(given) & given.at_most(back);
@@ -165,9 +176,9 @@ impl Asked<'_> {
 
     /// Stretches that are not empty.
     #[inline(always)]
-    fn in_order<S: Simd>(&self, s: S, from: usize) -> M<S> {
-        let rays = self.rays.rays;
-        let (min, max) = (D::load(s, &rays.min[from..]), D::load(s, &rays.max[from..]));
+    fn in_order<S: Simd>(&self, s: S, at: usize) -> M<S> {
+        let (rays, lane) = self.rays.block(at);
+        let (min, max) = (D::load(s, &rays.min[lane..]), D::load(s, &rays.max[lane..]));
         let zero = D::splat(s, 0.0);
         min.at_most(max) & zero.at_most(max)
     }
@@ -255,7 +266,7 @@ impl<S: Simd> Tracer<'_, S> {
         shapes.all(self.frame.snapshot.columns());
         for at in (0..asked.rays.len()).step_by(F::<S>::LANES) {
             let packet = asked.packet(self.s, at);
-            let far = asked.end(self.s, &asked.rays.rays.max, at).min(F::splat(self.s, f32::MAX));
+            let far = asked.ends_in_metres(self.s, at).min(F::splat(self.s, f32::MAX));
             let finite = far.less(F::splat(self.s, f32::MAX));
             let none = F::splat(self.s, 0.0);
             let error = F::pick(finite, far * F::splat(self.s, END_ERROR), none);
