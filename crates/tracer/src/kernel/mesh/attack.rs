@@ -158,7 +158,12 @@ fn attack_lone(random: &mut Random, record: &mut Record, lone: impl Fn(&mut Rand
     for _ in 0..300_000 {
         let Some(target) = Target::any(random) else { continue };
         let (from, to) = (target.eye(random), target.rim(random));
-        let ray = Ray::new(from, (to - from) * random.power(-6, 6));
+        let mut ray = Ray::new(from, (to - from) * random.power(-6, 6));
+        // Some run along a plane of two axes, or nearly so.
+        if random.bits().is_multiple_of(8) {
+            ray.direction[random.bits() as usize % 3] *=
+                [0.0, random.power(-60, -20)][random.bits() as usize % 2];
+        }
         let mut best = LoneBest::nothing_on(Span::AHEAD);
         let lone = lone(random, &ray, target.tree.reach);
         let (mut witness, mut visits) = (Witness::default(), Visits::default());
@@ -170,6 +175,22 @@ fn attack_lone(random: &mut Random, record: &mut Record, lone: impl Fn(&mut Rand
         let place = [f64::from(best.t), f64::from(best.error)];
         let found = best.slot.map(|slot| (target.tree.tree.facet(slot), place));
         record.note(&target, &ray, found, 1.0);
+    }
+}
+
+#[test]
+fn slow_rays_meet_what_is_far() {
+    let (far, slow) = (2.0_f64.powi(58), 2.0_f64.powi(-60));
+    let corners = [[1.0, -1.0, -1.0], [1.0, 1.0, -1.0], [1.0, 0.0, 1.0]].map(|p| p.map(|v| v * far as f32));
+    let mesh = Arc::new(TriangleMesh::new(corners.to_vec(), vec![[0, 1, 2]], None, None).unwrap());
+    let tree = MeshTree::build(&mesh, Preset::Fast);
+    for direction in [DVec3::X, DVec3::new(1.0, 1e-3, -1e-3)] {
+        let ray = Ray::new(DVec3::new(-far, far / 64.0, far / 64.0), direction * slow);
+        let (mut witness, mut visits) = (Witness::default(), Visits::default());
+        let mut best = LoneBest::nothing_on(Span::AHEAD);
+        let lone = Lone::new(ray, 0, u32::MAX, tree.reach);
+        dispatch!(Level::new(), s => lone.search(s, &tree.tree, &mut visits, &mut best, &mut witness));
+        assert_eq!((best.slot, witness.asked), (Some(0), 0), "{direction}");
     }
 }
 
