@@ -145,7 +145,7 @@ pub(crate) const LONE_STEEP: f32 = 8.0;
 /// stretch, and of a sum of these: rounded up.
 pub(crate) const LONE_DEPTH: f32 = 8.0 * U;
 
-/// Error of the slopes of rays through one point, relative to 1: computed in `f64` and rounded once; they are below 2.
+/// Error of the slopes of rays through one point: computed in `f64` and rounded once; they are below 2.
 pub(crate) const FAN_SLOPE: f32 = 2.0 * U;
 
 /// How far a box is widened for rays through one point, per metre of the largest coordinates of mesh and point together:
@@ -157,16 +157,19 @@ pub(crate) const FAN_PAD: f32 = 16.0 * U;
 /// quotient's and a product's roundings, 3u of 2; rounded up.
 pub(crate) const FAN_BOX: f32 = 8.0 * U;
 
-/// Error of an edge value n·(u, v, 1), n = e × p, of rays through one point, relative to L P S with S = 1 + |u| + |v|: as
-/// for [`MEET_EDGE_ERROR`] 7u in each component of n, and u·2·2LP S for two fused products; rounded up.
-pub(crate) const FAN_EDGE: f32 = 12.0 * U;
+/// Error of n·(u, v, 1), n = e × p, of rays through one point, relative to the sum of its products' sizes: edge and corner
+/// are rounded differences, a product and a component of n are rounded, as are the slopes, and two fused products: 7u,
+/// rounded up. A box of slopes has room for as much again: its middle and its half are rounded, two fused products and a
+/// sum each.
+pub(crate) const FAN_EDGE: f32 = 8.0 * U;
 
-/// Error of a slope n·(u, v, 1) whose n was computed in `f64`, relative to |n·(|u|, |v|, 1)|: n is rounded once, and two
-/// fused products; rounded up.
-pub(crate) const FAN_PLANE: f32 = 4.0 * U;
+/// Error of n·(u, v, 1) whose n was computed in `f64`, relative to |n|·(|u|, |v|, 1): n and the slopes are rounded once,
+/// and two fused products; rounded up.
+pub(crate) const FAN_PLANE: f32 = 5.0 * U;
 
-/// Error of `(e × f) · p`, relative to L² P: as [`MEET_TOP_ERROR`].
-pub(crate) const FAN_TOP: f32 = 48.0 * U;
+/// Error of `(e × f) · p`, relative to the sum of its products' sizes: 3u and 4u in the two products of a component, u in
+/// the corner's, and three sums of products; rounded up.
+pub(crate) const FAN_TOP: f32 = 8.0 * U;
 
 /// Error of a depth from roundings alone, relative to itself: a quotient of two rounded numbers, and sums with bounds;
 /// rounded up.

@@ -22,6 +22,11 @@ impl Random {
         DVec3::new(self.number(), self.number(), self.number())
     }
 
+    /// A coordinate axis.
+    pub(crate) fn axis(&mut self) -> DVec3 {
+        DVec3::AXES[self.bits() as usize % 3]
+    }
+
     /// A power of two between two exponents.
     pub(crate) fn power(&mut self, low: i32, high: i32) -> f64 {
         2.0_f64.powi(low + (self.bits() % (high - low + 1) as u64) as i32)

@@ -104,7 +104,7 @@ impl<S: Simd> Tracer<'_, S> {
         let left = ways.left.facets_of(self.s, instance.prim);
         rays[0].start(self.s, [zero, zero], [scale, error], left);
         let steep = rays[0].error_where_off(self.s, off);
-        Some((bundle.fan.for_any().with_slope_error(steep), rays))
+        Some((bundle.fan.for_any().with_slopes_off(steep), rays))
     }
 
     /// Where ways begin in a mesh's own space, and how far that may be off: settled in `f64` where they leave the mesh

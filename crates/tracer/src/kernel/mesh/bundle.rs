@@ -79,7 +79,7 @@ impl Bundle {
         if !(through_one && width <= FAN_WIDTH && height <= FAN_WIDTH) {
             return None;
         }
-        let fan = Fan::new(&aim, apex, slack, [low, high], reach).with_slope_error(2.0 * slack / least);
+        let fan = Fan::new(&aim, apex, slack, [low, high], reach).with_slopes_off(2.0 * slack / least);
         Some(Self { fan, slack })
     }
 }

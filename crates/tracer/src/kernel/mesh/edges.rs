@@ -28,28 +28,31 @@ impl Fan {
     pub(super) fn prepare<S: Simd>(&self, s: S, block: &Block8, own: u64) -> Option<(Prepared, u64)> {
         let (a, b, c) = (self.corner(s, block, 0), self.corner(s, block, 1), self.corner(s, block, 2));
         let edges = [minus(c, b), minus(a, c), minus(b, a)];
-        let length = longest(edges[0]).max(longest(edges[1])).max(longest(edges[2]));
         let (p, q, r) = (self.seen_from_apex(s, a), self.seen_from_apex(s, b), self.seen_from_apex(s, c));
-        let size = longest(p) + length;
         let planes = [cross(edges[0], q), cross(edges[1], r), cross(edges[2], p)];
+        // Each axis counts with its own sizes: rays run mostly along one, and edges often along few.
+        let size = largest(edges);
+        let far = [p[0].abs() + size[0], p[1].abs() + size[1], p[2].abs() + size[2]];
+        let length = size[0].max(size[1]).max(size[2]);
         let slopes = self.widened([self.low, self.high]);
         let [low, high] = slopes;
-        let spread = 1.0 + low[0].abs().max(high[0].abs()) + low[1].abs().max(high[1].abs());
-        let relative = f32x8::splat(s, FAN_EDGE * spread + 4.0 * self.slope_error);
+        let most = [low[0].abs().max(high[0].abs()), low[1].abs().max(high[1].abs())];
+        let shares = [FAN_EDGE * most[0] + self.slopes_off, FAN_EDGE * most[1] + self.slopes_off, FAN_EDGE];
+        let beside = 2.0 * (1.0 + most[0] + most[1]) * self.slack;
         let least = f32x8::splat(s, f32::MIN_POSITIVE);
-        let per_length = size.mul_add_precise(relative, f32x8::splat(s, 2.0 * spread * self.slack) + least);
-        let edge_error = bound_eight(s, length.mul_add_precise(per_length, least));
+        let of_point = length.mul_add_precise(f32x8::splat(s, beside), least);
+        let edge_error = bound_eight(s, weighted(s, products(size, far), shares, of_point));
         let seen = seen(s, &planes, edge_error, slopes) & own;
         if seen == 0 {
             return None;
         }
         let normal = cross(edges[1], edges[2]);
-        let top = p[0].mul_add_precise(normal[0], p[1].mul_add_precise(normal[1], p[2] * normal[2]));
-        let per_length2 =
-            size.mul_add_precise(f32x8::splat(s, FAN_TOP), f32x8::splat(s, 6.0 * self.slack) + least);
+        let top = dot(p, normal);
+        let areas = [size[1] * size[2], size[2] * size[0], size[0] * size[1]];
+        let of_point = (length * length).mul_add_precise(f32x8::splat(s, 6.0 * self.slack), least);
+        let top_error = dot(areas, far).mul_add_precise(f32x8::splat(s, 2.0 * FAN_TOP), of_point);
+        let slope_error = weighted(s, areas, shares.map(|share| share + share), least);
         let deepest = p[2].max(q[2]).max(r[2]).max(f32x8::splat(s, 0.0)) + f32x8::splat(s, 2.0 * self.slack);
-        let length2 = length * length;
-        let (slope_error, top_error) = (length2 * relative, length2.mul_add_precise(per_length2, least));
         let most = (deepest * f32x8::splat(s, 1.5)).mul_add_precise(slope_error, top_error);
         let certain = (most * f32x8::splat(s, 4.0)).simd_lt(top.abs());
         let share = certain.select(f32x8::splat(s, 1.5) / top.abs(), f32x8::splat(s, f32::INFINITY));
@@ -137,10 +140,36 @@ fn cross<S: Simd>(a: Eight3<S>, b: Eight3<S>) -> Eight3<S> {
     ]
 }
 
-/// The largest coordinate of a vector.
+/// At least the sizes of a cross product's components, term by term, of vectors within boxes of these sizes.
 #[inline(always)]
-fn longest<S: Simd>(v: Eight3<S>) -> f32x8<S> {
-    v[0].abs().max(v[1].abs()).max(v[2].abs())
+fn products<S: Simd>(a: Eight3<S>, b: Eight3<S>) -> Eight3<S> {
+    [
+        a[1].mul_add_precise(b[2], a[2] * b[1]),
+        a[2].mul_add_precise(b[0], a[0] * b[2]),
+        a[0].mul_add_precise(b[1], a[1] * b[0]),
+    ]
+}
+
+#[inline(always)]
+fn dot<S: Simd>(a: Eight3<S>, b: Eight3<S>) -> f32x8<S> {
+    a[0].mul_add_precise(b[0], a[1].mul_add_precise(b[1], a[2] * b[2]))
+}
+
+/// Components times their shares, and something more.
+#[inline(always)]
+fn weighted<S: Simd>(s: S, v: Eight3<S>, shares: [f32; 3], more: f32x8<S>) -> f32x8<S> {
+    let [x, y, z] = [f32x8::splat(s, shares[0]), f32x8::splat(s, shares[1]), f32x8::splat(s, shares[2])];
+    v[0].mul_add_precise(x, v[1].mul_add_precise(y, v[2].mul_add_precise(z, more)))
+}
+
+/// The largest size of each coordinate of three vectors.
+#[inline(always)]
+fn largest<S: Simd>([a, b, c]: [Eight3<S>; 3]) -> Eight3<S> {
+    [
+        a[0].abs().max(b[0].abs()).max(c[0].abs()),
+        a[1].abs().max(b[1].abs()).max(c[1].abs()),
+        a[2].abs().max(b[2].abs()).max(c[2].abs()),
+    ]
 }
 
 #[inline(always)]

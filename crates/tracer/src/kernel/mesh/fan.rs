@@ -29,8 +29,8 @@ pub(crate) struct Fan {
     /// The point in `f64`, and how far a ray may pass that by.
     pub(super) precise_apex: DVec3,
     pub(super) precise_slack: f32,
-    /// Error of the slopes.
-    pub(super) slope_error: f32,
+    /// How far slopes may be off beyond their own rounding.
+    pub(super) slopes_off: f32,
     /// Box round the slopes of all rays, up to their error.
     pub(super) low: [f32; 2],
     pub(super) high: [f32; 2],
@@ -115,7 +115,7 @@ impl Fan {
             slack,
             precise_apex: own,
             precise_slack,
-            slope_error: FAN_SLOPE,
+            slopes_off: 0.0,
             low,
             high,
             pad: FAN_PAD * size + 4.0 * slack + f32::MIN_POSITIVE,
@@ -128,15 +128,15 @@ impl Fan {
         Self { any: true, ..self }
     }
 
-    /// Whose slopes are off by so much more.
-    pub(crate) fn with_slope_error(self, more: f32) -> Self {
-        Self { slope_error: self.slope_error + more, ..self }
+    /// Whose slopes may be off by so much more.
+    pub(crate) fn with_slopes_off(self, more: f32) -> Self {
+        Self { slopes_off: self.slopes_off + more, ..self }
     }
 
     /// A box round slopes below 2, widened by their error, and for the rounding of its own ends.
     #[inline(always)]
     pub(super) fn widened(&self, [low, high]: [[f32; 2]; 2]) -> [[f32; 2]; 2] {
-        let wider = self.slope_error + 2.0 * FAN_SLOPE;
+        let wider = self.slopes_off + 3.0 * FAN_SLOPE;
         [[low[0] - wider, low[1] - wider], [high[0] + wider, high[1] + wider]]
     }
 
@@ -227,7 +227,7 @@ impl Fan {
         let (near, away) = (self.row(s, node, 2, 0).max(zero), self.row(s, node, 2, 1));
         let mut met = near.simd_le(f32x8::splat(s, far)) & near.simd_le(away);
         let (of_near, of_away) = (one / near, one / away);
-        let wider = f32x8::splat(s, FAN_BOX + self.slope_error);
+        let wider = f32x8::splat(s, FAN_BOX + FAN_SLOPE + self.slopes_off);
         let mut sides = [[0.0; WIDTH]; 4];
         for which in 0..2 {
             let (low, high) = (self.row(s, node, which, 0), self.row(s, node, which, 1));

@@ -103,7 +103,7 @@ impl Fan {
         let PrecisePlane { normal, top, .. } = *precise;
         let size = normal.abs();
         let slope_error = f64::from(FAN_PLANE) * size.dot(self.spread())
-            + f64::from(self.slope_error) * (size.x + size.y)
+            + f64::from(self.slopes_off) * (size.x + size.y)
             + precise.slope_error;
         let top_error = self.top_error(precise);
         // A normal as large as a unit vector, so that `f32` holds those of tiny triangles as well.
@@ -142,8 +142,8 @@ impl Fan {
         let from_shear = f64::from(self.precise_slack)
             * spread.element_sum()
             * (a.cross(b).abs().element_sum() + ORDER_SHEAR * first.size * second.size);
-        let from_rounding = f64::from(FAN_PLANE) * m.abs().dot(spread)
-            + f64::from(self.slope_error) * (m.x.abs() + m.y.abs());
+        let from_rounding =
+            f64::from(FAN_PLANE) * m.abs().dot(spread) + f64::from(self.slopes_off) * (m.x.abs() + m.y.abs());
         let error = 1.5 * (from_tops + from_slopes) + from_shear + from_rounding;
         let scale = 1.0 / m.abs().max_element();
         Some(((m * scale).as_vec3().to_array(), ((error * scale) as f32).next_up()))
