@@ -237,7 +237,7 @@ fn attack_planes<S: Simd>(s: S, random: &mut Random, target: &Target, records: &
             let nearer = crossing.nearer.bits();
             for (lane, ray) in rays.iter().enumerate().filter(|(lane, _)| nearer >> lane & 1 == 1) {
                 let Some(hit) = shape.cross(ray, Span::AHEAD, None) else { continue };
-                let place = [f64::from(crossing.z.lane(lane)), f64::from(crossing.error.lane(lane))];
+                let place = between(crossing.depth, lane);
                 record.note_depth(target, ray, place, hit.t * depth_per_t(fan, ray));
             }
         }
@@ -267,6 +267,12 @@ fn aimed<S: Simd>(s: S, random: &mut Random, target: &Target) -> Option<(Vec<Ray
     Some((rays, bundle, rays_of_fan))
 }
 
+/// Middle of what lies between two depths of a lane, and how far that is from them.
+fn between<S: Simd>(depths: [F<S>; 2], lane: usize) -> [f64; 2] {
+    let [low, high] = depths.map(|depth| f64::from(depth.lane(lane)));
+    [(low + high) / 2.0, (high - low) / 2.0]
+}
+
 /// Depth per `t` of a ray.
 fn depth_per_t(fan: &Fan, ray: &Ray) -> f64 {
     ray.direction[fan.axes[2]] * f64::from(fan.sign)
@@ -284,8 +290,7 @@ fn attack_fan<S: Simd>(s: S, random: &mut Random, target: &Target, record: &mut 
             continue;
         }
         let slot = Some(found.slot.lane(lane)).filter(|&slot| slot != u32::MAX);
-        let [low, high] = found.end.map(|end| f64::from(end.lane(lane)));
-        let place = [(low + high) / 2.0, (high - low) / 2.0];
+        let place = between(found.end, lane);
         let found = slot.map(|slot| (target.tree.tree.facet(slot), place));
         record.note(target, ray, found, depth_per_t(&bundle.fan, ray));
     }

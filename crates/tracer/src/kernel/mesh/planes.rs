@@ -27,8 +27,8 @@ pub(super) struct Plane {
 
 /// What is certain of where rays cross a plane on a triangle.
 pub(super) struct Crossing<S: Simd> {
-    pub(super) z: F<S>,
-    pub(super) error: F<S>,
+    /// Depths between which they do.
+    pub(super) depth: [F<S>; 2],
     /// In front of all that they have met, and within their stretch.
     pub(super) nearer: M<S>,
     /// Behind that, or before their stretch.
@@ -49,9 +49,10 @@ impl<S: Simd> FanRays<S> {
         let z = F::splat(s, plane.top) / self.value(s, plane.normal);
         let (of_square, of_depth) = (F::splat(s, plane.errors[0]), F::splat(s, plane.errors[1]));
         let error = bound(s, z.abs() * z.abs().mul_add(of_square, of_depth));
-        let nearer = z.less(self.end[0] - error) & (self.begin[1] + error).less(z);
-        let beside = (self.end[1] + error).less(z) | z.less(self.begin[0] - error);
-        Crossing { z, error, nearer, beside }
+        let (low, high) = (z - error, z + error);
+        let nearer = high.less(self.end[0]) & self.begin[1].less(low);
+        let beside = self.end[1].less(low) | high.less(self.begin[0]);
+        Crossing { depth: [low, high], nearer, beside }
     }
 }
 

@@ -16,10 +16,8 @@ impl<S: Simd> FanRays<S> {
     /// Takes over a triangle in some lanes.
     #[inline(always)]
     fn take(&mut self, s: S, lanes: M<S>, slot: u32, crossing: &Crossing<S>, any: bool) {
-        self.end = [
-            F::pick(lanes, crossing.z - crossing.error, self.end[0]),
-            F::pick(lanes, crossing.z + crossing.error, self.end[1]),
-        ];
+        self.end =
+            [F::pick(lanes, crossing.depth[0], self.end[0]), F::pick(lanes, crossing.depth[1], self.end[1])];
         self.slot = U::pick(lanes, U::splat(s, slot), self.slot);
         if any {
             self.live = self.live & !lanes;
@@ -72,33 +70,9 @@ impl Fan {
         (rays, packet): (&mut FanRays<S>, usize),
         umpire: &mut dyn Umpire,
     ) {
-        let s = rays.slot.0.token();
-        let corners = tree.triangle(slot);
-        let precise = self.precise_plane(&corners);
-        let plane = self.plane_of(&precise);
-        let open = s.vectorize(
-            #[inline(always)]
-            || {
-                let (mut open, inside) = (M::from_bits(s, open), M::from_bits(s, inside));
-                let crossing = rays.cross(s, &plane);
-                let take = open & inside & crossing.nearer;
-                rays.take(s, take, slot, &crossing, self.any);
-                open = open & !take & !crossing.beside;
-                let ahead =
-                    (rays.begin[1] + crossing.error).less(crossing.z) & rays.begin[1].less(rays.end[0]);
-                let both = open & inside & ahead & !rays.slot.is(u32::MAX);
-                // Surfaces so close together that no depth in `f32` tells them apart.
-                for (held, lanes) in rays.slot.groups(both) {
-                    let held = self.precise_plane(&tree.triangle(held));
-                    let Some((m, error)) = self.order([&precise, &held]) else { continue };
-                    let (order, error) = (rays.value(s, m), F::splat(s, error));
-                    let before = lanes & order.less(-error);
-                    rays.take(s, before, slot, &crossing, self.any);
-                    open = open & !before & !(lanes & error.less(order));
-                }
-                open.bits()
-            },
-        );
+        // Where only edges are open, depths have said what they can.
+        let open =
+            if open & inside == 0 { open } else { self.settle_depths(tree, [open, inside], slot, rays) };
         for lane in Bits(open) {
             let other = rays.slot.lane(lane);
             let held = (other != u32::MAX).then(|| tree.facet(other));
@@ -116,9 +90,45 @@ impl Fan {
             rays.end[1].set(lane, z + error);
             rays.slot.set(lane, slot);
             if self.any {
-                rays.live = rays.live & !M::from_bits(s, 1 << lane);
+                rays.live = rays.live & !M::from_bits(rays.slot.0.token(), 1 << lane);
             }
         }
+    }
+
+    /// Decides by depths from `f64` planes; the lanes that those leave open.
+    fn settle_depths<S: Simd>(
+        &self,
+        tree: &WideTree,
+        [open, inside]: [u64; 2],
+        slot: u32,
+        rays: &mut FanRays<S>,
+    ) -> u64 {
+        let s = rays.slot.0.token();
+        let corners = tree.triangle(slot);
+        let precise = self.precise_plane(&corners);
+        let plane = self.plane_of(&precise);
+        s.vectorize(
+            #[inline(always)]
+            || {
+                let (mut open, inside) = (M::from_bits(s, open), M::from_bits(s, inside));
+                let crossing = rays.cross(s, &plane);
+                let take = open & inside & crossing.nearer;
+                rays.take(s, take, slot, &crossing, self.any);
+                open = open & !take & !crossing.beside;
+                let ahead = rays.begin[1].less(crossing.depth[0]) & rays.begin[1].less(rays.end[0]);
+                let both = open & inside & ahead & !rays.slot.is(u32::MAX);
+                // Surfaces so close together that no depth in `f32` tells them apart.
+                for (held, lanes) in rays.slot.groups(both) {
+                    let held = self.precise_plane(&tree.triangle(held));
+                    let Some((m, error)) = self.order([&precise, &held]) else { continue };
+                    let (order, error) = (rays.value(s, m), F::splat(s, error));
+                    let before = lanes & order.less(-error);
+                    rays.take(s, before, slot, &crossing, self.any);
+                    open = open & !before & !(lanes & error.less(order));
+                }
+                open.bits()
+            },
+        )
     }
 
     /// At which `t` the ray of a lane meets a triangle in front of all that it has met, if it does.
