@@ -265,8 +265,11 @@ impl<S: Simd> Lane for F<S> {
     }
 }
 
+/// As many lanes as there may be.
+pub(crate) const MOST_LANES: usize = 16;
+
 /// The numbers of lanes.
-static COUNTED: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+static COUNTED: [u32; MOST_LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
 
 impl<S: Simd> U<S> {
     /// The numbers in the lanes of a mask, each with all lanes that hold it.

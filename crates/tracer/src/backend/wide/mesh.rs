@@ -11,8 +11,8 @@ use super::search::Best;
 use super::umpire::Nearest;
 use crate::Place;
 use crate::accel::WIDTH;
-use crate::kernel::mesh::{Bundle, FanRays, LaneTriangles, Lines, Lone, LoneBest, Umpire, Visits};
-use crate::lanes::{Bits, D, D3, F, M, U, splat_wide};
+use crate::kernel::mesh::{Bundle, FanRays, LaneTriangles, Lines, LoneBest, Lones, Visits};
+use crate::lanes::{Bits, D, D3, F, M, MOST_LANES, U, splat_wide};
 use crate::numeric::{END_ERROR, POINT_ERROR};
 use crate::snapshot::{Affine, Instance};
 
@@ -55,7 +55,7 @@ impl<S: Simd> Tracer<'_, S> {
                 self.stats.settled += rays[0].settled;
                 rays[0].slot
             }
-            None => U::load(self.s, &self.search_each(packet, best, instance, &mut umpire, &mut visits)),
+            None => self.search_each((packet, &lines), best, instance, &mut umpire, &mut visits),
         };
         self.count(&mut visits);
         *self.visits = visits;
@@ -95,8 +95,9 @@ impl<S: Simd> Tracer<'_, S> {
                 rays[0].slot
             }
             None => {
-                let asked = Packet { live: open, ..*packet };
-                U::load(self.s, &self.search_each(&asked, best, instance, &mut umpire, &mut visits))
+                let (origin, direction) = self.own_lines(packet, instance);
+                let lines = Lines { origin, direction, live: open };
+                self.search_each((packet, &lines), best, instance, &mut umpire, &mut visits)
             }
         };
         self.count(&mut visits);
@@ -132,28 +133,35 @@ impl<S: Simd> Tracer<'_, S> {
     #[inline(always)]
     fn search_each(
         &mut self,
-        packet: &Packet<'_, S>,
+        (packet, lines): (&Packet<'_, S>, &Lines<S>),
         best: &Best<S>,
         instance: &Instance,
         umpire: &mut Nearest<'_, S>,
         visits: &mut Visits,
-    ) -> [u32; 16] {
-        let mut slots = [NONE; 16];
+    ) -> U<S> {
+        let mut slots = [NONE; MOST_LANES];
         let left = packet.left.facets_of(self.s, instance.prim);
-        for lane in Bits(packet.live.bits()) {
-            let Some((ray, span)) = umpire.ray(lane) else { continue };
-            let mut found = LoneBest::nothing_on(span);
+        let any = matches!(packet.precise, Precise::Asked(asked, _) if asked.any);
+        let lones = self.lones(lines, instance);
+        for lane in lines.live.lanes() {
+            let mut found = LoneBest::nothing_on(packet.span(lane)).for_any(any);
             if best.prim.lane(lane) != NONE {
                 let (metres, length) = (best.t.lane(lane), packet.inverse_length.lane(lane));
                 let error = best.error.lane(lane) + metres * END_ERROR;
                 found = found.before((metres * length, error * length));
             }
-            let any = matches!(packet.precise, Precise::Asked(asked, _) if asked.any);
-            found = found.for_any(any);
-            instance.search_one(self.s, (ray, lane, left.lane(lane)), visits, &mut found, umpire);
-            slots[lane] = found.slot.unwrap_or(NONE);
+            let lone = lones.lane(lane, left.lane(lane));
+            lone.search(self.s, &instance.tree.tree, visits, &mut found, umpire);
+            slots[lane % MOST_LANES] = found.slot.unwrap_or(NONE);
         }
-        slots
+        U::load(self.s, &slots)
+    }
+
+    /// Lines in a mesh's own space as rays of their own.
+    #[inline(always)]
+    pub(super) fn lones(&self, lines: &Lines<S>, instance: &Instance) -> Lones {
+        let (off, reach) = self.reach(instance);
+        Lones::of(self.s, lines, F::splat(self.s, off), reach)
     }
 
     /// Takes over triangles that are nearer for certain. Their `t` are functions of ray and triangle alone, however those
@@ -259,19 +267,6 @@ impl Instance {
     /// Metres of the mesh's own space a metre of the world.
     pub(super) fn scale(&self) -> f32 {
         self.to_object.as_ref().map_or(1.0, |affine| affine.matrix[0].length() as f32)
-    }
-
-    /// Finds the nearest triangle for the ray of a lane that leaves from a triangle, or any.
-    #[inline(always)]
-    pub(super) fn search_one<S: Simd>(
-        &self,
-        s: S,
-        (ray, lane, left): (Ray, usize, u32),
-        visits: &mut Visits,
-        found: &mut LoneBest,
-        umpire: &mut dyn Umpire,
-    ) {
-        Lone::new(ray, lane, left, self.tree.reach).search(s, &self.tree.tree, visits, found, umpire);
     }
 
     /// The triangles of the mesh that lanes name.

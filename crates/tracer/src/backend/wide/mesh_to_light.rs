@@ -1,6 +1,6 @@
 //! Which ways to a light a mesh blocks: backwards from a lamp all lanes together, towards the sun lane by lane.
 
-use catoptra_core::{Arithmetic, LaneMask, Ray, Span};
+use catoptra_core::{Arithmetic, LaneMask, Span};
 use fearless_simd::Simd;
 
 use super::Tracer;
@@ -8,8 +8,9 @@ use super::mesh::NONE;
 use super::packet::Packet;
 use super::shadow::Ways;
 use super::umpire::Blocked;
-use crate::kernel::mesh::{Bundle, Fan, FanRays, Lines, Lone, LoneBest, Umpire, Visits};
-use crate::lanes::{Bits, D3, F, M, pick3, splat_wide, vector_of, widen3};
+use crate::integrator::LIGHT_ITSELF;
+use crate::kernel::mesh::{Bundle, Fan, FanRays, Lines, LoneBest, Lones, Umpire, Visits};
+use crate::lanes::{D3, F, M, pick3, splat_wide, widen3};
 use crate::numeric::{END_ERROR, POINT_ERROR, START_ERROR};
 use crate::snapshot::Instance;
 
@@ -64,21 +65,21 @@ impl<S: Simd> Tracer<'_, S> {
         umpire: &mut Blocked<'_, S>,
         visits: &mut Visits,
     ) -> u64 {
-        let left = ways.left.facets_of(self.s, instance.prim);
-        let (start, off) = self.own_starts((packet, ways), open, instance);
-        let sunwards = umpire.mesh.to_object().vector(ways.target.in_frame);
-        let mut closed = 0;
-        for lane in Bits(open.bits()) {
-            let of_lane = (lane, left.lane(lane));
+        let (lones, live, span) = if ways.target.at_infinity {
+            let (origin, off) = self.own_starts((packet, ways), open, instance);
+            let sunwards = umpire.mesh.to_object().vector(ways.target.in_frame);
+            let lines = Lines { origin, direction: splat_wide(self.s, sunwards), live: open };
+            (Lones::of(self.s, &lines, off, instance.tree.reach), open, Span::AHEAD)
+        } else {
             // The starts of ways to one point tell nothing of their directions.
-            let known = if ways.target.at_infinity {
-                let ray = Ray::new(vector_of(&start, lane), sunwards);
-                Some((Lone::beside(ray, off.lane(lane), of_lane, instance.tree.reach), Span::AHEAD))
-            } else {
-                let ray = umpire.ray(lane);
-                ray.map(|(ray, span)| (Lone::new(ray, lane, of_lane.1, instance.tree.reach), span))
-            };
-            let Some((lone, span)) = known else { continue };
+            let lines = Lines::gathered(self.s, open, |lane| umpire.ray(lane).map(|(ray, _)| ray));
+            let exact = F::splat(self.s, 0.0);
+            (Lones::of(self.s, &lines, exact, instance.tree.reach), lines.live, LIGHT_ITSELF)
+        };
+        let left = ways.left.facets_of(self.s, instance.prim);
+        let mut closed = 0;
+        for lane in live.lanes() {
+            let lone = lones.lane(lane, left.lane(lane));
             let mut found = LoneBest::nothing_on(span).for_any(true);
             lone.search(self.s, &instance.tree.tree, visits, &mut found, umpire);
             closed |= u64::from(found.slot.is_some()) << lane;

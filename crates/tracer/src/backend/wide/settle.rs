@@ -11,7 +11,7 @@ use super::Tracer;
 use super::packet::Packet;
 use super::search::Best;
 use crate::kernel::{PlaneRow, cross};
-use crate::lanes::{D, D3, F, M, narrow3, pick3, splat_wide};
+use crate::lanes::{D, D3, F, M, MOST_LANES, narrow3, pick3, splat_wide};
 use crate::snapshot::{Instance, Row};
 
 /// Points and normals of the lanes that meet something, in `f64`.
@@ -202,9 +202,6 @@ impl<S: Simd> Tracer<'_, S> {
         lanes.settled(self.s)
     }
 }
-
-/// Most lanes that any packet has.
-const MOST_LANES: usize = 16;
 
 /// Points, normals and shading normals, filled lane by lane.
 #[derive(Default)]

@@ -13,9 +13,9 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Shape, Span, TriangleMesh};
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::{Bundle, Fan, FanRays, Lines, Lone, LoneBest, Umpire, Visits};
+use super::{Bundle, Fan, FanRays, Lines, LoneBest, Lones, Umpire, Visits};
 use crate::accel::{MeshTree, Preset};
-use crate::lanes::{D, D3, F, M, U};
+use crate::lanes::{D, D3, F, M, U, splat_wide};
 use crate::random::Random;
 
 /// Notes which lanes it was asked about.
@@ -140,11 +140,7 @@ impl Record {
 #[test]
 fn lone_rays_are_certain_only_of_what_is_so() {
     let mut record = Record::default();
-    attack_lone(&mut Random(11), &mut record, |_, ray, reach| {
-        let mut lone = Lone::new(*ray, 0, u32::MAX, reach);
-        lone.ray = Ray::new(DVec3::NAN, DVec3::NAN);
-        lone
-    });
+    attack_lone(&mut Random(11), &mut record, |_, ray, _| (*ray, 0.0));
     record.assert_attacked(0.02);
 }
 
@@ -153,14 +149,17 @@ fn lone_rays_whose_origins_are_off_are_certain_only_of_what_is_so() {
     let mut record = Record::default();
     attack_lone(&mut Random(17), &mut record, |random, ray, reach| {
         let off = (ray.origin.length() + f64::from(reach)) * random.power(-34, -16);
-        let beside = Ray::new(ray.origin + random.point() * off, ray.direction);
-        Lone::beside(beside, (off as f32).next_up(), (0, u32::MAX), reach)
+        (Ray::new(ray.origin + random.point() * off, ray.direction), (off as f32).next_up())
     });
     record.assert_attacked(0.02);
 }
 
-/// Aims rays at rims, each as `lone` makes it ready for a mesh of that reach.
-fn attack_lone(random: &mut Random, record: &mut Record, lone: impl Fn(&mut Random, &Ray, f32) -> Lone) {
+/// Aims rays at rims, each followed as the ray beside it that `known` makes of it for a mesh of that reach, off by so much.
+fn attack_lone(
+    random: &mut Random,
+    record: &mut Record,
+    known: impl Fn(&mut Random, &Ray, f32) -> (Ray, f32),
+) {
     for _ in 0..300_000 {
         let Some(target) = Target::any(random) else { continue };
         let (from, to) = (target.eye(random), target.rim(random));
@@ -170,11 +169,9 @@ fn attack_lone(random: &mut Random, record: &mut Record, lone: impl Fn(&mut Rand
             ray.direction[random.bits() as usize % 3] *=
                 [0.0, random.power(-60, -20)][random.bits() as usize % 2];
         }
-        let mut best = LoneBest::nothing_on(Span::AHEAD);
-        let lone = lone(random, &ray, target.tree.reach);
-        let (mut witness, mut visits) = (Witness::default(), Visits::default());
-        dispatch!(Level::new(), s => lone.search(s, &target.tree.tree, &mut visits, &mut best, &mut witness));
-        if witness.asked != 0 {
+        let beside = known(random, &ray, target.tree.reach);
+        let (best, asked) = dispatch!(Level::new(), s => follow(s, beside, &target.tree));
+        if asked != 0 {
             record.undecided += 1;
             continue;
         }
@@ -182,6 +179,20 @@ fn attack_lone(random: &mut Random, record: &mut Record, lone: impl Fn(&mut Rand
         let found = best.slot.map(|slot| (target.tree.tree.facet(slot), place));
         record.note(&target, &ray, found, 1.0);
     }
+}
+
+/// Follows a ray alone whose origin may be off by so much; what it meets, and whether that is undecided.
+fn follow<S: Simd>(s: S, (ray, off): (Ray, f32), tree: &MeshTree) -> (LoneBest, u64) {
+    let lines = Lines {
+        origin: splat_wide(s, ray.origin),
+        direction: splat_wide(s, ray.direction),
+        live: M::splat(s, true),
+    };
+    let lones = Lones::of(s, &lines, F::splat(s, off), tree.reach);
+    let (mut witness, mut visits) = (Witness::default(), Visits::default());
+    let mut best = LoneBest::nothing_on(Span::AHEAD);
+    lones.lane(0, u32::MAX).search(s, &tree.tree, &mut visits, &mut best, &mut witness);
+    (best, witness.asked)
 }
 
 #[test]
@@ -192,11 +203,8 @@ fn slow_rays_meet_what_is_far() {
     let tree = MeshTree::build(&mesh, Preset::Fast);
     for direction in [DVec3::X, DVec3::new(1.0, 1e-3, -1e-3)] {
         let ray = Ray::new(DVec3::new(-far, far / 64.0, far / 64.0), direction * slow);
-        let (mut witness, mut visits) = (Witness::default(), Visits::default());
-        let mut best = LoneBest::nothing_on(Span::AHEAD);
-        let lone = Lone::new(ray, 0, u32::MAX, tree.reach);
-        dispatch!(Level::new(), s => lone.search(s, &tree.tree, &mut visits, &mut best, &mut witness));
-        assert_eq!((best.slot, witness.asked), (Some(0), 0), "{direction}");
+        let (best, asked) = dispatch!(Level::new(), s => follow(s, (ray, 0.0), &tree));
+        assert_eq!((best.slot, asked), (Some(0), 0), "{direction}");
     }
 }
 

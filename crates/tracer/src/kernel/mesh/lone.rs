@@ -3,40 +3,35 @@
 //! Boxes after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013; triangles after Woop, Benthin and Wald, "Watertight
 //! Ray/Triangle Intersection", JCGT 2(1), 2013, with bounds.
 
-use catoptra_core::{Ray, Span};
+use catoptra_core::Span;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
 use super::{Edges, Settled, Umpire, Visit, Visits, Waiting, bound_eight, settle};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::Bits;
-use crate::numeric::{
-    BOX_STRETCH, LONE_DEPTH, LONE_FLOOR, LONE_OFF, LONE_PAD, LONE_SHARE, LONE_SPREAD, LONE_STEEP,
-};
+use crate::numeric::{BOX_STRETCH, LONE_DEPTH, LONE_SPREAD, LONE_STEEP};
 
 /// A ray in a mesh's own space.
 pub(crate) struct Lone {
-    pub(super) ray: Ray,
-    /// Whether that is the very ray, and not one beside it.
-    exact: bool,
-    lane: usize,
+    pub(super) lane: usize,
     /// The triangle that the ray leaves from.
-    left: u32,
+    pub(super) left: u32,
     /// 1 along axes that it runs backwards, where upper ends of boxes are met first; else 0.
-    backwards: [usize; 3],
-    /// Where it begins and how the slabs' `t` grow, per axis; for the ends that are met first, then for the others.
-    origins: [[f32; 3]; 2],
-    inverses: [[f32; 3]; 2],
+    pub(super) backwards: [usize; 3],
+    /// Where slabs begin and how their `t` grow, per axis; for the ends that are met first, then for the others.
+    pub(super) starts: [[f32; 3]; 2],
+    pub(super) inverses: [[f32; 3]; 2],
     /// Axes with the largest direction last.
-    axes: [usize; 3],
-    origin: [f32; 3],
+    pub(super) axes: [usize; 3],
+    pub(super) origin: [f32; 3],
     /// Directions along the first two axes over the last.
-    shear: [f32; 2],
+    pub(super) shear: [f32; 2],
     /// Lengths of the direction per length along the last axis.
-    along: f32,
+    pub(super) along: f32,
     /// Error of an edge value per unit of the sheared corners, and where there are none.
-    slack: f32,
-    floor: f32,
+    pub(super) slack: f32,
+    pub(super) floor: f32,
 }
 
 /// The nearest crossing of a ray so far.
@@ -85,54 +80,6 @@ impl LoneBest {
 }
 
 impl Lone {
-    /// For a mesh whose corners' coordinates stay within `reach`.
-    #[inline(always)]
-    pub(crate) fn new(ray: Ray, lane: usize, left: u32, reach: f32) -> Self {
-        Self::beside(ray, 0.0, (lane, left), reach)
-    }
-
-    /// As [`new`](Self::new), where the origin may be off by so much along every axis; the [`Umpire`] has the very ray.
-    #[inline(always)]
-    pub(crate) fn beside(ray: Ray, off: f32, (lane, left): (usize, u32), reach: f32) -> Self {
-        let (direction, size) = (ray.direction, ray.direction.abs());
-        // In numbers: nothing foretells which way a branch would go.
-        let last = (2 - usize::from(size.y > size.z)) * usize::from(!(size.x > size.y.max(size.z)));
-        let axes = [(last + 1) % 3, (last + 2) % 3, last];
-        let direction = direction.to_array();
-        let origin = ray.origin.as_vec3();
-        // An origin that is off counts like one of larger coordinates that is rounded.
-        let largest = off.mul_add(LONE_OFF, origin.abs().max_element());
-        let pad = largest * LONE_PAD + f32::MIN_POSITIVE;
-        let reach = reach + largest;
-        let along = 1.0 / direction[last];
-        let shear = [direction[axes[0]] * along, direction[axes[1]] * along];
-        let mut lone = Self {
-            ray,
-            exact: off == 0.0,
-            lane,
-            left,
-            backwards: [0; 3],
-            origins: [[0.0; 3]; 2],
-            inverses: [[0.0; 3]; 2],
-            axes,
-            origin: origin.to_array(),
-            shear: [shear[0] as f32, shear[1] as f32],
-            along: along as f32,
-            slack: LONE_SHARE * reach,
-            floor: (LONE_FLOOR * reach) * (LONE_FLOOR * reach) + f32::MIN_POSITIVE,
-        };
-        for axis in 0..3 {
-            let inverse = 1.0 / direction[axis] as f32;
-            // A lower end is padded downwards, an upper one upwards.
-            let starts = [origin[axis] + pad, origin[axis] - pad];
-            let backwards = usize::from(inverse.is_sign_negative());
-            lone.backwards[axis] = backwards;
-            (lone.origins[0][axis], lone.origins[1][axis]) = (starts[backwards], starts[1 - backwards]);
-            (lone.inverses[0][axis], lone.inverses[1][axis]) = (inverse, inverse * BOX_STRETCH);
-        }
-        lone
-    }
-
     /// Finds the nearest triangle, or any. Compiled apart.
     pub(crate) fn search<S: Simd>(
         &self,
@@ -202,7 +149,7 @@ impl Lone {
     #[inline(always)]
     fn plane<S: Simd>(&self, s: S, node: &Node8, side: usize, axis: usize) -> f32x8<S> {
         let row = f32x8::load_array_ref(s, &node.bounds[axis][(self.backwards[axis] ^ side) & 1]);
-        (row - f32x8::splat(s, self.origins[side][axis])) * f32x8::splat(s, self.inverses[side][axis])
+        (row - f32x8::splat(s, self.starts[side][axis])) * f32x8::splat(s, self.inverses[side][axis])
     }
 
     /// The children that the ray may enter up to `far`, and where it enters them.
@@ -226,8 +173,8 @@ impl Lone {
         let z = self.seen_from_origin(s, rows, z);
         let (x, y) = (self.seen_from_origin(s, rows, x), self.seen_from_origin(s, rows, y));
         Corner {
-            x: z.mul_add_precise(f32x8::splat(s, -self.shear[0]), x),
-            y: z.mul_add_precise(f32x8::splat(s, -self.shear[1]), y),
+            x: z.mul_add_precise(-f32x8::splat(s, self.shear[0]), x),
+            y: z.mul_add_precise(-f32x8::splat(s, self.shear[1]), y),
             z,
         }
     }
@@ -251,8 +198,9 @@ impl Lone {
             (self.corner(s, &corners[0]), self.corner(s, &corners[1]), self.corner(s, &corners[2]));
         let most = a.across().max(b.across()).max(c.across());
         let (u, v, w) = (edge(&c, &b), edge(&a, &c), edge(&b, &a));
-        let spread = most.mul_add_precise(f32x8::splat(s, LONE_SPREAD), f32x8::splat(s, self.slack));
-        let error = bound_eight(s, most.mul_add_precise(spread, f32x8::splat(s, self.floor)));
+        let (slack, floor) = (f32x8::splat(s, self.slack), f32x8::splat(s, self.floor));
+        let spread = most.mul_add_precise(f32x8::splat(s, LONE_SPREAD), slack);
+        let error = bound_eight(s, most.mul_add_precise(spread, floor));
         let (low, high) = (u.min(v).min(w), u.max(v).max(w));
         let maybe = !(low.simd_lt(-error) & high.simd_gt(error)).to_bitmask() & own;
         if maybe == 0 {
@@ -265,14 +213,12 @@ impl Lone {
         let steep = error * f32x8::splat(s, LONE_STEEP);
         // Products of corners of tiny scenes may underflow, and so may depths.
         let least = f32x8::splat(s, f32::MIN_POSITIVE);
-        let z_error = steep
-            .mul_add_precise(e.abs().max(f.abs()), least)
-            .mul_add_precise(inverse.abs(), f32x8::splat(s, self.slack));
-        let t = z * f32x8::splat(s, self.along);
-        let t_error = t.abs().mul_add_precise(
-            f32x8::splat(s, LONE_DEPTH),
-            z_error.mul_add_precise(f32x8::splat(s, self.along.abs()), least),
-        );
+        let z_error =
+            steep.mul_add_precise(e.abs().max(f.abs()), least).mul_add_precise(inverse.abs(), slack);
+        let along = f32x8::splat(s, self.along);
+        let t = z * along;
+        let t_error =
+            t.abs().mul_add_precise(f32x8::splat(s, LONE_DEPTH), z_error.mul_add_precise(along.abs(), least));
         let t_error = bound_eight(s, t_error);
         let known = (low.simd_gt(error) | high.simd_lt(-error)) & area.abs().simd_gt(steep + steep);
         let past = (t - t_error).simd_gt(best.t + best.error) | (t + t_error).simd_lt(best.begin[0]);
@@ -325,8 +271,7 @@ impl Lone {
         let before = if best.any { f64::INFINITY } else { least };
         let held_triangle = held.map(|slot| tree.triangle(slot));
         let next = (&tree.triangle(slot), Edges::Open);
-        let known = if self.exact { Some(self.ray) } else { umpire.ray(self.lane).map(|(ray, _)| ray) };
-        let Some(ray) = known else { return };
+        let Some((ray, _)) = umpire.ray(self.lane) else { return };
         let t = match settle(next, held_triangle, before, (&ray, best.span)) {
             Settled::Not => None,
             Settled::Nearer(t) => Some(t),

@@ -9,6 +9,7 @@ mod bundle;
 mod edges;
 mod fan;
 mod lone;
+mod lones;
 mod packets;
 mod planes;
 mod precise;
@@ -24,6 +25,7 @@ use crate::numeric::CERTAIN;
 pub(crate) use bundle::{Bundle, Lines};
 pub(crate) use fan::{Fan, FanRays};
 pub(crate) use lone::{Lone, LoneBest};
+pub(crate) use lones::Lones;
 pub(crate) use precise::LaneTriangles;
 
 use precise::{Verdict, crossing, depth, meet};

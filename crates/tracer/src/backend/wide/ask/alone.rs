@@ -1,9 +1,8 @@
 //! What rays of anyone's choice meet where one mesh is all there is: groups of packets walk its tree together, and nothing
 //! is worked out that only other shapes need.
 
+use catoptra_core::LaneMask;
 use catoptra_core::geometry::Mesh;
-use catoptra_core::glam::DVec3;
-use catoptra_core::{LaneMask, Ray};
 use fearless_simd::Simd;
 
 use super::{Answers, Asked};
@@ -11,8 +10,8 @@ use crate::backend::wide::Tracer;
 use crate::backend::wide::mesh::{NONE, ends_of_ways};
 use crate::backend::wide::umpire::Alone;
 use crate::film::NOTHING;
-use crate::kernel::mesh::{Bundle, FanRays, GROUP, Lines, LoneBest, Umpire};
-use crate::lanes::{Bits, F, M, U};
+use crate::kernel::mesh::{Bundle, FanRays, GROUP, Lines, LoneBest};
+use crate::lanes::{F, M, MOST_LANES, U};
 use crate::snapshot::{Instance, Row};
 
 /// The mesh that is all there is.
@@ -45,17 +44,6 @@ impl<S: Simd> Group<S> {
         let mut live = [M::splat(s, false); GROUP];
         live[..packets].copy_from_slice(&self.live[first..first + packets]);
         Self { at: self.start(first), packets, live }
-    }
-}
-
-/// Origins and directions of a packet's rays, coordinate by coordinate.
-struct PlainLines([[f64; 16]; 6]);
-
-impl PlainLines {
-    #[inline(always)]
-    fn ray(&self, lane: usize) -> Ray {
-        let (lane, [x, y, z, u, v, w]) = (lane % 16, &self.0);
-        Ray::new(DVec3::new(x[lane], y[lane], z[lane]), DVec3::new(u[lane], v[lane], w[lane]))
     }
 }
 
@@ -208,45 +196,22 @@ impl<'a, S: Simd> Tracer<'a, S> {
     /// Finds triangles for the rays of a packet, one after another.
     #[inline(always)]
     fn find_each(&mut self, asked: &Asked<'_>, only: Only<'_>, packet: &Group<S>) -> U<S> {
-        let mut slots = [NONE; 16];
+        let mut slots = [NONE; MOST_LANES];
         let left = asked.left(self.s, packet.at).facets_of(self.s, only.instance.prim);
         let mut umpire = self.umpire(asked, only, packet);
         let mut visits = std::mem::take(self.visits);
-        let lines = self.plain_lines(asked, only, packet.start(0));
-        for lane in Bits(packet.live[0].bits()) {
-            let way = match &lines {
-                Some(lines) => Some((lines.ray(lane), asked.span(packet.start(0) + lane))),
-                None => umpire.ray(lane),
-            };
-            let Some((ray, span)) = way else { continue };
-            let mut found = LoneBest::nothing_on(span).for_any(asked.any);
-            only.instance.search_one(
-                self.s,
-                (ray, lane, left.lane(lane)),
-                &mut visits,
-                &mut found,
-                &mut umpire,
-            );
-            slots[lane % 16] = found.slot.unwrap_or(NONE);
+        let (origin, direction) = asked.own_lines(self.s, packet.at, only.instance);
+        let lines = Lines { origin, direction, live: packet.live[0] };
+        let lones = self.lones(&lines, only.instance);
+        for lane in lines.live.lanes() {
+            let mut found = LoneBest::nothing_on(asked.span(packet.at + lane)).for_any(asked.any);
+            let lone = lones.lane(lane, left.lane(lane));
+            lone.search(self.s, &only.instance.tree.tree, &mut visits, &mut found, &mut umpire);
+            slots[lane % MOST_LANES] = found.slot.unwrap_or(NONE);
         }
         self.count(&mut visits);
         *self.visits = visits;
         U::load(self.s, &slots)
-    }
-
-    /// The rays of a packet one by one, where the mesh's own space is the snapshot's.
-    #[inline(always)]
-    fn plain_lines(&self, asked: &Asked<'_>, only: Only<'_>, at: usize) -> Option<PlainLines> {
-        let plain = only.instance.to_object.is_none() && asked.snapshot.origin() == asked.snapshot.frame();
-        let (origin, direction) = asked.precise(self.s, at);
-        plain.then(|| {
-            let mut lines = PlainLines([[0.0; 16]; 6]);
-            let columns = [origin.x, origin.y, origin.z, direction.x, direction.y, direction.z];
-            for (column, row) in columns.into_iter().zip(&mut lines.0) {
-                column.store(row);
-            }
-            lines
-        })
     }
 
     #[inline(always)]
