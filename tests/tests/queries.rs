@@ -208,12 +208,13 @@ fn thicket(numbers: &mut Numbers, count: u32) -> TriangleMesh {
 /// Rays from one point, to one point, and without order; a third of them through corners, a third through edges.
 fn aimed_rays(numbers: &mut Numbers, mesh: &Mesh, count: usize) -> RayList {
     let mut rays = RayList::new();
-    let (eye, lamp) = (DVec3::new(0.3, 0.5, 4.0), DVec3::new(-2.0, 3.0, 0.25));
+    let placed = |point: DVec3| mesh.placement().point(point);
+    let [eye, lamp] = [DVec3::new(0.3, 0.5, 4.0), DVec3::new(-2.0, 3.0, 0.25)].map(placed);
     let triangles = mesh.triangles();
     for at in 0..count {
         // Rays of a group meet neighbouring triangles, so that they stay together.
         let facet = (at / 40 * 7 % triangles.triangles().len()) as u32;
-        let [a, b, c] = triangles.corners(facet).map(|p| mesh.placement().point(p));
+        let [a, b, c] = triangles.corners(facet).map(placed);
         let target = match at % 3 {
             0 => [a, b, c][at % 2],
             1 => a.lerp(b, numbers.next().abs()),
@@ -223,7 +224,7 @@ fn aimed_rays(numbers: &mut Numbers, mesh: &Mesh, count: usize) -> RayList {
             0 => rays.push(&Ray::new(eye, target - eye), [0.0, f64::INFINITY], None),
             1 => rays.push(&Ray::new(target + numbers.vector() * 0.1, lamp - target), [0.0, 1.0], None),
             _ => {
-                let from = numbers.vector() * 3.0;
+                let from = placed(numbers.vector() * 3.0);
                 rays.push(&Ray::new(from, target - from), [0.1, 2.0], None);
             }
         }
@@ -253,18 +254,41 @@ fn all_meet_what_the_oracle_meets(numbers: &mut Numbers, source: &MeshSource) {
         scene.add_shape("mesh", mesh, grey, None).expect("a shape");
         for preset in Preset::ALL {
             let snapshot = Snapshot::extract_with(&scene, None, *preset);
-            let right = nearest("oracle", &snapshot, &rays);
-            for backend in ["scalar", "wide"] {
-                let found = nearest(backend, &snapshot, &rays);
-                let mut occluded = Vec::new();
-                let tracing = backend_named(backend).expect("a backend of that name");
-                find_occluded(tracing, &snapshot, &rays, &mut occluded, &pool(1));
-                for (at, &occluded) in occluded.iter().enumerate() {
-                    let (a, b) = (right.get(at).map(|hit| hit.0), found.get(at).map(|hit| hit.0));
-                    assert_eq!(a, b, "{backend} {} ray {at}", preset.name());
-                    assert_eq!(a.is_some(), occluded, "{backend} {} ray {at}", preset.name());
-                }
-            }
+            assert_met_as_by_the_oracle(&snapshot, &rays, preset.name());
+        }
+    }
+}
+
+#[test]
+fn meshes_far_from_all_else_are_met_where_the_oracle_meets_them() {
+    let mut numbers = Numbers(88_172_645_463_325_252);
+    let mesh = MeshSource { path: String::new(), mesh: thicket(&mut numbers, 300).into() };
+    let turned = Placement::IDENTITY.turned(DVec3::ZERO, DVec3::new(0.3, 0.2, 0.1), 1.0).expect("a turn");
+    for away in [1e6, 1e9, 1e11, 1e13] {
+        let far = turned.moved(DVec3::new(away, -0.7 * away, 0.3 * away)).expect("a move");
+        let mut scene = Scene::new();
+        let grey =
+            scene.add_material("grey", Matte::new(Rgb::grey(0.5)).expect("a colour")).expect("a material");
+        scene.add_shape("here", Mesh::new(mesh.clone()), grey, None).expect("a shape");
+        let far = Mesh::new(mesh.clone()).placed(&far);
+        let rays = aimed_rays(&mut numbers, &far, 5000);
+        scene.add_shape("there", far, grey, None).expect("a shape");
+        assert_met_as_by_the_oracle(&Snapshot::extract(&scene), &rays, &format!("{away:e} m away,"));
+    }
+}
+
+/// By both other backends, first or at all.
+fn assert_met_as_by_the_oracle(snapshot: &Snapshot, rays: &RayList, what: &str) {
+    let right = nearest("oracle", snapshot, rays);
+    for backend in ["scalar", "wide"] {
+        let found = nearest(backend, snapshot, rays);
+        let mut occluded = Vec::new();
+        let tracing = backend_named(backend).expect("a backend of that name");
+        find_occluded(tracing, snapshot, rays, &mut occluded, &pool(1));
+        for (at, &occluded) in occluded.iter().enumerate() {
+            let (a, b) = (right.get(at).map(|hit| hit.0), found.get(at).map(|hit| hit.0));
+            assert_eq!(a, b, "{backend} {what} ray {at}");
+            assert_eq!(a.is_some(), occluded, "{backend} {what} ray {at}");
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::Place;
 use crate::accel::WIDTH;
 use crate::kernel::mesh::{Bundle, FanRays, LaneTriangles, Lines, LoneBest, Lones, Visits};
 use crate::lanes::{Bits, D, D3, F, M, MOST_LANES, U, splat_wide};
-use crate::numeric::{END_ERROR, POINT_ERROR};
+use crate::numeric::{BOUNDS_ERROR, END_ERROR, POINT_ERROR};
 use crate::snapshot::{Affine, Instance};
 
 /// Stands for no triangle.
@@ -212,11 +212,13 @@ impl<S: Simd> Tracer<'_, S> {
         (instance.own_points(self.s, origin), instance.own_vectors(self.s, direction))
     }
 
-    /// How far origins relative to the snapshot's may be off, metres of the mesh's own space; and the largest coordinate of
-    /// the mesh.
+    /// How far origins may be off, metres of the mesh's own space, beyond what `f64` rounds of their coordinates there; and
+    /// the largest coordinate of the mesh. They are relative to the snapshot's origin, and a mesh that stands far away has
+    /// them rounded as coarsely as its own place.
     pub(super) fn reach(&self, instance: &Instance) -> (f32, f32) {
-        let off = drift(self.frame.snapshot.origin_in_frame()) * POINT_ERROR * instance.scale();
-        (off, instance.tree.reach)
+        let drifting = drift(self.frame.snapshot.origin_in_frame()) * POINT_ERROR * instance.scale();
+        let shift = instance.to_object.as_ref().map_or(0.0, |affine| affine.shift.abs().element_sum());
+        (drifting + (shift * BOUNDS_ERROR) as f32, instance.tree.reach)
     }
 
     /// Adds up what has been looked at.
