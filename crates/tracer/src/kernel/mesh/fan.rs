@@ -176,8 +176,7 @@ impl Fan {
         while let Some(visit) = waiting.pop(farthest) {
             if visit.count == 0 {
                 *waiting.nodes += 1;
-                let node = &tree.nodes[visit.link as usize];
-                self.enter(s, node, (rays, &packets, visit.packets, farthest), &mut waiting);
+                self.enter(s, (tree, visit), (rays, &packets, farthest), &mut waiting);
                 continue;
             }
             for (block, own) in visit.blocks() {
@@ -214,15 +213,16 @@ impl Fan {
         f32x8::load_array_ref(s, row).mul_sub_precise(f32x8::splat(s, self.sign), f32x8::splat(s, start))
     }
 
-    /// Adds the children that some ray may enter up to a depth, the nearest last.
+    /// Adds the children of a node that some ray may enter up to a depth, the nearest last.
     #[inline(always)]
     fn enter<S: Simd>(
         &self,
         s: S,
-        node: &Node8,
-        (rays, packets, some, far): (&[FanRays<S>], &Packets, u32, f32),
+        (tree, visit): (&WideTree, Visit),
+        (rays, packets, far): (&[FanRays<S>], &Packets, f32),
         waiting: &mut Waiting<'_>,
     ) {
+        let node = &tree.nodes[visit.link as usize];
         let (one, zero) = (f32x8::splat(s, 1.0), f32x8::splat(s, 0.0));
         let (near, away) = (self.row(s, node, 2, 0).max(zero), self.row(s, node, 2, 1));
         let mut met = near.simd_le(f32x8::splat(s, far)) & near.simd_le(away);
@@ -243,11 +243,11 @@ impl Fan {
         for child in Bits(met.to_bitmask() & ((1 << node.children) - 1)) {
             let child = child % WIDTH;
             let seen = [sides[0][child], sides[1][child], sides[2][child], sides[3][child]];
-            let maybe = some & packets.entering(s, (seen, near[child]));
+            let maybe = visit.packets & packets.entering(s, (seen, near[child]));
             let unsure = maybe & packets.larger_than_half(s, seen);
             let packets = (maybe & !unsure) | entering(s, rays, unsure, (seen, near[child]));
             if packets != 0 {
-                waiting.insert(first, Visit { packets, ..Visit::child(node, child, near[child]) });
+                waiting.insert(first, Visit { packets, ..Visit::ahead((tree, node), child, &near) });
             }
         }
     }

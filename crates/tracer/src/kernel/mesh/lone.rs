@@ -113,7 +113,7 @@ impl Lone {
                 let node = &tree.nodes[visit.link as usize];
                 let (met, near) = self.enter(s, node, far);
                 if met != 0 {
-                    visit = waiting.nearest_of(node, met, &near);
+                    visit = waiting.nearest_of((tree, node), met, &near);
                     continue;
                 }
             } else if self.visit_leaf(s, (tree, visit), &mut waiting, best, umpire) {
@@ -308,23 +308,19 @@ fn edge<S: Simd>(v: &Corner<S>, w: &Corner<S>) -> f32x8<S> {
 impl Waiting<'_> {
     /// The nearest of some children of a node; the others wait, the nearer ones first.
     #[inline(always)]
-    fn nearest_of(&mut self, node: &Node8, children: u64, near: &[f32; WIDTH]) -> Visit {
-        let child = |bits: u64| {
-            let child = bits.trailing_zeros() as usize % WIDTH;
-            Visit::child(node, child, near[child])
-        };
-        let first = child(children);
+    fn nearest_of(&mut self, of: (&WideTree, &Node8), children: u64, near: &[f32; WIDTH]) -> Visit {
+        let first = Visit::ahead(of, children.trailing_zeros() as usize, near);
         let others = children & (children - 1);
         if others == 0 {
             return first;
         }
-        let second = child(others);
+        let second = Visit::ahead(of, others.trailing_zeros() as usize, near);
         let rest = others & (others - 1);
         let (mut nearest, other) = if second.near < first.near { (second, first) } else { (first, second) };
         let from = self.depth;
         self.push(other);
         for at in Bits(rest) {
-            let next = Visit::child(node, at, near[at % WIDTH]);
+            let next = Visit::ahead(of, at, near);
             if next.near < nearest.near {
                 self.push(nearest);
                 nearest = next;

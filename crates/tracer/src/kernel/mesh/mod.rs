@@ -19,7 +19,7 @@ use catoptra_core::{Ray, Span};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use crate::accel::{MAX_DEPTH, Node8, WIDTH};
+use crate::accel::{MAX_DEPTH, Node8, WIDTH, WideTree};
 use crate::numeric::CERTAIN;
 
 pub(crate) use bundle::{Bundle, Lines};
@@ -114,10 +114,13 @@ struct Visit {
 }
 
 impl Visit {
+    /// Of a child that is entered at that depth at least; it is on its way from memory then.
     #[inline(always)]
-    fn child(node: &Node8, child: usize, near: f32) -> Self {
+    fn ahead((tree, node): (&WideTree, &Node8), child: usize, near: &[f32; WIDTH]) -> Self {
         let child = child % WIDTH;
-        Self { near, link: node.link[child], count: u32::from(node.count[child]), packets: 1 }
+        let (link, count) = (node.link[child], u32::from(node.count[child]));
+        tree.prefetch(link, count);
+        Self { near: near[child], link, count, packets: 1 }
     }
 
     /// Blocks of a leaf, and which of each block's triangles are the leaf's.
