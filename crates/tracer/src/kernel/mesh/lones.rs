@@ -43,10 +43,9 @@ impl Lones {
         let floor = reach * F::splat(s, LONE_FLOOR);
         let floor = floor.mul_add(floor, F::splat(s, f32::MIN_POSITIVE));
         let mut lones = Self::nothing();
-        let [x, y, z] = [&origin.x, &origin.y, &origin.z];
-        lones.start(s, 0, (*x, direction.x), pad);
-        lones.start(s, 1, (*y, direction.y), pad);
-        lones.start(s, 2, (*z, direction.z), pad);
+        lones.start(s, 0, (origin.x, direction.x), pad);
+        lones.start(s, 1, (origin.y, direction.y), pad);
+        lones.start(s, 2, (origin.z, direction.z), pad);
         lones.lean(s, &lines.direction);
         (reach * F::splat(s, LONE_SHARE)).store(&mut lones.slack);
         floor.store(&mut lones.floor);
