@@ -9,7 +9,9 @@ use catoptra_core::{Arithmetic, Coefficient, Lane, LaneMask};
 use fearless_simd::prelude::*;
 
 pub(crate) use double::D;
-pub(crate) use vectors::{D3, F3, load_wide3, load3, narrow3, pick3, splat_wide, splat3, vector_of, widen3};
+pub(crate) use vectors::{
+    D3, F3, LaneVectors, load_wide3, load3, narrow3, pick3, splat_wide, splat3, vector_of, widen3,
+};
 
 /// `f32` in every lane.
 #[derive(Clone, Copy)]

@@ -6,7 +6,7 @@ use catoptra_core::Triple;
 use catoptra_core::glam::DVec3;
 use fearless_simd::prelude::*;
 
-use super::{D, F, M};
+use super::{D, F, M, MOST_LANES};
 
 /// Points, directions or colours in every lane.
 pub(crate) type F3<S> = Triple<F<S>>;
@@ -36,6 +36,26 @@ pub(crate) fn load3<S: Simd>(s: S, [x, y, z]: &[impl Deref<Target = [f32]>; 3], 
 #[inline(always)]
 pub(crate) fn load_wide3<S: Simd>(s: S, [x, y, z]: &[impl Deref<Target = [f64]>; 3], at: usize) -> D3<S> {
     Triple::new(D::load(s, &x[at..]), D::load(s, &y[at..]), D::load(s, &z[at..]))
+}
+
+/// Vectors of a packet that are found lane by lane.
+#[derive(Default)]
+pub(crate) struct LaneVectors([[f64; MOST_LANES]; 3]);
+
+impl LaneVectors {
+    #[inline(always)]
+    pub(crate) fn set(&mut self, lane: usize, v: DVec3) {
+        for (column, v) in self.0.iter_mut().zip(v.to_array()) {
+            column[lane % MOST_LANES] = v;
+        }
+    }
+
+    /// Those of all lanes; zero where none was set.
+    #[inline(always)]
+    pub(crate) fn load<S: Simd>(&self, s: S) -> D3<S> {
+        let [x, y, z] = &self.0;
+        Triple::new(D::load(s, x), D::load(s, y), D::load(s, z))
+    }
 }
 
 /// The vector of one lane.

@@ -11,7 +11,7 @@ use super::Tracer;
 use super::packet::Packet;
 use super::search::Best;
 use crate::kernel::{PlaneRow, cross};
-use crate::lanes::{D, D3, F, M, MOST_LANES, narrow3, pick3, splat_wide};
+use crate::lanes::{D, D3, F, LaneVectors, M, MOST_LANES, narrow3, pick3, splat_wide};
 use crate::snapshot::{Instance, Row};
 
 /// Points and normals of the lanes that meet something, in `f64`.
@@ -186,41 +186,18 @@ impl<S: Simd> Tracer<'_, S> {
     /// Lanes on a shape without a kernel.
     #[inline(always)]
     fn settle_general(&mut self, packet: &Packet<'_, S>, mask: M<S>, prim: u32) -> Settled<S> {
-        let mut lanes = LaneVectors::default();
+        let [mut points, mut normals, mut shading] = [(); 3].map(|()| LaneVectors::default());
         for lane in mask.lanes() {
             let (ray, leaving) = (packet.ray(lane), packet.leaving(lane));
             if let Some(hit) = self.frame.snapshot.cross_part(prim, None, &ray, Span::AHEAD, leaving) {
                 let c = hit.crossing;
-                lanes.set(
-                    lane,
-                    ray.at(c.t) - self.frame.snapshot.origin_in_frame(),
-                    c.normal,
-                    c.shading_normal,
-                );
+                points.set(lane, ray.at(c.t) - self.frame.snapshot.origin_in_frame());
+                normals.set(lane, c.normal);
+                shading.set(lane, c.shading_normal);
             }
         }
-        lanes.settled(self.s)
-    }
-}
-
-/// Points, normals and shading normals, filled lane by lane.
-#[derive(Default)]
-struct LaneVectors([[[f64; MOST_LANES]; 3]; 3]);
-
-impl LaneVectors {
-    fn set(&mut self, lane: usize, point: DVec3, normal: DVec3, shading: DVec3) {
-        for (columns, vector) in self.0.iter_mut().zip([point, normal, shading]) {
-            for (column, v) in columns.iter_mut().zip(vector.to_array()) {
-                column[lane] = v;
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn settled<S: Simd>(&self, s: S) -> Settled<S> {
-        let load = |[x, y, z]: &[[f64; MOST_LANES]; 3]| D3::new(D::load(s, x), D::load(s, y), D::load(s, z));
-        let [point, normal, shading] = &self.0;
-        Settled { point: load(point), normal: load(normal), shading: load(shading) }
+        let s = self.s;
+        Settled { point: points.load(s), normal: normals.load(s), shading: shading.load(s) }
     }
 }
 

@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
 use super::fan::{Aim, Fan, FanRays};
-use crate::lanes::{D, D3, F, M, MOST_LANES, U, splat_wide, vector_of};
+use crate::lanes::{D, D3, F, LaneVectors, M, U, splat_wide, vector_of};
 use crate::numeric::{FAN_SLOPE, FAN_SPREAD, FAN_WIDTH};
 
 /// Rays of a packet as lines from a point each.
@@ -99,19 +99,14 @@ impl<S: Simd> Lines<S> {
     /// One by one, for some lanes; none of those that have none.
     #[inline(always)]
     pub(crate) fn gathered(s: S, lanes: M<S>, mut ray: impl FnMut(usize) -> Option<Ray>) -> Self {
-        let (mut rows, mut live) = ([[0.0; MOST_LANES]; 6], 0);
+        let (mut origins, mut directions, mut live) = (LaneVectors::default(), LaneVectors::default(), 0);
         for lane in lanes.lanes() {
             let Some(ray) = ray(lane) else { continue };
-            let numbers = ray.origin.to_array().into_iter().chain(ray.direction.to_array());
-            for (row, number) in rows.iter_mut().zip(numbers) {
-                row[lane % MOST_LANES] = number;
-            }
+            origins.set(lane, ray.origin);
+            directions.set(lane, ray.direction);
             live |= 1 << lane;
         }
-        let [x, y, z, u, v, w] = &rows;
-        let origin = D3::new(D::load(s, x), D::load(s, y), D::load(s, z));
-        let direction = D3::new(D::load(s, u), D::load(s, v), D::load(s, w));
-        Self { origin, direction, live: M::from_bits(s, live) }
+        Self { origin: origins.load(s), direction: directions.load(s), live: M::from_bits(s, live) }
     }
 
     /// Origin and direction of the first of them.
