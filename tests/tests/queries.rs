@@ -1,9 +1,11 @@
 //! Does every backend answer questions about single rays as the exhaustive one does, and refuse what is no ray?
 
-use catoptra_core::geometry::Mesh;
+use catoptra_core::geometry::{Cuboid, Disk, Mesh, Rectangle, Sphere, Tetrahedron, Triangle};
 use catoptra_core::glam::DVec3;
 use catoptra_core::material::Matte;
-use catoptra_core::{Geometry, MeshSource, Placement, Ray, Rgb, Scene, Span, TriangleMesh};
+use catoptra_core::{
+    Geometry, MaterialId, MeshSource, Placement, Ray, Rgb, Scene, Shape, Span, TriangleMesh,
+};
 use catoptra_tests::{parsed, shipped_scenes};
 use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
 use catoptra_tracer::{Place, Pool, Preset, Snapshot, backend_named, backends};
@@ -249,8 +251,7 @@ fn all_meet_what_the_oracle_meets(numbers: &mut Numbers, source: &MeshSource) {
         let mesh = Mesh::new(source.clone()).placed(&placement);
         let rays = aimed_rays(numbers, &mesh, 5000);
         let mut scene = Scene::new();
-        let grey =
-            scene.add_material("grey", Matte::new(Rgb::grey(0.5)).expect("a colour")).expect("a material");
+        let grey = add_grey(&mut scene);
         scene.add_shape("mesh", mesh, grey, None).expect("a shape");
         for preset in Preset::ALL {
             let snapshot = Snapshot::extract_with(&scene, None, *preset);
@@ -259,20 +260,74 @@ fn all_meet_what_the_oracle_meets(numbers: &mut Numbers, source: &MeshSource) {
     }
 }
 
+fn add_grey(scene: &mut Scene) -> MaterialId {
+    scene.add_material("grey", Matte::new(Rgb::grey(0.5)).expect("a colour")).expect("a material")
+}
+
+/// Metres from the origin to what is far from all else.
+const FAR: [f64; 4] = [1e6, 1e9, 1e11, 1e13];
+
+/// Turned, and moved so far.
+fn far_placement(away: f64) -> Placement {
+    let turned = Placement::IDENTITY.turned(DVec3::ZERO, DVec3::new(0.3, 0.2, 0.1), 1.0).expect("a turn");
+    turned.moved(DVec3::new(away, -0.7 * away, 0.3 * away)).expect("a move")
+}
+
 #[test]
 fn meshes_far_from_all_else_are_met_where_the_oracle_meets_them() {
     let mut numbers = Numbers(88_172_645_463_325_252);
     let mesh = MeshSource { path: String::new(), mesh: thicket(&mut numbers, 300).into() };
-    let turned = Placement::IDENTITY.turned(DVec3::ZERO, DVec3::new(0.3, 0.2, 0.1), 1.0).expect("a turn");
-    for away in [1e6, 1e9, 1e11, 1e13] {
-        let far = turned.moved(DVec3::new(away, -0.7 * away, 0.3 * away)).expect("a move");
-        let mut scene = Scene::new();
-        let grey =
-            scene.add_material("grey", Matte::new(Rgb::grey(0.5)).expect("a colour")).expect("a material");
-        scene.add_shape("here", Mesh::new(mesh.clone()), grey, None).expect("a shape");
-        let far = Mesh::new(mesh.clone()).placed(&far);
+    for away in FAR {
+        let far = Mesh::new(mesh.clone()).placed(&far_placement(away));
         let rays = aimed_rays(&mut numbers, &far, 5000);
+        let mut scene = Scene::new();
+        let grey = add_grey(&mut scene);
+        scene.add_shape("here", Mesh::new(mesh.clone()), grey, None).expect("a shape");
         scene.add_shape("there", far, grey, None).expect("a shape");
+        assert_met_as_by_the_oracle(&Snapshot::extract(&scene), &rays, &format!("{away:e} m away,"));
+    }
+}
+
+/// One of each other bounded kind, with a point within it.
+fn shapes_apart() -> Vec<(DVec3, Shape)> {
+    let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
+    let sphere = Sphere::new(x * 3.0, 1.0).expect("a sphere");
+    let cuboid = Cuboid::new(x * -4.0, x * -3.0 + y + z).expect("a box");
+    let tetrahedron = Tetrahedron::new(y * 3.0, y * 3.0 + x, y * 4.0, y * 3.0 + z).expect("a tetrahedron");
+    let triangle = Triangle::new(y * -3.0, y * -3.0 + x, y * -3.0 + z).expect("a triangle");
+    let rectangle = Rectangle::new(z * 3.0, x, y).expect("a rectangle");
+    let disk = Disk::new(z * -3.0, z + x * 0.2, 1.0).expect("a disk");
+    vec![
+        (x * 3.0, sphere.into()),
+        (x * -3.5 + (y + z) * 0.5, cuboid.into()),
+        (y * 3.25 + (x + z) * 0.25, tetrahedron.into()),
+        (y * -3.0 + (x + z) * 0.3, triangle.into()),
+        (z * 3.0 + (x + y) * 0.5, rectangle.into()),
+        (z * -3.0, disk.into()),
+    ]
+}
+
+#[test]
+fn shapes_far_from_all_else_are_met_where_the_oracle_meets_them() {
+    let mut numbers = Numbers(88_172_645_463_325_252);
+    let shapes = shapes_apart();
+    for away in FAR {
+        let far = far_placement(away);
+        let mut scene = Scene::new();
+        let grey = add_grey(&mut scene);
+        scene
+            .add_shape("here", Sphere::new(DVec3::ZERO, 1.0).expect("a sphere"), grey, None)
+            .expect("a shape");
+        for (at, (_, shape)) in shapes.iter().enumerate() {
+            scene.add_shape(&format!("there {at}"), shape.placed(&far), grey, None).expect("a shape");
+        }
+        let mut rays = RayList::new();
+        for at in 0..6000 {
+            let from = far.point(numbers.vector() * 8.0);
+            let to = far.point(shapes[at % shapes.len()].0 + numbers.vector());
+            let ends = [[0.0, f64::INFINITY], [0.0, 1.0], [0.5, 2.0]][at / shapes.len() % 3];
+            rays.push(&Ray::new(from, to - from), ends, None);
+        }
         assert_met_as_by_the_oracle(&Snapshot::extract(&scene), &rays, &format!("{away:e} m away,"));
     }
 }
