@@ -33,6 +33,7 @@ mod instructions;
 mod integrator;
 mod kernel;
 mod lanes;
+mod memory;
 mod numeric;
 mod pattern;
 mod pick;

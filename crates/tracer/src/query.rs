@@ -7,6 +7,7 @@ use catoptra_core::{Ray, Span};
 use rayon::prelude::*;
 
 use crate::film::NOTHING;
+use crate::memory::fetch_ahead;
 use crate::snapshot::Way;
 use crate::{Backend, Hit, Place, Pool, Snapshot, Stats};
 
@@ -168,6 +169,14 @@ impl RaySlice<'_> {
     pub(crate) fn block(&self, at: usize) -> (&RayBlock, usize) {
         let at = self.first + at;
         (&self.rays.blocks[at / BLOCK], at % BLOCK)
+    }
+
+    /// Asks memory for the block that a ray stands in.
+    #[inline(always)]
+    pub(crate) fn fetch_ahead(&self, at: usize) {
+        if let Some(first) = self.rays.blocks.first() {
+            fetch_ahead::<RayBlock, f64>(&first.origin[0], (self.first + at) / BLOCK);
+        }
     }
 
     /// Asks about a ray, unless it can meet nothing: in the snapshot's frame, or where that rounds it, in the world.

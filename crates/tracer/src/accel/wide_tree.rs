@@ -1,15 +1,12 @@
 //! The tree over a mesh's triangles: eight boxes a node, triangles in blocks of eight, and how one `f64` ray walks it.
 
 use catoptra_core::{Ray, Span};
-use prefetch_index::prefetch_index;
 
 use super::{Box32, MAX_DEPTH};
+use crate::memory::fetch_ahead;
 
 /// Children of a node, and triangles of a block: as many as one register of AVX2 or half a register of AVX-512 holds.
 pub(crate) const WIDTH: usize = 8;
-
-/// Bytes of a line of the caches, which the ends of a box along an axis fill.
-const LINE: usize = size_of::<[[f32; WIDTH]; 2]>();
 
 /// Eight boxes side by side.
 #[derive(Debug, Clone)]
@@ -90,20 +87,12 @@ impl WideTree {
     /// caches, what waits has arrived by the time it is visited, which otherwise takes as long as the visit itself.
     #[inline(always)]
     pub(crate) fn prefetch(&self, link: u32, count: u32) {
-        // Lines are counted from the first one's: nothing is read, so no place has to be looked up.
         if count == 0 {
             let Some(first) = self.nodes.first() else { return };
-            let lines = size_of::<Node8>() / LINE;
-            for line in 0..lines {
-                prefetch_index(first.bounds.as_slice(), link as usize * lines + line);
-            }
+            fetch_ahead::<Node8, f32>(&first.bounds[0][0], link as usize);
         } else {
             let Some(first) = self.blocks.first() else { return };
-            let (lines, rows) = (size_of::<Block8>() / LINE, LINE / size_of::<[f32; WIDTH]>());
-            for line in 0..lines {
-                let line = link as usize / WIDTH * lines + line;
-                prefetch_index(first.corners.as_flattened(), line * rows);
-            }
+            fetch_ahead::<Block8, f32>(&first.corners[0][0], link as usize / WIDTH);
         }
     }
 

@@ -196,6 +196,7 @@ impl<'a, S: Simd> Tracer<'a, S> {
     /// Finds triangles for the rays of a packet, one after another.
     #[inline(always)]
     fn find_each(&mut self, asked: &Asked<'_>, only: Only<'_>, packet: &Group<S>) -> U<S> {
+        asked.fetch_ahead(packet.start(GROUP));
         let mut slots = [NONE; MOST_LANES];
         let left = asked.left(self.s, packet.at).facets_of(self.s, only.instance.prim);
         let mut umpire = self.umpire(asked, only, packet);
