@@ -12,7 +12,7 @@ use super::umpire::Nearest;
 use crate::Place;
 use crate::accel::WIDTH;
 use crate::kernel::mesh::{Bundle, FanRays, LaneTriangles, Lines, LoneBest, Lones, Visits};
-use crate::lanes::{Bits, D, D3, F, M, MOST_LANES, U, splat_wide};
+use crate::lanes::{Bits, D, D3, F, M, U, splat_wide};
 use crate::numeric::{BOUNDS_ERROR, END_ERROR, POINT_ERROR};
 use crate::snapshot::{Affine, Instance};
 
@@ -139,22 +139,24 @@ impl<S: Simd> Tracer<'_, S> {
         umpire: &mut Nearest<'_, S>,
         visits: &mut Visits,
     ) -> U<S> {
-        let mut slots = [NONE; MOST_LANES];
         let left = packet.left.facets_of(self.s, instance.prim);
         let any = matches!(packet.precise, Precise::Asked(asked, _) if asked.any);
-        let lones = self.lones(lines, instance);
-        for lane in lines.live.lanes() {
-            let mut found = LoneBest::nothing_on(packet.span(lane)).for_any(any);
-            if best.prim.lane(lane) != NONE {
+        self.lones(lines, instance).search(
+            self.s,
+            (&instance.tree.tree, visits),
+            (lines.live, left),
+            #[inline(always)]
+            |lane| {
+                let found = LoneBest::nothing_on(packet.span(lane)).for_any(any);
+                if best.prim.lane(lane) == NONE {
+                    return found;
+                }
                 let (metres, length) = (best.t.lane(lane), packet.inverse_length.lane(lane));
                 let error = best.error.lane(lane) + metres * END_ERROR;
-                found = found.before((metres * length, error * length));
-            }
-            let lone = lones.lane(lane, left.lane(lane));
-            lone.search(self.s, &instance.tree.tree, visits, &mut found, umpire);
-            slots[lane % MOST_LANES] = found.slot.unwrap_or(NONE);
-        }
-        U::load(self.s, &slots)
+                found.before((metres * length, error * length))
+            },
+            umpire,
+        )
     }
 
     /// Lines in a mesh's own space as rays of their own.

@@ -10,7 +10,7 @@ use super::shadow::Ways;
 use super::umpire::Blocked;
 use crate::integrator::LIGHT_ITSELF;
 use crate::kernel::mesh::{Bundle, Fan, FanRays, Lines, LoneBest, Lones, Umpire, Visits};
-use crate::lanes::{D3, F, M, pick3, splat_wide, widen3};
+use crate::lanes::{D3, F, M, U, pick3, splat_wide, widen3};
 use crate::numeric::{END_ERROR, POINT_ERROR, START_ERROR};
 use crate::snapshot::Instance;
 
@@ -42,20 +42,20 @@ impl<S: Simd> Tracer<'_, S> {
         let mut visits = std::mem::take(self.visits);
         let fan =
             if ways.target.at_infinity { None } else { self.fan_to_light((packet, ways), open, instance) };
-        let closed = match fan {
+        let slots = match fan {
             Some((fan, mut rays)) => {
                 fan.search(self.s, &instance.tree.tree, &mut visits, &mut rays, &mut umpire);
                 self.stats.settled += rays[0].settled;
-                (!rays[0].slot.is(NONE) & open).bits()
+                rays[0].slot
             }
             None => self.close_each((packet, ways), open, instance, &mut umpire, &mut visits),
         };
         self.count(&mut visits);
         *self.visits = visits;
-        open & !M::from_bits(self.s, closed)
+        open & slots.is(NONE)
     }
 
-    /// The ways to a light that a mesh blocks, one after another; bit by bit.
+    /// The triangles that stand in ways to a light, found one after another.
     #[inline(always)]
     fn close_each(
         &mut self,
@@ -64,7 +64,7 @@ impl<S: Simd> Tracer<'_, S> {
         instance: &Instance,
         umpire: &mut Blocked<'_, S>,
         visits: &mut Visits,
-    ) -> u64 {
+    ) -> U<S> {
         let (lones, live, span) = if ways.target.at_infinity {
             let (origin, off) = self.own_starts((packet, ways), open, instance);
             let sunwards = umpire.mesh.to_object().vector(ways.target.in_frame);
@@ -77,14 +77,8 @@ impl<S: Simd> Tracer<'_, S> {
             (Lones::of(self.s, &lines, exact, instance.tree.reach), lines.live, LIGHT_ITSELF)
         };
         let left = ways.left.facets_of(self.s, instance.prim);
-        let mut closed = 0;
-        for lane in live.lanes() {
-            let lone = lones.lane(lane, left.lane(lane));
-            let mut found = LoneBest::nothing_on(span).for_any(true);
-            lone.search(self.s, &instance.tree.tree, visits, &mut found, umpire);
-            closed |= u64::from(found.slot.is_some()) << lane;
-        }
-        closed
+        let begun = LoneBest::nothing_on(span).for_any(true);
+        lones.search(self.s, (&instance.tree.tree, visits), (live, left), |_| begun, umpire)
     }
 
     /// Ways to a light as rays from it, if they lie close enough together.

@@ -13,7 +13,7 @@ use crate::lanes::Bits;
 use crate::numeric::{BOX_STRETCH, LONE_DEPTH, LONE_SPREAD, LONE_STEEP};
 
 /// A ray in a mesh's own space.
-pub(crate) struct Lone {
+pub(super) struct Lone {
     pub(super) lane: usize,
     /// The triangle that the ray leaves from.
     pub(super) left: u32,
@@ -81,7 +81,7 @@ impl LoneBest {
 
 impl Lone {
     /// Finds the nearest triangle, or any. Compiled apart.
-    pub(crate) fn search<S: Simd>(
+    pub(super) fn search<S: Simd>(
         &self,
         s: S,
         tree: &WideTree,

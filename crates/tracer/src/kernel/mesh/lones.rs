@@ -3,8 +3,10 @@
 use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::Simd;
 
-use super::{Lines, Lone};
-use crate::lanes::{D, D3, F, M, MOST_LANES, narrow3};
+use super::lone::Lone;
+use super::{Lines, LoneBest, Umpire, Visits};
+use crate::accel::WideTree;
+use crate::lanes::{D, D3, F, M, MOST_LANES, U, narrow3};
 use crate::numeric::{BOX_STRETCH, LONE_FLOOR, LONE_OFF, LONE_PAD, LONE_SHARE};
 
 /// A number of every lane.
@@ -97,9 +99,29 @@ impl Lones {
         self.mostly = [(!not_x).bits(), (!not_y).bits()];
     }
 
+    /// Finds the nearest triangle for the rays of some lanes, or any, one after another, from the triangles that are left;
+    /// `begun` says what is known of a ray before. Answers their places in the tree's blocks; [`u32::MAX`] for none.
+    #[inline(always)]
+    pub(crate) fn search<S: Simd>(
+        &self,
+        s: S,
+        (tree, visits): (&WideTree, &mut Visits),
+        (lanes, left): (M<S>, U<S>),
+        begun: impl Fn(usize) -> LoneBest,
+        umpire: &mut dyn Umpire,
+    ) -> U<S> {
+        let mut slots = [u32::MAX; MOST_LANES];
+        for lane in lanes.lanes() {
+            let mut found = begun(lane);
+            self.lane(lane, left.lane(lane)).search(s, tree, visits, &mut found, umpire);
+            slots[lane % MOST_LANES] = found.slot.unwrap_or(u32::MAX);
+        }
+        U::load(s, &slots)
+    }
+
     /// The ray of a lane, which leaves from a triangle.
     #[inline(always)]
-    pub(crate) fn lane(&self, lane: usize, left: u32) -> Lone {
+    pub(super) fn lane(&self, lane: usize, left: u32) -> Lone {
         let at = lane % MOST_LANES;
         let bit = |bits: u64| (bits >> at & 1) as usize;
         let three = |[x, y, z]: &[Row; 3]| [x[at], y[at], z[at]];

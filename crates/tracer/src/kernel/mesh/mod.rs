@@ -24,7 +24,7 @@ use crate::numeric::CERTAIN;
 
 pub(crate) use bundle::{Bundle, Lines};
 pub(crate) use fan::{Fan, FanRays};
-pub(crate) use lone::{Lone, LoneBest};
+pub(crate) use lone::LoneBest;
 pub(crate) use lones::Lones;
 pub(crate) use precise::LaneTriangles;
 

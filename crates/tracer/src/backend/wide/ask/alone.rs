@@ -11,7 +11,7 @@ use crate::backend::wide::mesh::{NONE, ends_of_ways};
 use crate::backend::wide::umpire::Alone;
 use crate::film::NOTHING;
 use crate::kernel::mesh::{Bundle, FanRays, GROUP, Lines, LoneBest};
-use crate::lanes::{F, M, MOST_LANES, U};
+use crate::lanes::{F, M, U};
 use crate::snapshot::{Instance, Row};
 
 /// The mesh that is all there is.
@@ -197,22 +197,22 @@ impl<'a, S: Simd> Tracer<'a, S> {
     #[inline(always)]
     fn find_each(&mut self, asked: &Asked<'_>, only: Only<'_>, packet: &Group<S>) -> U<S> {
         asked.fetch_ahead(packet.start(GROUP));
-        let mut slots = [NONE; MOST_LANES];
         let left = asked.left(self.s, packet.at).facets_of(self.s, only.instance.prim);
         let mut umpire = self.umpire(asked, only, packet);
         let mut visits = std::mem::take(self.visits);
         let (origin, direction) = asked.own_lines(self.s, packet.at, only.instance);
         let lines = Lines { origin, direction, live: packet.live[0] };
-        let lones = self.lones(&lines, only.instance);
-        for lane in lines.live.lanes() {
-            let mut found = LoneBest::nothing_on(asked.span(packet.at + lane)).for_any(asked.any);
-            let lone = lones.lane(lane, left.lane(lane));
-            lone.search(self.s, &only.instance.tree.tree, &mut visits, &mut found, &mut umpire);
-            slots[lane % MOST_LANES] = found.slot.unwrap_or(NONE);
-        }
+        let slots = self.lones(&lines, only.instance).search(
+            self.s,
+            (&only.instance.tree.tree, &mut visits),
+            (lines.live, left),
+            #[inline(always)]
+            |lane| LoneBest::nothing_on(asked.span(packet.at + lane)).for_any(asked.any),
+            &mut umpire,
+        );
         self.count(&mut visits);
         *self.visits = visits;
-        U::load(self.s, &slots)
+        slots
     }
 
     #[inline(always)]
