@@ -188,9 +188,9 @@ pub(crate) const ORDER_SHEAR: f64 = 256.0 * W;
 /// given in `f32` lie within a few roundings of each other.
 pub(crate) const FAN_SPREAD: f32 = 64.0 * U;
 
-/// Most that the slopes of rays may differ by to be traced together: a choice that only costs or saves time, not yet tuned by
-/// measurement.
-pub(crate) const FAN_WIDTH: f32 = 1.0;
+/// Most that slopes of rays may be to be traced together: so far below 2 that no error takes them there, which all bounds of
+/// rays through one point rest on.
+pub(crate) const FAN_STEEP: f32 = 1.9;
 
 /// Most that the `t` of a triangle may be off, relative to itself, for its plane to be taken at its word: a 64th of what
 /// `f32` can hold.

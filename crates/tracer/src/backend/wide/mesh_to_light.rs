@@ -11,7 +11,7 @@ use super::umpire::Blocked;
 use crate::integrator::LIGHT_ITSELF;
 use crate::kernel::mesh::{Bundle, Fan, FanRays, Lines, LoneBest, Lones, Umpire, Visits};
 use crate::lanes::{D3, F, M, U, pick3, splat_wide, widen3};
-use crate::numeric::{END_ERROR, POINT_ERROR, START_ERROR};
+use crate::numeric::{END_ERROR, FAN_STEEP, POINT_ERROR, START_ERROR};
 use crate::snapshot::Instance;
 
 impl<S: Simd> Tracer<'_, S> {
@@ -99,7 +99,8 @@ impl<S: Simd> Tracer<'_, S> {
         let left = ways.left.facets_of(self.s, instance.prim);
         rays[0].start(self.s, [zero, zero], [scale, error], left);
         let steep = rays[0].error_where_off(self.s, off);
-        Some((bundle.fan.for_any().with_slopes_off(steep), rays))
+        // So close to the lamp that nothing is known of slopes, each goes its own way.
+        (steep < 2.0 - FAN_STEEP).then(|| (bundle.fan.for_any().with_slopes_off(steep), rays))
     }
 
     /// Where ways begin in a mesh's own space, and how far that may be off: settled in `f64` where they leave the mesh

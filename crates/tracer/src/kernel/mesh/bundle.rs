@@ -7,7 +7,7 @@ use fearless_simd::prelude::*;
 
 use super::fan::{Aim, Fan, FanRays};
 use crate::lanes::{D, D3, F, LaneVectors, M, U, splat_wide, vector_of};
-use crate::numeric::{FAN_SLOPE, FAN_SPREAD, FAN_WIDTH};
+use crate::numeric::{FAN_SLOPE, FAN_SPREAD, FAN_STEEP};
 
 /// Rays of a packet as lines from a point each.
 #[derive(Clone, Copy)]
@@ -25,7 +25,7 @@ pub(crate) struct Bundle {
 }
 
 impl Bundle {
-    /// Of the lines of some packets, if they go through one point and lie close enough together; for a mesh of that reach.
+    /// Of the lines of some packets, if they go through one point and much the same way; for a mesh of that reach.
     /// Origins may be `off` by so much, beyond the roundings of `f64`. The rays then have the lines' slopes. Compiled apart.
     #[inline(always)]
     pub(crate) fn of<S: Simd>(
@@ -74,9 +74,8 @@ impl Bundle {
         }
         let least = least.0.reduce_min();
         let slack = (apart.0.reduce_max() + off) * (1.0 + FAN_SLOPE);
-        let (width, height) = (high[0] - low[0], high[1] - low[1]);
         let through_one = slack <= FAN_SPREAD * least && least > 0.0;
-        if !(through_one && width <= FAN_WIDTH && height <= FAN_WIDTH) {
+        if !through_one {
             return None;
         }
         let fan = Fan::new(&aim, apex, slack, [low, high], reach).with_slopes_off(2.0 * slack / least);
@@ -166,10 +165,10 @@ impl<S: Simd> FanRays<S> {
         self.slopes = [[u.reduce_min(), v.reduce_min()], [u.reduce_max(), v.reduce_max()]];
     }
 
-    /// Whether a line runs more along the main axis than across it, or nearly so.
+    /// Whether a line runs along the main axis rather than across it, or at least not much more across.
     #[inline(always)]
     fn are_small(&self, s: S) -> M<S> {
-        let most = F::splat(s, 1.5);
+        let most = F::splat(s, FAN_STEEP);
         self.u.abs().less(most) & self.v.abs().less(most)
     }
 
