@@ -235,7 +235,7 @@ fn depths_on_planes_hold_their_bounds() {
 fn attack_planes<S: Simd>(s: S, random: &mut Random, target: &Target, records: &mut [Record; 2]) {
     let Some((rays, bundle, [of_fan])) = aimed(s, random, target) else { return };
     let (fan, tree) = (&bundle.fan, &target.tree.tree);
-    let Some((prepared, _)) = fan.prepare(s, &tree.blocks[0], u64::MAX) else { return };
+    let Some((prepared, _)) = fan.prepare(s, (&tree.blocks[0], u64::MAX), &fan.sight()) else { return };
     for slot in 0..target.shapes.len() as u32 {
         let shape = &target.shapes[tree.facet(slot) as usize];
         let precise = fan.precise_plane(&tree.triangle(slot));

@@ -19,13 +19,55 @@ pub(super) struct Prepared {
     pub(super) depth_errors: [[f32; WIDTH]; 2],
 }
 
+/// What all triangles are held against: the rays of a group as one box of slopes, with bounds.
+pub(super) struct Sight {
+    slopes: Slopes,
+    /// Errors of an edge's value per size of its plane's components, axis by axis, and per length of the edge.
+    shares: [f32; 3],
+    beside: f32,
+}
+
+/// The middles of slopes, and how far they lie from those.
+pub(super) struct Slopes {
+    middle: [f32; 2],
+    half: [f32; 2],
+}
+
+impl Slopes {
+    #[inline(always)]
+    pub(super) fn of([low, high]: [[f32; 2]; 2]) -> Self {
+        // Half the width is rounded by less than what the edges' doubled errors have room for.
+        Self {
+            middle: [(low[0] + high[0]) * 0.5, (low[1] + high[1]) * 0.5],
+            half: [(high[0] - low[0]) * 0.5, (high[1] - low[1]) * 0.5],
+        }
+    }
+}
+
 /// Three numbers for each of eight triangles.
 type Eight3<S> = [f32x8<S>; 3];
 
 impl Fan {
+    /// The rays as a block is held against them: the same for all blocks.
+    pub(super) fn sight(&self) -> Sight {
+        let slopes = self.widened([self.low, self.high]);
+        let [low, high] = slopes;
+        let most = [low[0].abs().max(high[0].abs()), low[1].abs().max(high[1].abs())];
+        Sight {
+            slopes: Slopes::of(slopes),
+            shares: [FAN_EDGE * most[0] + self.slopes_off, FAN_EDGE * most[1] + self.slopes_off, FAN_EDGE],
+            beside: 2.0 * (1.0 + most[0] + most[1]) * self.slack,
+        }
+    }
+
     /// A block as seen from the point, and which of some triangles rays may meet, if any.
     #[inline(always)]
-    pub(super) fn prepare<S: Simd>(&self, s: S, block: &Block8, own: u64) -> Option<(Prepared, u64)> {
+    pub(super) fn prepare<S: Simd>(
+        &self,
+        s: S,
+        (block, own): (&Block8, u64),
+        sight: &Sight,
+    ) -> Option<(Prepared, u64)> {
         let (a, b, c) = (self.corner(s, block, 0), self.corner(s, block, 1), self.corner(s, block, 2));
         let edges = [minus(c, b), minus(a, c), minus(b, a)];
         let (p, q, r) = (self.seen_from_apex(s, a), self.seen_from_apex(s, b), self.seen_from_apex(s, c));
@@ -34,15 +76,10 @@ impl Fan {
         let size = largest(edges);
         let far = [p[0].abs() + size[0], p[1].abs() + size[1], p[2].abs() + size[2]];
         let length = size[0].max(size[1]).max(size[2]);
-        let slopes = self.widened([self.low, self.high]);
-        let [low, high] = slopes;
-        let most = [low[0].abs().max(high[0].abs()), low[1].abs().max(high[1].abs())];
-        let shares = [FAN_EDGE * most[0] + self.slopes_off, FAN_EDGE * most[1] + self.slopes_off, FAN_EDGE];
-        let beside = 2.0 * (1.0 + most[0] + most[1]) * self.slack;
         let least = f32x8::splat(s, f32::MIN_POSITIVE);
-        let of_point = length.mul_add_precise(f32x8::splat(s, beside), least);
-        let edge_error = bound_eight(s, weighted(s, products(size, far), shares, of_point));
-        let seen = seen(s, &planes, edge_error, slopes) & own;
+        let of_point = length.mul_add_precise(f32x8::splat(s, sight.beside), least);
+        let edge_error = bound_eight(s, weighted(s, products(size, far), sight.shares, of_point));
+        let seen = seen(s, &planes, edge_error, &sight.slopes) & own;
         if seen == 0 {
             return None;
         }
@@ -51,7 +88,7 @@ impl Fan {
         let areas = [size[1] * size[2], size[2] * size[0], size[0] * size[1]];
         let of_point = (length * length).mul_add_precise(f32x8::splat(s, 6.0 * self.slack), least);
         let top_error = dot(areas, far).mul_add_precise(f32x8::splat(s, 2.0 * FAN_TOP), of_point);
-        let slope_error = weighted(s, areas, shares.map(|share| share + share), least);
+        let slope_error = weighted(s, areas, sight.shares.map(|share| share + share), least);
         let deepest = p[2].max(q[2]).max(r[2]).max(f32x8::splat(s, 0.0)) + f32x8::splat(s, 2.0 * self.slack);
         let most = (deepest * f32x8::splat(s, 1.5)).mul_add_precise(slope_error, top_error);
         let certain = (most * f32x8::splat(s, 4.0)).simd_lt(top.abs());
@@ -94,27 +131,19 @@ impl Fan {
 impl Prepared {
     /// Triangles that the rays within a box of slopes are not certain to miss.
     #[inline(always)]
-    pub(super) fn seen_by<S: Simd>(&self, s: S, slopes: [[f32; 2]; 2]) -> u64 {
+    pub(super) fn seen_by<S: Simd>(&self, s: S, slopes: &Slopes) -> u64 {
         let [a, b, c] = &self.edges;
         let planes = [loaded(s, a), loaded(s, b), loaded(s, c)];
         seen(s, &planes, f32x8::load_array_ref(s, &self.edge_error), slopes)
     }
 }
 
-/// The middle of slopes along an axis, and how far they lie from it.
-#[inline(always)]
-fn side<S: Simd>(s: S, [low, high]: [[f32; 2]; 2], which: usize) -> (f32x8<S>, f32x8<S>) {
-    let half = f32x8::splat(s, 0.5);
-    let (low, high) = (f32x8::splat(s, low[which]), f32x8::splat(s, high[which]));
-    // Half the width is rounded by less than what the edges' doubled errors have room for.
-    ((low + high) * half, (high - low) * half)
-}
-
 /// Triangles that not all rays are certain to miss: those that no two edges leave all rays on different sides of.
 #[inline(always)]
-fn seen<S: Simd>(s: S, planes: &[Eight3<S>; 3], error: f32x8<S>, slopes: [[f32; 2]; 2]) -> u64 {
+fn seen<S: Simd>(s: S, planes: &[Eight3<S>; 3], error: f32x8<S>, slopes: &Slopes) -> u64 {
     let doubled = error + error;
-    let ((u, du), (v, dv)) = (side(s, slopes, 0), side(s, slopes, 1));
+    let (u, v) = (f32x8::splat(s, slopes.middle[0]), f32x8::splat(s, slopes.middle[1]));
+    let (du, dv) = (f32x8::splat(s, slopes.half[0]), f32x8::splat(s, slopes.half[1]));
     let (mut least_high, mut most_low) = (f32x8::splat(s, f32::INFINITY), f32x8::splat(s, f32::NEG_INFINITY));
     for n in planes {
         let middle = n[0].mul_add_precise(u, n[1].mul_add_precise(v, n[2]));

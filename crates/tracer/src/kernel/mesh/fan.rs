@@ -10,6 +10,7 @@ use catoptra_core::{Lane, LaneMask};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
+use super::edges::{Sight, Slopes};
 use super::packets::Packets;
 use super::{GROUP, Umpire, Visit, Visits, Waiting};
 use crate::accel::{Node8, WIDTH, WideTree};
@@ -173,6 +174,7 @@ impl Fan {
         }
         waiting.push(Visit { near: 0.0, link: 0, count: 0, packets: (1 << rays.len().min(GROUP)) - 1 });
         let mut farthest = packets.farthest(s);
+        let sight = self.sight();
         while let Some(visit) = waiting.pop(farthest) {
             if visit.count == 0 {
                 *waiting.nodes += 1;
@@ -182,7 +184,7 @@ impl Fan {
             for (block, own) in visit.blocks() {
                 *waiting.blocks += 1;
                 let within = u64::from(visit.packets & packets.within(s, visit.near));
-                let changed = self.pass(s, (tree, block, own), within, rays, umpire);
+                let changed = self.pass(s, (tree, block, own), (&sight, within), rays, umpire);
                 for packet in Bits(changed) {
                     let rays = &mut rays[packet];
                     if self.any && rays.live.any() {
@@ -258,16 +260,19 @@ impl Fan {
         &self,
         s: S,
         (tree, block, own): (&WideTree, usize, u64),
-        packets: u64,
+        (sight, packets): (&Sight, u64),
         rays: &mut [FanRays<S>],
         umpire: &mut dyn Umpire,
     ) -> u64 {
-        let Some((prepared, seen)) = self.prepare(s, &tree.blocks[block], own) else { return 0 };
+        let Some((prepared, seen)) = self.prepare(s, (&tree.blocks[block], own), sight) else { return 0 };
         let mut changed = 0;
         for packet in Bits(packets) {
             let Some(packet_rays) = rays.get_mut(packet) else { continue };
-            let seen =
-                if seen & (seen - 1) == 0 { seen } else { seen & prepared.seen_by(s, packet_rays.slopes) };
+            let seen = if seen & (seen - 1) == 0 {
+                seen
+            } else {
+                seen & prepared.seen_by(s, &Slopes::of(packet_rays.slopes))
+            };
             for at in Bits(seen) {
                 let at = at % WIDTH;
                 let facet = tree.blocks[block].facet[at];
