@@ -7,7 +7,7 @@ use catoptra_core::{Ray, Span};
 use rayon::prelude::*;
 
 use crate::film::NOTHING;
-use crate::memory::fetch_ahead;
+use crate::memory::prefetch;
 use crate::snapshot::Way;
 use crate::{Backend, Hit, Place, Pool, Snapshot, Stats};
 
@@ -173,9 +173,9 @@ impl RaySlice<'_> {
 
     /// Asks memory for the block that a ray stands in.
     #[inline(always)]
-    pub(crate) fn fetch_ahead(&self, at: usize) {
+    pub(crate) fn prefetch(&self, at: usize) {
         if let Some(first) = self.rays.blocks.first() {
-            fetch_ahead::<RayBlock, f64>(&first.origin[0], (self.first + at) / BLOCK);
+            prefetch::<RayBlock, f64>(&first.origin[0], (self.first + at) / BLOCK);
         }
     }
 

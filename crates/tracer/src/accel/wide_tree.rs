@@ -3,7 +3,7 @@
 use catoptra_core::{Ray, Span};
 
 use super::{Box32, MAX_DEPTH};
-use crate::memory::fetch_ahead;
+use crate::memory::prefetch;
 
 /// Children of a node, and triangles of a block: as many as one register of AVX2 or half a register of AVX-512 holds.
 pub(crate) const WIDTH: usize = 8;
@@ -89,10 +89,10 @@ impl WideTree {
     pub(crate) fn prefetch(&self, link: u32, count: u32) {
         if count == 0 {
             let Some(first) = self.nodes.first() else { return };
-            fetch_ahead::<Node8, f32>(&first.bounds[0][0], link as usize);
+            prefetch::<Node8, f32>(&first.bounds[0][0], link as usize);
         } else {
             let Some(first) = self.blocks.first() else { return };
-            fetch_ahead::<Block8, f32>(&first.corners[0][0], link as usize / WIDTH);
+            prefetch::<Block8, f32>(&first.corners[0][0], link as usize / WIDTH);
         }
     }
 

@@ -67,12 +67,6 @@ impl Asked<'_> {
         (origin - splat_wide(s, self.snapshot.origin()), direction)
     }
 
-    /// Asks memory for the rays from `at` on, before they are read.
-    #[inline(always)]
-    pub(super) fn fetch_ahead(&self, at: usize) {
-        self.rays.fetch_ahead(at);
-    }
-
     /// As [`precise`](Self::precise), in a mesh's own space.
     #[inline(always)]
     pub(super) fn own_lines<S: Simd>(&self, s: S, at: usize, instance: &Instance) -> (D3<S>, D3<S>) {

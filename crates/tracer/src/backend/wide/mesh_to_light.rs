@@ -81,7 +81,7 @@ impl<S: Simd> Tracer<'_, S> {
         lones.search(self.s, (&instance.tree.tree, visits), (live, left), |_| begun, umpire)
     }
 
-    /// Ways to a light as rays from it, if they lie close enough together.
+    /// Ways to a light as rays from it, if they run much the same way.
     #[inline(always)]
     fn fan_to_light(
         &self,

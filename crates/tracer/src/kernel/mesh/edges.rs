@@ -50,11 +50,9 @@ type Eight3<S> = [f32x8<S>; 3];
 impl Fan {
     /// The rays as a block is held against them: the same for all blocks.
     pub(super) fn sight(&self) -> Sight {
-        let slopes = self.widened([self.low, self.high]);
-        let [low, high] = slopes;
-        let most = [low[0].abs().max(high[0].abs()), low[1].abs().max(high[1].abs())];
+        let most = self.steepest();
         Sight {
-            slopes: Slopes::of(slopes),
+            slopes: Slopes::of(self.widened([self.low, self.high])),
             shares: [FAN_EDGE * most[0] + self.slopes_off, FAN_EDGE * most[1] + self.slopes_off, FAN_EDGE],
             beside: 2.0 * (1.0 + most[0] + most[1]) * self.slack,
         }

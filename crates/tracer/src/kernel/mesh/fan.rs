@@ -141,6 +141,13 @@ impl Fan {
         [[low[0] - wider, low[1] - wider], [high[0] + wider, high[1] + wider]]
     }
 
+    /// At most the size of any ray's slopes.
+    #[inline(always)]
+    pub(super) fn steepest(&self) -> [f32; 2] {
+        let [low, high] = self.widened([self.low, self.high]);
+        [low[0].abs().max(high[0].abs()), low[1].abs().max(high[1].abs())]
+    }
+
     /// Finds the nearest triangle for every ray of up to [`GROUP`] packets, or any. The umpire counts lanes from the
     /// first packet's on. Compiled apart.
     pub(crate) fn search<S: Simd>(

@@ -157,8 +157,7 @@ impl Fan {
 
     /// At most the size of any ray's slopes, and the 1 along the main axis.
     fn spread(&self) -> DVec3 {
-        let [low, high] = self.widened([self.low, self.high]);
-        let most = |axis: usize| f64::from(low[axis].abs().max(high[axis].abs()));
-        DVec3::new(most(0), most(1), 1.0)
+        let [u, v] = self.steepest().map(f64::from);
+        DVec3::new(u, v, 1.0)
     }
 }

@@ -196,7 +196,7 @@ impl<'a, S: Simd> Tracer<'a, S> {
     /// Finds triangles for the rays of a packet, one after another.
     #[inline(always)]
     fn find_each(&mut self, asked: &Asked<'_>, only: Only<'_>, packet: &Group<S>) -> U<S> {
-        asked.fetch_ahead(packet.start(GROUP));
+        asked.rays.prefetch(packet.start(GROUP));
         let left = asked.left(self.s, packet.at).facets_of(self.s, only.instance.prim);
         let mut umpire = self.umpire(asked, only, packet);
         let mut visits = std::mem::take(self.visits);
