@@ -106,10 +106,13 @@ impl Surface for Checker {
         is_near_edge(x, error) | is_near_edge(z, error)
     }
 
+    #[inline(always)]
     fn reduced(&self, position: DVec3) -> DVec3 {
         let middle = |along: f64, phase: Coefficient| {
             let cell = along.mul_add(self.scale.wide, phase.wide).floor();
-            (cell.rem_euclid(2.0) + 0.5 - phase.wide) / self.scale.wide
+            // The rest of a division by 2, exactly, and without a call.
+            let parity = cell - 2.0 * (0.5 * cell).floor();
+            (parity + 0.5 - phase.wide) / self.scale.wide
         };
         let [x, z] = self.phase;
         DVec3::new(middle(position.x, x), position.y, middle(position.z, z))

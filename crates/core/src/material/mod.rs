@@ -101,6 +101,7 @@ pub trait Surface {
     }
 
     /// A position that looks the same as this one, and so for certain: far from where the look jumps, and near zero.
+    #[inline(always)]
     fn reduced(&self, position: DVec3) -> DVec3 {
         position
     }
@@ -222,6 +223,7 @@ impl Material {
 
     /// See [`Surface::reduced`].
     #[must_use]
+    #[inline(always)]
     pub fn reduced(&self, position: DVec3) -> DVec3 {
         each_material!(self, material => material.reduced(position))
     }

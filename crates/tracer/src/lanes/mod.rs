@@ -10,7 +10,8 @@ use fearless_simd::prelude::*;
 
 pub(crate) use double::D;
 pub(crate) use vectors::{
-    D3, F3, LaneVectors, load_wide3, load3, narrow3, pick3, splat_wide, splat3, vector_of, widen3,
+    D3, F3, LaneVectors, compress_wide3, compress3, load_wide3, load3, narrow3, pick3, splat_wide, splat3,
+    store_wide3, store3, vector_of, widen3,
 };
 
 /// `f32` in every lane.
@@ -47,6 +48,12 @@ impl<S: Simd> F<S> {
     #[inline(always)]
     pub(crate) fn lane(self, lane: usize) -> f32 {
         self.0.as_slice()[lane]
+    }
+
+    /// The lanes where the mask holds one after another, and anything after them.
+    #[inline(always)]
+    pub(crate) fn compressed(self, mask: M<S>) -> Self {
+        Self(self.0.compress(mask.0))
     }
 
     /// The least of all lanes.
@@ -313,6 +320,12 @@ impl<S: Simd> U<S> {
     #[inline(always)]
     pub(crate) fn set(&mut self, lane: usize, v: u32) {
         self.0.as_mut_slice()[lane] = v;
+    }
+
+    /// The lanes where the mask holds one after another, and anything after them.
+    #[inline(always)]
+    pub(crate) fn compressed(self, mask: M<S>) -> Self {
+        Self(self.0.compress(mask.0))
     }
 
     /// `first`, `first + 1`, …

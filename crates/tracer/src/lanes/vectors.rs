@@ -1,6 +1,6 @@
 //! Three numbers in every lane: points, directions, colours.
 
-use std::ops::Deref;
+use std::ops::{Deref, DerefMut};
 
 use catoptra_core::Triple;
 use catoptra_core::glam::DVec3;
@@ -36,6 +36,42 @@ pub(crate) fn load3<S: Simd>(s: S, [x, y, z]: &[impl Deref<Target = [f32]>; 3], 
 #[inline(always)]
 pub(crate) fn load_wide3<S: Simd>(s: S, [x, y, z]: &[impl Deref<Target = [f64]>; 3], at: usize) -> D3<S> {
     Triple::new(D::load(s, &x[at..]), D::load(s, &y[at..]), D::load(s, &z[at..]))
+}
+
+/// Writes a packet's lanes from place `at` on of three columns.
+#[inline(always)]
+pub(crate) fn store3<S: Simd>(v: F3<S>, [x, y, z]: &mut [impl DerefMut<Target = [f32]>; 3], at: usize) {
+    v.x.store(&mut x[at..]);
+    v.y.store(&mut y[at..]);
+    v.z.store(&mut z[at..]);
+}
+
+/// Writes a packet's lanes from place `at` on of three columns, in `f64`.
+#[inline(always)]
+pub(crate) fn store_wide3<S: Simd>(v: D3<S>, [x, y, z]: &mut [impl DerefMut<Target = [f64]>; 3], at: usize) {
+    v.x.store(&mut x[at..]);
+    v.y.store(&mut y[at..]);
+    v.z.store(&mut z[at..]);
+}
+
+/// The lanes where the mask holds one after another, and anything after them.
+#[inline(always)]
+pub(crate) fn compress3<S: Simd>(v: F3<S>, mask: M<S>) -> F3<S> {
+    Triple::new(v.x.compressed(mask), v.y.compressed(mask), v.z.compressed(mask))
+}
+
+/// Writes the lanes where the mask holds one after another from place `at` on of three columns, and anything after
+/// them, up to all lanes.
+#[inline(always)]
+pub(crate) fn compress_wide3<S: Simd>(
+    v: D3<S>,
+    mask: M<S>,
+    [x, y, z]: &mut [impl DerefMut<Target = [f64]>; 3],
+    at: usize,
+) {
+    v.x.compress(mask, &mut x[at..]);
+    v.y.compress(mask, &mut y[at..]);
+    v.z.compress(mask, &mut z[at..]);
 }
 
 /// Vectors of a packet that are found lane by lane.

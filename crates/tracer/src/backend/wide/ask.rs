@@ -17,7 +17,7 @@ use super::{Tracer, Work, at_level};
 use crate::backend::Frame;
 use crate::film::NOTHING;
 use crate::kernel::mesh::Visits;
-use crate::lanes::{Bits, D, D3, F, M, U, load_wide3, narrow3, splat_wide, splat3};
+use crate::lanes::{Bits, D, D3, F, M, U, load_wide3, narrow3, splat_wide};
 use crate::numeric::{END_ERROR, ORDINARY};
 use crate::query::{HitSlice, RaySlice};
 use crate::snapshot::{Instance, Row};
@@ -149,8 +149,6 @@ impl Asked<'_> {
             precise: Precise::Asked(self, at),
             rays: rays.drifting(F::splat(s, drift(self.snapshot.origin_in_frame()))),
             inverse_length,
-            weight: splat3(s, [1.0; 3]),
-            pixel: U::splat(s, 0),
             left: self.left(s, at),
             live: self.live(s, at),
         }

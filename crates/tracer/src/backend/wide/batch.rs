@@ -6,11 +6,13 @@ use catoptra_core::{Constant3, Lane, LaneMask};
 use fearless_simd::Simd;
 
 use super::packet::{Packet, Primary};
+use super::plan::Place;
 use super::queue::Queue;
 use super::search::Best;
 use crate::column::Column;
 use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING};
-use crate::lanes::{F, F3, M, U};
+use crate::kernel::magnitude;
+use crate::lanes::{F, F3, M, U, load3, store3};
 use crate::{Region, Tile};
 
 /// Packets that are traced together.
@@ -29,6 +31,12 @@ pub(super) trait Batch<S: Simd> {
 
     /// Which lanes of the packet that starts with ray `at` are rays at all.
     fn live_lanes(&self, s: S, at: usize) -> M<S>;
+
+    /// How much of the light that arrives along the packet that starts with ray `at` counts, per channel.
+    fn weights(&self, s: S, at: usize) -> F3<S>;
+
+    /// Pixels of the packet that starts with ray `at`, by their places in the tile's columns.
+    fn pixels(&self, s: S, at: usize) -> U<S>;
 
     /// Adds the light that arrives along the packet that starts with ray `at` to its pixels, and keeps what camera
     /// rays have met. Answers how many sums were not finite, and so were put to black.
@@ -57,12 +65,8 @@ impl<S: Simd> Part<'_, S> {
 
     #[inline(always)]
     fn store(&self, s: S, at: usize, light: F3<S>, (depth, prim): (F<S>, U<S>), tile: &mut Tile) -> u64 {
-        let mut not_finite = 0;
-        for (pixels, light) in tile.radiance.iter_mut().zip([light.x, light.y, light.z]) {
-            let pixels = &mut pixels[at..];
-            let light = if self.camera.fresh { light } else { F::load(s, pixels) + light };
-            not_finite += store_finite(s, light, pixels);
-        }
+        let light = if self.camera.fresh { light } else { load3(s, &tile.radiance, at) + light };
+        let not_finite = store_finite(s, light, &mut tile.radiance, at);
         if self.camera.kept {
             depth.store(&mut tile.depth[at..]);
             prim.store(&mut tile.surface[at..]);
@@ -74,14 +78,24 @@ impl<S: Simd> Part<'_, S> {
 /// Stores the lanes that are finite; others, which are counted, become the largest number where they are past every
 /// number, and 0 where they are none.
 #[inline(always)]
-fn store_finite<S: Simd>(s: S, light: F<S>, pixels: &mut [f32]) -> u64 {
-    let finite = light.abs().less(F::splat(s, f32::INFINITY));
-    light.store(pixels);
-    if (!finite).any() {
+fn store_finite<S: Simd>(s: S, light: F3<S>, radiance: &mut [Column<f32>; 3], at: usize) -> u64 {
+    store3(light, radiance, at);
+    // Where a number is not finite, the sum is not; the other way round it may be only the sum.
+    let all_finite = magnitude(light).less(F::splat(s, f32::INFINITY));
+    if (!all_finite).any() { store_only_finite(s, light, radiance, at) } else { 0 }
+}
+
+#[cold]
+#[inline(never)]
+fn store_only_finite<S: Simd>(s: S, light: F3<S>, radiance: &mut [Column<f32>; 3], at: usize) -> u64 {
+    let mut not_finite = 0;
+    for (pixels, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
+        let finite = light.abs().less(F::splat(s, f32::INFINITY));
         let (zero, most) = (F::splat(s, 0.0), F::splat(s, f32::MAX));
-        F::pick(finite, light, F::pick(zero.less(light), most, zero)).store(pixels);
+        F::pick(finite, light, F::pick(zero.less(light), most, zero)).store(&mut pixels[at..]);
+        not_finite += (!finite).count();
     }
-    (!finite).count()
+    not_finite
 }
 
 impl<S: Simd> Batch<S> for Part<'_, S> {
@@ -111,6 +125,16 @@ impl<S: Simd> Batch<S> for Part<'_, S> {
     #[inline(always)]
     fn live_lanes(&self, s: S, at: usize) -> M<S> {
         self.camera.live_lanes(s, at)
+    }
+
+    #[inline(always)]
+    fn weights(&self, s: S, _: usize) -> F3<S> {
+        F3::splat(F::splat(s, 1.0))
+    }
+
+    #[inline(always)]
+    fn pixels(&self, s: S, at: usize) -> U<S> {
+        U::counted(s, at as u32)
     }
 
     #[inline(always)]
@@ -146,20 +170,27 @@ impl<S: Simd> Batch<S> for Queue {
         Queue::live_lanes(self, s, at)
     }
 
+    #[inline(always)]
+    fn weights(&self, s: S, at: usize) -> F3<S> {
+        Queue::weights(self, s, at)
+    }
+
+    #[inline(always)]
+    fn pixels(&self, s: S, at: usize) -> U<S> {
+        Queue::pixels(self, s, at)
+    }
+
     /// No pixel has two rays in a stream.
     #[inline(always)]
     fn add(&self, s: S, at: usize, _: &Best<S>, light: F3<S>, tile: &mut Tile) -> u64 {
         let (pixel, live, light) =
             (self.pixels(s, at), self.live_lanes(s, at), light.times(self.weights(s, at)));
         let first = pixel.lane(0);
-        let mut not_finite = 0;
         if (pixel.counts_from(s, first) & live).count() as usize == F::<S>::LANES {
-            for (pixels, light) in tile.radiance.iter_mut().zip([light.x, light.y, light.z]) {
-                let pixels = &mut pixels[first as usize..];
-                not_finite += store_finite(s, F::load(s, pixels) + light, pixels);
-            }
-            return not_finite;
+            let sum = load3(s, &tile.radiance, first as usize) + light;
+            return store_finite(s, sum, &mut tile.radiance, first as usize);
         }
+        let mut not_finite = 0;
         for lane in live.lanes() {
             let pixel = pixel.lane(lane) as usize;
             for (pixels, light) in tile.radiance.iter_mut().zip([light.x, light.y, light.z]) {
@@ -181,6 +212,8 @@ pub(super) struct Found {
     pub(super) error: Column<f32>,
     pub(super) prim: Column<u32>,
     pub(super) facet: Column<u32>,
+    /// Where that lies, shape by shape.
+    pub(super) places: Vec<Place>,
 }
 
 impl Found {

@@ -2,10 +2,8 @@
 
 use catoptra_core::Aabb;
 use catoptra_core::glam::DVec3;
-use fearless_simd::Simd;
 
 use super::plan::Place;
-use super::spread::Spreads;
 use crate::kernel::PlaneRow;
 use crate::numeric::PLAN_MARGIN;
 use crate::snapshot::{Ball, Columns};
@@ -33,12 +31,6 @@ pub(super) enum Crosses {
 }
 
 impl Beam {
-    /// The beams of rays from the starts along the unit vectors that have been spread out, shape by shape.
-    pub(super) fn all<S: Simd>(spreads: &Spreads<S>) -> impl Iterator<Item = Self> + '_ {
-        let both = spreads.starts.boxes().zip(spreads.units.boxes());
-        both.map(|((prim, start), (_, unit))| Self::new(prim, start, unit))
-    }
-
     /// Of rays that leave a shape.
     pub(super) fn new(prim: u32, start: Aabb, unit: Aabb) -> Self {
         let center = start.centre();

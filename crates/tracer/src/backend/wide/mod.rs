@@ -330,12 +330,17 @@ impl<S: Simd> Tracer<'_, S> {
                 let packet = batch.packet(self.s, at);
                 let best = self.nearest(&packet, shapes);
                 best.store(self.found, at);
-                self.spreads.seen.add(best.hits() & packet.live, best.prim, packet.point(best.t));
+                self.spreads.seen.add(best.hits() & packet.live, best.prim, &[packet.point(best.t)]);
             }
         }
-        let places: Vec<Place> =
-            self.spreads.seen.boxes().map(|(prim, bounds)| Place::new(prim, bounds)).collect();
+        let mut places = std::mem::take(&mut self.found.places);
+        places.clear();
+        for at in 0..self.spreads.seen.len() {
+            let (prim, [bounds]) = self.spreads.seen.get(at);
+            places.push(Place::new(prim, bounds));
+        }
         self.plan_lights(&places);
+        self.found.places = places;
     }
 
     /// Finds out for every light whether it reaches the places that a batch shows, and what may stand between.

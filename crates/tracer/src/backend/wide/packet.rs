@@ -10,7 +10,7 @@ use crate::backend::Frame;
 use crate::column::Column;
 use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING};
 use crate::kernel::{Rays, magnitude};
-use crate::lanes::{D, D3, F, F3, M, U, load3, narrow3, splat_wide};
+use crate::lanes::{D, D3, F, F3, M, U, load3, narrow3, splat_wide, store3};
 use crate::numeric::WORLD_DRIFT;
 use crate::{Place, Region, Size, Tile};
 
@@ -23,10 +23,6 @@ pub(super) struct Packet<'a, S: Simd> {
     pub(super) rays: Rays<S>,
     /// 1 over the length of each direction.
     pub(super) inverse_length: F<S>,
-    /// How much of the light that arrives counts, per channel.
-    pub(super) weight: F3<S>,
-    /// Pixel of each lane, by its place in the tile's columns.
-    pub(super) pixel: U<S>,
     /// Where the rays leave from.
     pub(super) left: Left<S>,
     /// Lanes that are rays at all.
@@ -206,7 +202,6 @@ pub(super) struct Primary<'a, S: Simd> {
     pub(super) fresh: bool,
     /// Whether what is met here stands for the pixel.
     pub(super) kept: bool,
-    weight: F3<S>,
 }
 
 impl<'a, S: Simd> Primary<'a, S> {
@@ -251,7 +246,6 @@ impl<'a, S: Simd> Primary<'a, S> {
             height: tile.height,
             fresh: (column, row) == (0, 0),
             kept: (column, row) == (frame.view.grid / 2, frame.view.grid / 2),
-            weight: F3::splat(F::splat(s, 1.0)),
         }
     }
 
@@ -269,10 +263,7 @@ impl<'a, S: Simd> Primary<'a, S> {
                     let (rays, inverse_length) = kernel_rays(s, self.eye32, direction);
                     let block = (y / BLOCK * blocks_across + x / BLOCK) as usize;
                     let at = block * BLOCK_PIXELS + part * F::<S>::LANES;
-                    let unit = rays.direction;
-                    for (column, v) in self.rays.direction.iter_mut().zip([unit.x, unit.y, unit.z]) {
-                        v.store(&mut column[at..]);
-                    }
+                    store3(rays.direction, &mut self.rays.direction, at);
                     inverse_length.store(&mut self.rays.inverse_length[at..]);
                     self.rays.live[at] = inside::<S>(self.width - x, self.height - y, part as u32);
                 }
@@ -333,8 +324,6 @@ impl<'a, S: Simd> Primary<'a, S> {
             precise: Precise::Camera(self, at),
             rays: Rays { origin: self.eye32, direction, reach: self.reach },
             inverse_length: F::load(s, &self.rays.inverse_length[at..]),
-            weight: self.weight,
-            pixel: U::counted(s, at as u32),
             left: Left::nothing(s),
             live: self.live_lanes(s, at),
         }

@@ -3,12 +3,13 @@
 use catoptra_core::Ray;
 use catoptra_core::glam::DVec3;
 use fearless_simd::Simd;
-use fearless_simd::prelude::*;
 
 use super::packet::{Left, Packet, Precise, drift, nearly_unit_rays};
 use crate::column::Column;
 use crate::kernel::Rays;
-use crate::lanes::{D3, F, F3, M, U, load_wide3, load3, narrow3};
+use crate::lanes::{
+    D3, F, F3, M, U, compress_wide3, compress3, load_wide3, load3, narrow3, store_wide3, store3,
+};
 
 /// Columns of rays; each has room for one more packet than there are rays.
 #[derive(Default)]
@@ -56,24 +57,23 @@ impl Queue {
     #[inline(always)]
     pub(super) fn push<S: Simd>(&mut self, mask: M<S>, rays: &Leaving<S>) {
         self.make_room(F::<S>::LANES);
-        let at = self.length;
-        for (column, v) in self.origin.iter_mut().zip([rays.origin.x, rays.origin.y, rays.origin.z]) {
-            v.compress(mask, &mut column[at..]);
+        let (at, count) = (self.length, mask.count() as usize);
+        self.length += count;
+        if count == F::<S>::LANES {
+            store_wide3(rays.origin, &mut self.origin, at);
+            store_wide3(rays.direction, &mut self.direction, at);
+            store3(rays.weight, &mut self.weight, at);
+            rays.pixel.store(&mut self.pixel[at..]);
+            rays.prim.store(&mut self.prim[at..]);
+            rays.facet.store(&mut self.facet[at..]);
+        } else {
+            compress_wide3(rays.origin, mask, &mut self.origin, at);
+            compress_wide3(rays.direction, mask, &mut self.direction, at);
+            store3(compress3(rays.weight, mask), &mut self.weight, at);
+            rays.pixel.compressed(mask).store(&mut self.pixel[at..]);
+            rays.prim.compressed(mask).store(&mut self.prim[at..]);
+            rays.facet.compressed(mask).store(&mut self.facet[at..]);
         }
-        for (column, v) in
-            self.direction.iter_mut().zip([rays.direction.x, rays.direction.y, rays.direction.z])
-        {
-            v.compress(mask, &mut column[at..]);
-        }
-        for (column, v) in self.weight.iter_mut().zip([rays.weight.x, rays.weight.y, rays.weight.z]) {
-            F::<S>(v.0.compress(mask.0)).store(&mut column[at..]);
-        }
-        for (column, v) in
-            [(&mut self.pixel, rays.pixel), (&mut self.prim, rays.prim), (&mut self.facet, rays.facet)]
-        {
-            U::<S>(v.0.compress(mask.0)).store(&mut column[at..]);
-        }
-        self.length += mask.count() as usize;
     }
 
     /// Origins and directions from ray `at` on.
@@ -98,8 +98,6 @@ impl Queue {
             precise: Precise::Stream(self, at),
             rays: Rays { reach, ..rays },
             inverse_length,
-            weight: self.weights(s, at),
-            pixel: self.pixels(s, at),
             left: Left {
                 prim: U::load(s, &self.prim[at..]),
                 facet: U::load(s, &self.facet[at..]),

@@ -5,7 +5,6 @@ use fearless_simd::Simd;
 
 use super::Tracer;
 use super::batch::Batch;
-use super::packet::Packet;
 use super::queue::Leaving;
 use crate::lanes::{D3, F, F3, M, narrow3, pick3};
 
@@ -17,10 +16,9 @@ impl<S: Simd> Tracer<'_, S> {
             #[inline(always)]
             || {
                 for place in 0..count {
-                    let packet = self.packet_of(batch, place);
-                    let (lanes, weight) = self.weigh_reflections(&packet, place, depth);
+                    let (lanes, weight) = self.weigh_reflections(batch, place, depth);
                     if lanes.any() {
-                        self.mirror(&packet, place, lanes, weight);
+                        self.mirror(batch, place, lanes, weight);
                     }
                 }
             },
@@ -29,9 +27,9 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// Finds which lanes of a packet send rays on, and how much of their light counts.
     #[inline(always)]
-    fn weigh_reflections(&mut self, packet: &Packet<'_, S>, place: usize, depth: u32) -> (M<S>, F3<S>) {
+    fn weigh_reflections(&mut self, batch: &impl Batch<S>, place: usize, depth: u32) -> (M<S>, F3<S>) {
         let view = self.frame.view;
-        let arriving = packet.weight;
+        let arriving = batch.weights(self.s, self.chunk.at[place]);
         let (mut on, mut weights) = (M::splat(self.s, false), arriving);
         for group in 0..self.chunk.groups[place].len() {
             let (mask, material) = self.chunk.groups[place].get(self.s, group);
@@ -57,7 +55,8 @@ impl<S: Simd> Tracer<'_, S> {
 
     /// Queues the mirrored rays of some lanes of a packet.
     #[inline(always)]
-    fn mirror(&mut self, packet: &Packet<'_, S>, place: usize, lanes: M<S>, weight: F3<S>) {
+    fn mirror(&mut self, batch: &impl Batch<S>, place: usize, lanes: M<S>, weight: F3<S>) {
+        let packet = &self.packet_of(batch, place);
         let best = self.chunk.best[place];
         let settled = self.settle_every(packet, &best, lanes);
         let (_, d) = packet.precise_unit(self.s);
@@ -69,13 +68,12 @@ impl<S: Simd> Tracer<'_, S> {
         } else {
             geometric
         };
-        self.spreads.starts.add(lanes, best.prim, narrow3(settled.point));
-        self.spreads.units.add(lanes, best.prim, narrow3(direction));
+        self.spreads.sent.add(lanes, best.prim, &[narrow3(settled.point), narrow3(direction)]);
         let leaving = Leaving {
             origin: settled.point,
             direction,
             weight,
-            pixel: packet.pixel,
+            pixel: batch.pixels(self.s, self.chunk.at[place]),
             prim: best.prim,
             facet: best.facet,
         };

@@ -10,20 +10,20 @@ use crate::lanes::{F3, M, U, splat3};
 /// Most shapes whose vectors are told apart; those of others are put together.
 const APART: usize = 8;
 
-/// Boxes round vectors, shape by shape.
-pub(super) struct Spread<S: Simd> {
+/// Boxes round `N` vectors of every lane, shape by shape.
+pub(super) struct Spread<S: Simd, const N: usize> {
     count: usize,
     prims: [u32; APART],
-    low: [F3<S>; APART],
-    high: [F3<S>; APART],
+    low: [[F3<S>; N]; APART],
+    high: [[F3<S>; N]; APART],
     tops: F3<S>,
 }
 
-impl<S: Simd> Spread<S> {
+impl<S: Simd, const N: usize> Spread<S, N> {
     #[inline(always)]
     pub(super) fn nothing(s: S) -> Self {
         let most = splat3(s, [f32::MAX; 3]);
-        Self { count: 0, prims: [0; APART], low: [most; APART], high: [most; APART], tops: most }
+        Self { count: 0, prims: [0; APART], low: [[most; N]; APART], high: [[most; N]; APART], tops: most }
     }
 
     /// Forgets all vectors.
@@ -34,7 +34,7 @@ impl<S: Simd> Spread<S> {
 
     /// Adds the lanes of a mask to the boxes of their shapes.
     #[inline(always)]
-    pub(super) fn add(&mut self, lanes: M<S>, prims: U<S>, vectors: F3<S>) {
+    pub(super) fn add(&mut self, lanes: M<S>, prims: U<S>, vectors: &[F3<S>; N]) {
         let mut left = lanes.bits();
         while left != 0 {
             let prim = prims.lane(left.trailing_zeros() as usize);
@@ -45,7 +45,7 @@ impl<S: Simd> Spread<S> {
     }
 
     #[inline(always)]
-    fn grow(&mut self, prim: u32, mask: M<S>, vectors: F3<S>) {
+    fn grow(&mut self, prim: u32, mask: M<S>, vectors: &[F3<S>; N]) {
         let (under, over) = (self.tops, F3::new(-self.tops.x, -self.tops.y, -self.tops.z));
         let mut at = 0;
         while at < self.count && self.prims[at] != prim {
@@ -57,40 +57,52 @@ impl<S: Simd> Spread<S> {
                 at = APART - 1;
                 self.prims[at] = NOTHING;
             } else {
-                (self.prims[at], self.low[at], self.high[at]) = (prim, under, over);
+                (self.prims[at], self.low[at], self.high[at]) = (prim, [under; N], [over; N]);
                 self.count += 1;
             }
         }
-        let (low, high) = (&mut self.low[at], &mut self.high[at]);
-        let (p, q) = (F3::select(mask, vectors, under), F3::select(mask, vectors, over));
-        *low = F3::new(low.x.min(p.x), low.y.min(p.y), low.z.min(p.z));
-        *high = F3::new(high.x.max(q.x), high.y.max(q.y), high.z.max(q.z));
+        let (lows, highs) = (&mut self.low[at], &mut self.high[at]);
+        for vector in 0..N {
+            let (low, high) = (lows[vector], highs[vector]);
+            let p = F3::select(mask, vectors[vector], under);
+            let q = F3::select(mask, vectors[vector], over);
+            lows[vector] = F3::new(low.x.min(p.x), low.y.min(p.y), low.z.min(p.z));
+            highs[vector] = F3::new(high.x.max(q.x), high.y.max(q.y), high.z.max(q.z));
+        }
     }
 
-    /// The boxes with the shapes that they belong to; [`NOTHING`] for that of many.
-    pub(super) fn boxes(&self) -> impl Iterator<Item = (u32, Aabb)> + '_ {
-        (0..self.count).map(|at| {
-            let (low, high) = (&self.low[at], &self.high[at]);
-            let min = DVec3::new(low.x.least(), low.y.least(), low.z.least());
-            let max = DVec3::new(high.x.greatest(), high.y.greatest(), high.z.greatest());
-            (self.prims[at], Aabb { min, max })
-        })
+    /// Of how many shapes there are boxes.
+    #[inline(always)]
+    pub(super) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// The boxes of a shape; [`NOTHING`] stands for many.
+    #[inline(always)]
+    pub(super) fn get(&self, at: usize) -> (u32, [Aabb; N]) {
+        let mut bounds = [Aabb::EMPTY; N];
+        for (vector, bounds) in bounds.iter_mut().enumerate() {
+            let (low, high) = (&self.low[at][vector], &self.high[at][vector]);
+            *bounds = Aabb {
+                min: DVec3::new(low.x.least(), low.y.least(), low.z.least()),
+                max: DVec3::new(high.x.greatest(), high.y.greatest(), high.z.greatest()),
+            };
+        }
+        (self.prims[at], bounds)
     }
 }
 
 /// What is spread out while a batch is under way.
 pub(super) struct Spreads<S: Simd> {
     /// Points that are seen.
-    pub(super) seen: Spread<S>,
-    /// Where the rays of a stream start.
-    pub(super) starts: Spread<S>,
-    /// The unit vectors along which they run.
-    pub(super) units: Spread<S>,
+    pub(super) seen: Spread<S, 1>,
+    /// Where the rays of a stream start, and the unit vectors along which they run.
+    pub(super) sent: Spread<S, 2>,
 }
 
 impl<S: Simd> Spreads<S> {
     #[inline(always)]
     pub(super) fn nothing(s: S) -> Self {
-        Self { seen: Spread::nothing(s), starts: Spread::nothing(s), units: Spread::nothing(s) }
+        Self { seen: Spread::nothing(s), sent: Spread::nothing(s) }
     }
 }

@@ -41,9 +41,11 @@ impl<S: Simd> Tracer<'_, S> {
             #[inline(always)]
             || {
                 beams.clear();
-                beams.extend(Beam::all(self.spreads));
-                self.spreads.starts.clear();
-                self.spreads.units.clear();
+                for at in 0..self.spreads.sent.len() {
+                    let (prim, [start, unit]) = self.spreads.sent.get(at);
+                    beams.push(Beam::new(prim, start, unit));
+                }
+                self.spreads.sent.clear();
             },
         );
         let snapshot = self.frame.snapshot;
