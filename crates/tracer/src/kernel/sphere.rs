@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 
 use super::{Blocking, Proposal, Rays, Target, bound, magnitude_of, rounded};
 use crate::lanes::{F, F3, M, splat3};
-use crate::numeric::POINT_ERROR;
+use crate::numeric::{PLAN_MARGIN, POINT_ERROR};
 
 /// A sphere.
 #[derive(Debug, Clone, Copy)]
@@ -98,8 +98,9 @@ impl SphereRow {
         leaving: M<S>,
         starts_outside: bool,
     ) -> Blocking<S> {
-        let target_inside = !target.at_infinity && target.place.distance(self.center) <= self.radius;
-        if target_inside || leaving.any() {
+        let most = self.radius * self.radius * (1.0 + PLAN_MARGIN);
+        let may_end_inside = !target.at_infinity && target.place.distance_squared(self.center) <= most;
+        if may_end_inside || leaving.any() {
             return self.propose(s, rays, leaving).blocking(target);
         }
         let zero = F::splat(s, 0.0);

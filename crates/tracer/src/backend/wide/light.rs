@@ -203,11 +203,13 @@ impl<S: Simd> Tracer<'_, S> {
         if let Some(blocked) = self.blocked_for_certain(&ways, light) {
             return blocked;
         }
+        // A copy, so that the ways may stay in registers where this is not reached.
+        let copy = ways;
         self.s.vectorize(
             #[inline(always)]
             || {
                 let packet = self.packet_of(batch, packet);
-                self.blocked(&packet, &ways, light)
+                self.blocked(&packet, &copy, light)
             },
         )
     }

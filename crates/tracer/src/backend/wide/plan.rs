@@ -44,6 +44,7 @@ impl Shapes {
     }
 
     /// Every shape that passes the tests.
+    #[inline]
     fn keep(
         &mut self,
         columns: &Columns,
@@ -51,24 +52,38 @@ impl Shapes {
         ball: impl Fn(u32, &Ball) -> bool,
     ) {
         self.clear();
-        let planes = columns.planes.iter().enumerate();
-        self.planes.extend(planes.filter(|(i, row)| plane(*i, row)).map(|(i, _)| i as u32));
+        for (i, row) in columns.planes.iter().enumerate() {
+            if plane(i, row) {
+                self.planes.push(i as u32);
+            }
+        }
         self.keep_balls(columns, 0..columns.bounded.len() as u32, ball);
     }
 
     /// Adds the bounded shapes of a list that pass a test.
+    #[inline]
     fn keep_balls(
         &mut self,
         columns: &Columns,
         among: impl Iterator<Item = u32>,
         ball: impl Fn(u32, &Ball) -> bool,
     ) {
-        let mut kept = among.filter(|&i| ball(columns.bounded[i as usize], &columns.balls[i as usize]));
-        if columns.bounded.len() > FEW {
-            self.tree = columns.bounded.len() > MANY || kept.next().is_some();
-        } else {
-            self.near.extend(kept);
-            self.bounded.extend(self.near.iter().map(|&i| columns.bounded[i as usize]));
+        let few = columns.bounded.len() <= FEW;
+        if columns.bounded.len() > MANY {
+            self.tree = true;
+            return;
+        }
+        for i in among {
+            let prim = columns.bounded[i as usize];
+            if !ball(prim, &columns.balls[i as usize]) {
+                continue;
+            }
+            if !few {
+                self.tree = true;
+                return;
+            }
+            self.near.push(i);
+            self.bounded.push(prim);
         }
     }
 
