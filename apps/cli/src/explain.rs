@@ -179,6 +179,14 @@ impl Found<'_> {
     fn skipped(&self) -> Vec<String> {
         let rays = &self.stats.rays;
         let mut lines = self.skipped_of("primary ray", rays.primary, NO_PRIMARY_RAY);
+        let Skipped { nothing_seen, blank_before, .. } = self.stats.skipped;
+        if blank_before > 0 {
+            let share = percent(blank_before, nothing_seen);
+            lines.push(format!(
+                "{:>16} pixels of these ({share}) were not written: they showed nothing before",
+                thousands(blank_before)
+            ));
+        }
         lines.extend(self.skipped_of("shadow ray", rays.shadow, NO_SHADOW_RAY));
         lines.extend(self.skipped_of("reflection ray", rays.reflection, NO_REFLECTION_RAY));
         lines

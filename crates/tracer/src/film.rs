@@ -30,7 +30,14 @@ pub struct Tile {
     pub(crate) radiance: [Column<f32>; 3],
     pub(crate) depth: Column<f32>,
     pub(crate) surface: Column<u32>,
+    /// The one light that all pixels show, where it is known that none shows a surface.
+    blank: Option<Light>,
+    /// The same before the trace under way.
+    before: Option<Light>,
 }
+
+/// Bits of red, green and blue.
+type Light = [u32; 3];
 
 impl Tile {
     fn new(x: u32, y: u32, width: u32, height: u32) -> Self {
@@ -43,7 +50,20 @@ impl Tile {
             radiance: std::array::from_fn(|_| Column::filled(pixels, 0.0)),
             depth: Column::filled(pixels, f32::INFINITY),
             surface: Column::filled(pixels, NOTHING),
+            blank: Some([0; 3]),
+            before: None,
         }
+    }
+
+    /// Says that the tile is traced anew.
+    pub(crate) fn begin(&mut self) {
+        self.before = self.blank.take();
+    }
+
+    /// Says that all pixels show a light and no surface; answers whether they did so before.
+    pub(crate) fn goes_blank(&mut self, light: [f32; 3]) -> bool {
+        self.blank = Some(light.map(f32::to_bits));
+        self.blank == self.before
     }
 
     /// Blocks across.

@@ -34,6 +34,7 @@ pub fn render(
         if control.is_cancelled() {
             return Err(Cancelled);
         }
+        tile.begin();
         let stats = Stats::with_exact(|| backend.trace(&frame, tile));
         control.advance();
         Ok(stats)

@@ -28,6 +28,8 @@ pub struct Tests {
 pub struct Skipped {
     /// Camera rays: no shape can be seen through their part of the picture.
     pub nothing_seen: u64,
+    /// Of those, rays through pixels that were not written, as they showed nothing before.
+    pub blank_before: u64,
     /// Shadow rays: their whole part of the picture lies outside the light's cone.
     pub unreached: u64,
     /// Shadow rays: the surface faces away from the light.
@@ -80,7 +82,7 @@ macro_rules! add_fields {
 add_fields!(Rays: primary, shadow, reflection);
 add_fields!(Tests: shapes, boxes);
 add_fields!(Skipped:
-    nothing_seen, unreached, facing_away, out_of_cone, shadow_off, unlit_material, nothing_between, nothing_ahead, not_reflective,
+    nothing_seen, blank_before, unreached, facing_away, out_of_cone, shadow_off, unlit_material, nothing_between, nothing_ahead, not_reflective,
     depth_limit, weight_cutoff);
 add_fields!(Stats: rays, tests, skipped, settled, exact, not_finite);
 

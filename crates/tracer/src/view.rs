@@ -100,13 +100,16 @@ pub struct Skip {
     pub beams: bool,
     /// Lights are not asked about parts of the picture that lie outside their cones.
     pub unreached: bool,
+    /// Tiles that show nothing are not written again where they showed nothing before.
+    pub blank: bool,
 }
 
 impl Skip {
     /// Everything that can be left out is.
-    pub const ALL: Self = Self { hidden: true, shafts: true, beams: true, unreached: true };
+    pub const ALL: Self = Self { hidden: true, shafts: true, beams: true, unreached: true, blank: true };
     /// Nothing is left out.
-    pub const NOTHING: Self = Self { hidden: false, shafts: false, beams: false, unreached: false };
+    pub const NOTHING: Self =
+        Self { hidden: false, shafts: false, beams: false, unreached: false, blank: false };
 }
 
 impl View {

@@ -258,9 +258,16 @@ impl<S: Simd> Tracer<'_, S> {
         if mine.is_empty() && columns.general_unbounded.is_empty() {
             let part = Part { camera, region };
             self.stats.skipped.nothing_seen += part.live();
+            let light = self.frame.snapshot.background_light();
+            let whole = part.region.size == Size::new(tile.width, tile.height) && self.frame.view.grid == 1;
+            let narrow = [light.x.narrow, light.y.narrow, light.z.narrow];
+            if whole && tile.goes_blank(narrow) && self.frame.view.skip.blank {
+                self.stats.skipped.blank_before += part.live();
+                return;
+            }
             self.s.vectorize(
                 #[inline(always)]
-                || part.fill(self.s, self.frame.snapshot.background_light(), tile),
+                || part.fill(self.s, light, tile),
             );
         } else if mine.tree || further.is_empty() || mine.filled {
             if self.frame.snapshot.has_mirrors() {
