@@ -32,6 +32,28 @@ sphere "ball" material="glass" { center 1 -0.5 -2; radius 0.7 }
 point-light "lamp" { position 0.2 2 0.3; intensity 20 }
 "#;
 
+/// An eye within a box whose walls mirror, with boxes and disks that are turned or as thin as a sheet, some of which touch,
+/// under a lamp and under suns that shine along an axis and almost so.
+const ROOM: &str = r#"
+settings { max-depth 4 }
+camera "main" { eye 0.2 1.1 3; direction -0.1 -0.1 -1; fov 80 }
+phong "glossy" { diffuse 0.5 0.5 0.4; specular 1 1 1; shininess 30; reflectiveness 0.4 }
+matte "chalk" { color 0.8 0.7 0.6 }
+box "walls" material="glossy" { min -3 -0.5 -4; max 3 4 4 }
+box "block" material="glossy" { min -1.5 -0.5 -2; max -0.5 0.5 -1 }
+disk "lid" material="chalk" { center -1 0.50001 -1.5; normal 0 1 0; radius 0.6 }
+box "sheet" material="chalk" { min 0.2 0 -1.5; max 1.4 1.5 -1.4999999 }
+group "turned" {
+    turn 31 0.2 1 -0.4 { about 1 0.5 0 }
+    box "brick" material="glossy" { min 0.7 0.3 -0.2; max 1.3 0.7 0.2 }
+    disk "plate" material="glossy" { center 1 1.1 0; normal 0.1 1 0.3; radius 0.5 }
+    rectangle "card" material="chalk" { corner 0.5 0.2 0.5; edge-u 0.5 0 0; edge-v 0 0.4 0.1 }
+}
+point-light "lamp" { position 0.3 3 0.4; intensity 12 }
+directional-light "noon" { direction 0 -1 0; irradiance 1 }
+directional-light "morning" { direction -1 -0.00000001 0; irradiance 0.5 }
+"#;
+
 /// How a picture of a scene by every backend differs from the oracle's beyond the rates.
 fn failures(name: &str, scene: &Scene) -> Vec<String> {
     let size = affordable(scene);
@@ -59,6 +81,15 @@ fn every_backend_equals_the_oracle_on_every_shipped_scene() {
 fn every_backend_equals_the_oracle_within_a_solid_of_mirrors() {
     let failures = failures("inside", &parsed(INSIDE));
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn every_backend_equals_the_oracle_among_boxes_and_disks() {
+    let inside = failures("room", &parsed(ROOM));
+    // Without the walls, which keep the suns out.
+    let outside = ROOM.lines().filter(|line| !line.contains("\"walls\"")).collect::<Vec<_>>().join("\n");
+    let outside = failures("boxes and disks", &parsed(&outside));
+    assert!(inside.is_empty() && outside.is_empty(), "{}", [inside, outside].concat().join("\n"));
 }
 
 #[test]

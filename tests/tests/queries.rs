@@ -108,6 +108,11 @@ matte "grey" { color 0.5 0.5 0.5 }
 tetrahedron "wedge" material="grey" { a 0 0 0; b 2 0.1 0; c 0.3 1.7 0; d 0.2 0.4 1.9 }
 box "block" material="grey" { min 3 0 0; max 4 1 2 }
 sphere "ball" material="grey" { center 0 4 0; radius 1 }
+group "turned" {
+    turn 33 1 2 -1 { about 3 3 1 }
+    box "plank" material="grey" { min 2.2 2.6 0; max 3.8 3.4 0.1 }
+    disk "lid" material="grey" { center 3 3 0.9; normal 0 0 1; radius 0.8 }
+}
 "#;
 
 /// Rays that leave the surfaces that random rays meet, in any direction: also nearly along a flat face.

@@ -5,6 +5,9 @@
 
 #[cfg(test)]
 mod attack;
+mod cuboid;
+mod disk;
+mod flat;
 pub(crate) mod mesh;
 mod plane;
 mod rectangle;
@@ -19,8 +22,11 @@ use crate::integrator::LIGHT_ITSELF;
 use crate::lanes::{F, F3, M};
 use crate::numeric::{CERTAIN, LEAST_REACH};
 
+pub(crate) use cuboid::CuboidRow;
+use disk::DiskOutline;
+pub(crate) use flat::FlatRow;
 pub(crate) use plane::PlaneRow;
-pub(crate) use rectangle::RectangleRow;
+use rectangle::RectangleOutline;
 pub(crate) use sphere::SphereRow;
 pub(crate) use triangle::TriangleRow;
 

@@ -16,7 +16,14 @@ pub(crate) struct PlaneRow {
     pub(crate) prim: u32,
     pub(crate) normal32: [f32; 3],
     distance32: f32,
-    reach: f32,
+    /// What rounding errors of `normal · p - distance` grow with, beside the point's own magnitude.
+    pub(super) reach: f32,
+}
+
+impl AsRef<Self> for PlaneRow {
+    fn as_ref(&self) -> &Self {
+        self
+    }
 }
 
 impl PlaneRow {

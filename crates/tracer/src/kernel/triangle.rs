@@ -21,6 +21,12 @@ pub(crate) struct TriangleRow {
     edges: Edges,
 }
 
+impl AsRef<PlaneRow> for TriangleRow {
+    fn as_ref(&self) -> &PlaneRow {
+        &self.plane
+    }
+}
+
 impl TriangleRow {
     /// A facet of the shape `prim`; `None` without area.
     pub(crate) fn new(corners: [DVec3; 3], prim: u32, facet: u32) -> Option<Self> {

@@ -8,7 +8,7 @@ use catoptra_core::{Aabb, Placement, Shape};
 use super::Prim;
 use super::origin::relative;
 use crate::accel::MeshTree;
-use crate::kernel::{PlaneRow, RectangleRow, SphereRow, TriangleRow};
+use crate::kernel::{CuboidRow, FlatRow, PlaneRow, SphereRow, TriangleRow};
 use crate::numeric::{ORDINARY, PLAN_MARGIN};
 
 /// Where a mesh stands.
@@ -41,7 +41,8 @@ impl Affine {
 pub(crate) enum Row {
     Plane(u32),
     Sphere(u32),
-    Rectangle(u32),
+    Flat(u32),
+    Cuboid(u32),
     /// The first of so many triangles, the faces of one shape in order of their facets.
     Triangles(u32, u32),
     Instance(u32),
@@ -81,7 +82,8 @@ impl Ball {
 pub(crate) struct Columns {
     pub(crate) planes: Vec<PlaneRow>,
     pub(crate) spheres: Vec<SphereRow>,
-    pub(crate) rectangles: Vec<RectangleRow>,
+    pub(crate) flats: Vec<FlatRow>,
+    pub(crate) cuboids: Vec<CuboidRow>,
     pub(crate) triangles: Vec<TriangleRow>,
     pub(crate) instances: Vec<Instance>,
     /// What stands behind each shape.
@@ -134,16 +136,29 @@ impl Columns {
         }
     }
 
+    /// The plane that a facet of a flat shape or of a solid with flat faces lies in.
+    #[inline(always)]
+    pub(crate) fn plane_of(&self, row: Row, facet: u32) -> Option<&PlaneRow> {
+        match row {
+            Row::Plane(row) => Some(&self.planes[row as usize]),
+            Row::Flat(row) => Some(&self.flats[row as usize].plane),
+            Row::Cuboid(row) => self.cuboids[row as usize].faces.get(facet as usize),
+            Row::Triangles(first, _) => self.triangles.get((first + facet) as usize).map(|face| &face.plane),
+            Row::Sphere(_) | Row::Instance(_) | Row::General => None,
+        }
+    }
+
     /// Whether a point lies outside all convex solids that have a kernel.
     pub(crate) fn is_outside(&self, point: DVec3) -> bool {
         let off_sphere = |row: &SphereRow| row.center.distance(point) > row.radius * (1.0 + PLAN_MARGIN);
-        let before = |face: &TriangleRow| {
-            let PlaneRow { normal, distance, .. } = face.plane;
+        let before = |face: &PlaneRow| {
+            let PlaneRow { normal, distance, .. } = *face;
             normal.dot(point) - distance > PLAN_MARGIN * (distance.abs() + point.abs().element_sum())
         };
         let mut shapes = self.triangles.chunk_by(|a, b| a.plane.prim == b.plane.prim);
         self.spheres.iter().all(off_sphere)
-            && shapes.all(|faces| faces.len() == 1 || faces.iter().any(before))
+            && self.cuboids.iter().all(|cuboid| cuboid.faces.iter().any(before))
+            && shapes.all(|faces| faces.len() == 1 || faces.iter().any(|face| before(&face.plane)))
     }
 
     /// How many shapes have no kernel.
@@ -163,7 +178,14 @@ impl Columns {
                 Row::Sphere(push(&mut self.spheres, SphereRow::new(sphere.center(), sphere.radius())))
             }
             Shape::Rectangle(r) => {
-                Row::Rectangle(push(&mut self.rectangles, RectangleRow::new(r.corner(), r.edges(), id)))
+                Row::Flat(push(&mut self.flats, FlatRow::rectangle(r.corner(), r.edges(), id)))
+            }
+            Shape::Disk(d) => {
+                Row::Flat(push(&mut self.flats, FlatRow::disk(d.center(), d.normal(), d.radius(), id)))
+            }
+            Shape::Cuboid(cuboid) => {
+                let Shape::Cuboid(in_frame) = &prim.shape else { return Row::General };
+                Row::Cuboid(push(&mut self.cuboids, CuboidRow::new(cuboid, in_frame, id)))
             }
             Shape::Triangle(t) => self.add_facets(id, &[t.corners()]),
             Shape::Tetrahedron(t) => self.add_facets(id, &[0, 1, 2, 3].map(|face| t.face(face))),

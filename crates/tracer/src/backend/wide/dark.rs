@@ -51,7 +51,11 @@ fn goes_dark(columns: &Columns, beam: &Beam, place: &Place, outside: bool) -> bo
     let dark = |normal, half| !beam.sent_on(place, normal, half).may_meet_any(columns, outside);
     match columns.rows[place.prim as usize] {
         Row::Plane(row) => dark(columns.planes[row as usize].normal, DVec3::ZERO),
-        Row::Rectangle(row) => dark(columns.rectangles[row as usize].plane.normal, DVec3::ZERO),
+        Row::Flat(row) => dark(columns.flats[row as usize].plane.normal, DVec3::ZERO),
+        Row::Cuboid(row) => {
+            let faces = &columns.cuboids[row as usize].faces;
+            faces.iter().all(|face| dark(face.normal, DVec3::ZERO))
+        }
         Row::Sphere(row) => {
             let sphere = &columns.spheres[row as usize];
             dark((place.center - sphere.center) / sphere.radius, place.half / sphere.radius)

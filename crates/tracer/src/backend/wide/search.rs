@@ -74,7 +74,7 @@ impl<S: Simd> Best<S> {
 struct Doubtful<S: Simd> {
     prim: u32,
     /// The facet in question; `None` for a shape without a kernel.
-    facet: Option<u32>,
+    facet: Option<U<S>>,
     t: F<S>,
     error: F<S>,
     /// Lanes where `t` is a crossing for certain, and only its place in the order is in doubt.
@@ -138,7 +138,7 @@ impl<S: Simd> Tracer<'_, S> {
             let leaving = packet.left.from(self.s, prim, 0);
             let proposal = columns.spheres[row as usize].propose(self.s, &packet.rays, leaving);
             // A sphere may be met again by a ray that leaves it, on its far side.
-            self.weigh(packet, best, packet.live, (prim, 0), proposal);
+            self.weigh(packet, best, packet.live, (prim, U::splat(self.s, 0)), proposal);
         } else {
             *best = self.try_facets(packet, *best, prim);
         }
@@ -160,9 +160,21 @@ impl<S: Simd> Tracer<'_, S> {
     fn try_each_facet(&mut self, packet: &Packet<'_, S>, best: &mut Best<S>, prim: u32) {
         let columns = self.frame.snapshot.columns();
         match columns.rows[prim as usize] {
-            Row::Rectangle(row) => {
-                let proposal = columns.rectangles[row as usize].propose(self.s, &packet.rays);
+            Row::Flat(row) => {
+                let proposal = columns.flats[row as usize].propose(self.s, &packet.rays);
                 self.consider(packet, best, packet.live, (prim, 0), proposal);
+            }
+            Row::Cuboid(row) => {
+                let cuboid = &columns.cuboids[row as usize];
+                let again = self.again(packet, &cuboid.faces);
+                if again.undecided.any() {
+                    self.settle_all(packet, best, again.undecided, prim);
+                }
+                if again.may.any() {
+                    let entered = again.entered(self.s, &packet.left);
+                    let (proposal, facet) = cuboid.propose(self.s, &packet.rays, entered);
+                    self.weigh(packet, best, again.may, (prim, facet), proposal);
+                }
             }
             Row::Triangles(first, count) => {
                 let triangles = &columns.triangles[first as usize..(first + count) as usize];
@@ -196,7 +208,7 @@ impl<S: Simd> Tracer<'_, S> {
         proposal: Proposal<S>,
     ) {
         let allowed = if packet.left.any { live & !packet.left.from(self.s, place.0, place.1) } else { live };
-        self.weigh(packet, best, allowed, place, proposal);
+        self.weigh(packet, best, allowed, (place.0, U::splat(self.s, place.1)), proposal);
     }
 
     /// Takes over a proposal where it is nearer; what cannot be decided is settled in `f64`.
@@ -206,7 +218,7 @@ impl<S: Simd> Tracer<'_, S> {
         packet: &Packet<'_, S>,
         best: &mut Best<S>,
         allowed: M<S>,
-        (prim, facet): (u32, u32),
+        (prim, facet): (u32, U<S>),
         proposal: Proposal<S>,
     ) {
         self.stats.tests.shapes += F::<S>::LANES as u64;
@@ -224,7 +236,7 @@ impl<S: Simd> Tracer<'_, S> {
         best.t = F::pick(take, proposal.t, best.t);
         best.error = F::pick(take, proposal.error, best.error);
         best.prim = U::pick(take, U::splat(self.s, prim), best.prim);
-        best.facet = U::pick(take, U::splat(self.s, facet), best.facet);
+        best.facet = U::pick(take, facet, best.facet);
         if CERTAIN && undecided.any() {
             let doubtful = Doubtful {
                 prim,
@@ -269,13 +281,14 @@ impl<S: Simd> Tracer<'_, S> {
         lanes: u64,
         doubtful: &Doubtful<S>,
     ) {
-        let Doubtful { prim, facet, .. } = *doubtful;
-        let snapshot = self.frame.snapshot;
-        // A mesh is crossed in that triangle only; of a solid, other faces that pass through the same edge may not have
-        // been looked at.
-        let part = facet.filter(|_| snapshot.columns().faces_of(prim).is_none());
+        let (snapshot, prim) = (self.frame.snapshot, doubtful.prim);
+        let solid = snapshot.columns().faces_of(prim).is_some();
         for lane in Bits(lanes) {
             self.stats.settled += 1;
+            let facet = doubtful.facet.map(|facet| facet.lane(lane));
+            // A mesh is crossed in that triangle only; of a solid, other faces that pass through the same edge may not
+            // have been looked at.
+            let part = facet.filter(|_| !solid);
             let (ray, span, leaving) = (packet.ray(lane), packet.span(lane), packet.leaving(lane));
             let way = Way::new(&ray, span, leaving);
             let known = doubtful.known.bits() >> lane & 1 == 1;

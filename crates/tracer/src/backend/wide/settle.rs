@@ -75,16 +75,15 @@ impl<S: Simd> Tracer<'_, S> {
     ) -> Settled<S> {
         let columns = self.frame.snapshot.columns();
         match columns.rows[prim as usize] {
-            Row::Rectangle(row) => {
-                let plane = &columns.rectangles[row as usize].plane;
+            Row::Flat(row) => {
+                let plane = &columns.flats[row as usize].plane;
                 self.settle_flat(packet, best, plane)
             }
-            Row::Triangles(first, _) => {
-                let triangles = &columns.triangles[first as usize..];
+            row @ (Row::Cuboid(_) | Row::Triangles(..)) => {
                 let none = D::splat(self.s, 0.0);
                 let (mut normal, mut distance) = (D3::splat(none), none);
                 for (facet, lanes) in best.facet.groups(mask) {
-                    let plane = &triangles[facet as usize].plane;
+                    let Some(plane) = columns.plane_of(row, facet) else { continue };
                     normal = pick3(lanes, splat_wide(self.s, plane.normal), normal);
                     distance = D::pick(lanes, D::splat(self.s, plane.distance), distance);
                 }

@@ -142,11 +142,22 @@ impl<S: Simd> Tracer<'_, S> {
     fn block_facets(&mut self, packet: &Packet<'_, S>, ways: &Ways<S>, open: M<S>, prim: u32) -> M<S> {
         let columns = self.frame.snapshot.columns();
         match columns.rows[prim as usize] {
-            Row::Rectangle(row) => {
-                let blocking =
-                    columns.rectangles[row as usize].propose(self.s, &ways.rays).blocking(&ways.target);
+            Row::Flat(row) => {
+                let blocking = columns.flats[row as usize].propose(self.s, &ways.rays).blocking(&ways.target);
                 let allowed = open & !ways.left.from(self.s, prim, 0);
                 self.block((packet, ways), open, allowed, (prim, Some(0)), blocking)
+            }
+            Row::Cuboid(row) => {
+                let cuboid = &columns.cuboids[row as usize];
+                let again = self.again_to_light(ways, &cuboid.faces);
+                let open = self.block_lanes((packet, ways), open, again.undecided, (prim, None));
+                if !(open & again.may).any() {
+                    return open;
+                }
+                let entered = again.entered(self.s, &ways.left);
+                let (proposal, _) = cuboid.propose(self.s, &ways.rays, entered);
+                let blocking = proposal.blocking(&ways.target);
+                self.block((packet, ways), open, open & again.may, (prim, None), blocking)
             }
             Row::Triangles(first, count) => {
                 let triangles = &columns.triangles[first as usize..(first + count) as usize];

@@ -53,16 +53,15 @@ impl<S: Simd> Tracer<'_, S> {
         let point = packet.point(best.t);
         match columns.rows[prim as usize] {
             Row::Plane(row) => Surface::flat(point, splat3(self.s, columns.planes[row as usize].normal32)),
-            Row::Rectangle(row) => {
-                Surface::flat(point, splat3(self.s, columns.rectangles[row as usize].plane.normal32))
+            Row::Flat(row) => {
+                Surface::flat(point, splat3(self.s, columns.flats[row as usize].plane.normal32))
             }
             Row::Sphere(row) => self.surface_of_sphere(packet, best, &columns.spheres[row as usize]),
-            Row::Triangles(first, _) => {
-                let triangles = &columns.triangles[first as usize..];
+            row @ (Row::Cuboid(_) | Row::Triangles(..)) => {
                 let mut normal = point;
                 for (facet, lanes) in best.facet.groups(mask) {
-                    let own = splat3(self.s, triangles[facet as usize].plane.normal32);
-                    normal = F3::select(lanes, own, normal);
+                    let Some(plane) = columns.plane_of(row, facet) else { continue };
+                    normal = F3::select(lanes, splat3(self.s, plane.normal32), normal);
                 }
                 Surface::flat(point, normal)
             }

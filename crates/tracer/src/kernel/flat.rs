@@ -1,0 +1,66 @@
+//! Rays against a flat shape: its plane, then whether they pass within its outline.
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Arithmetic, LaneMask};
+use fearless_simd::Simd;
+
+use super::{DiskOutline, PlaneRow, Proposal, Rays, RectangleOutline, bound, rounded};
+use crate::lanes::{F, F3, M, splat3};
+use crate::numeric::POINT_ERROR;
+
+/// A flat shape with an end.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FlatRow {
+    pub(crate) plane: PlaneRow,
+    /// A point of its plane.
+    from: [f32; 3],
+    outline: Outline,
+    reach: f32,
+}
+
+/// Where a flat shape ends.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Outline {
+    Rectangle(RectangleOutline),
+    Disk(DiskOutline),
+}
+
+/// Points of a plane that lie within an outline for certain, and those that lie outside it.
+pub(super) struct Sides<S: Simd> {
+    pub(super) inside: M<S>,
+    pub(super) outside: M<S>,
+}
+
+impl FlatRow {
+    /// Within an outline as seen from a point of its plane, no coordinate of which is larger than `reach`.
+    pub(super) fn new(from: DVec3, normal: DVec3, outline: Outline, reach: f32, prim: u32) -> Self {
+        Self { plane: PlaneRow::new(from, normal, prim), from: rounded(from), outline, reach }
+    }
+
+    #[inline(always)]
+    pub(crate) fn propose<S: Simd>(&self, s: S, rays: &Rays<S>) -> Proposal<S> {
+        let plane = self.plane.propose(s, rays);
+        if !(plane.hit | plane.undecided).any() {
+            return plane;
+        }
+        let point = rays.direction.scale_add(plane.t, rays.origin - splat3(s, self.from));
+        let error = (rays.reach + F::splat(s, self.reach)).mul_add(F::splat(s, POINT_ERROR), plane.error);
+        let Sides { inside, outside } = self.outline.sides(s, point, bound(s, error));
+        Proposal {
+            hit: plane.hit & inside,
+            undecided: plane.undecided | (plane.hit & !(inside | outside)),
+            ..plane
+        }
+    }
+}
+
+impl Outline {
+    /// On which side points lie whose coordinates may each be off by an error.
+    #[inline(always)]
+    fn sides<S: Simd>(&self, s: S, point: F3<S>, error: F<S>) -> Sides<S> {
+        match self {
+            Self::Rectangle(outline) => outline.sides(s, point, error),
+            Self::Disk(outline) => outline.sides(s, point, error),
+        }
+    }
+}
