@@ -8,7 +8,7 @@ use catoptra_core::{
 };
 use catoptra_tests::{parsed, shipped_scenes};
 use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
-use catoptra_tracer::{Place, Pool, Preset, Snapshot, backend_named, backends};
+use catoptra_tracer::{Pool, Preset, Snapshot, SurfaceId, backend_named, backends};
 
 /// Numbers from -1 to 1 that look random (xorshift, Marsaglia 2003).
 struct Numbers(u64);
@@ -94,8 +94,8 @@ fn both_ends_of_a_stretch_belong_to_it() {
 fn a_surface_that_is_left_is_not_met_at_once() {
     let snapshot = Snapshot::extract(&parsed(BALL));
     let mut rays = RayList::new();
-    rays.push(&Ray::new(DVec3::Z, DVec3::Z), [0.0, 9.0], Some(Place { prim: 0, facet: 0 }));
-    rays.push(&Ray::new(DVec3::Z, -DVec3::Z), [0.0, 9.0], Some(Place { prim: 0, facet: 0 }));
+    rays.push(&Ray::new(DVec3::Z, DVec3::Z), [0.0, 9.0], Some(SurfaceId { prim: 0, facet: 0 }));
+    rays.push(&Ray::new(DVec3::Z, -DVec3::Z), [0.0, 9.0], Some(SurfaceId { prim: 0, facet: 0 }));
     for backend in backends() {
         let hits = nearest(backend.name(), &snapshot, &rays);
         assert_eq!(hits.get(0), None, "{}", backend.name());

@@ -57,6 +57,9 @@ impl Span {
         Self { min: ABOVE_ZERO, max }
     }
 
+    /// Everything between the origin and a light that stands at 1; what stands at the light itself throws no shadow.
+    pub const TO_LIGHT: Self = Self::until(1.0_f64.next_down());
+
     /// The origin and everything in front of it.
     pub const FROM_ORIGIN: Self = Self { min: 0.0, max: f64::INFINITY };
 

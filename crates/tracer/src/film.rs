@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use catoptra_core::EntityId;
 
-use crate::column::Column;
+use crate::lanes::Column;
 use crate::{Region, Size};
 
 /// Edge of the square blocks that pixels of a tile are stored in. Sixteen pixels lie side by side in memory, so that

@@ -25,15 +25,15 @@
 
 mod accel;
 pub mod backend;
-mod column;
 mod control;
+mod cull;
 mod display;
 mod film;
+mod frame;
 mod instructions;
 mod integrator;
 mod kernel;
 mod lanes;
-mod memory;
 mod numeric;
 mod pattern;
 mod pick;
@@ -41,21 +41,26 @@ mod pool;
 pub mod query;
 #[cfg(test)]
 mod random;
+mod rays;
 mod render;
+mod search;
+mod shade;
 mod snapshot;
 mod stats;
+mod stream;
 mod view;
 
 pub use accel::{MeshTree, Preset};
-pub use backend::{Backend, Frame, backend_named, backends};
+pub use backend::{Backend, backend_named, backends};
 pub use control::Control;
 pub use display::Display;
 pub use film::{Film, Tile};
+pub use frame::Frame;
 pub use instructions::Instructions;
 pub use pattern::Pattern;
 pub use pick::{Pick, pick};
 pub use pool::{NoPool, Pool};
 pub use render::{Cancelled, render};
-pub use snapshot::{Hit, Needs, Place, Prim, Snapshot};
+pub use snapshot::{Hit, Needs, Prim, Snapshot, SurfaceId};
 pub use stats::{Rays, Skipped, Stats, Tests};
 pub use view::{Region, Size, Skip, View};

@@ -1,5 +1,6 @@
 //! Which numbers decide something in tracing: every tolerance of the crate, with its source.
 
+use catoptra_core::glam::DVec3;
 use catoptra_core::numeric::UNIT_ROUNDOFF_F64;
 
 /// Rays that could add less than this share of what they meet are not traced, unless a view says otherwise.
@@ -201,3 +202,13 @@ pub(crate) const DEPTH_ERROR: f64 = 1.0 / (1_u64 << 30) as f64;
 /// The distance `t` from where the ray began is off by [`DEPTH_ERROR`]; the reach holds `t` times [`END_ERROR`] over
 /// [`POINT_ERROR`], two thirds of it. The other half has room for what `f64` rounds, below [`BOUNDS_ERROR`].
 pub(crate) const START_ERROR: f32 = 3.0 * DEPTH_ERROR as f32;
+
+/// Sum of the magnitudes of the coordinates, rounded up, and at least [`LEAST_REACH`].
+pub(crate) fn magnitude_of(v: DVec3) -> f32 {
+    (v.abs().element_sum() as f32).next_up() + LEAST_REACH
+}
+
+/// Coordinates rounded to `f32`.
+pub(crate) fn rounded(v: DVec3) -> [f32; 3] {
+    v.to_array().map(|c| c as f32)
+}

@@ -64,7 +64,7 @@ pub fn confirm(
     shapes: &[Shape],
     ray: &Ray,
     span: Span,
-    said: Option<(catoptra_tracer::Place, f64)>,
+    said: Option<(catoptra_tracer::SurfaceId, f64)>,
 ) -> Result<(), String> {
     let met = meetings(shapes, ray, span).into_iter().next();
     let right = match (&met, said) {
@@ -165,7 +165,7 @@ mod tests {
     fn a_wrong_answer_is_not_confirmed() {
         let shapes = one_of_each();
         let down = Ray::new(DVec3::new(0.25, 4.0, 0.25), DVec3::NEG_Y);
-        let place = |prim| catoptra_tracer::Place { prim, facet: 0 };
+        let place = |prim| catoptra_tracer::SurfaceId { prim, facet: 0 };
         let confirmed = |said| confirm(&shapes, &down, Span::AHEAD, said).is_ok();
         assert!(confirmed(Some((place(0), 4.0))));
         assert!(!confirmed(Some((place(1), 4.0))), "the plane comes before the sphere");

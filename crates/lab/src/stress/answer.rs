@@ -4,7 +4,7 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::optics::{reflect, refract};
 use catoptra_core::{Crossing, Ray, Span};
 use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
-use catoptra_tracer::{Backend, Place, Pool, Snapshot};
+use catoptra_tracer::{Backend, Pool, Snapshot, SurfaceId};
 
 use super::{Case, Cases, Posed, Question, Reply, pose};
 
@@ -58,7 +58,7 @@ impl Staged<'_> {
         hits
     }
 
-    fn reply(&self, case: &Case, ray: &Ray, hit: Option<(Place, f64)>) -> Reply {
+    fn reply(&self, case: &Case, ray: &Ray, hit: Option<(SurfaceId, f64)>) -> Reply {
         match case.question {
             Question::Nearest { .. } => {
                 Reply::Nearest(hit.and_then(|(place, t)| Some((self.primitive(place)?, t))))
@@ -80,17 +80,17 @@ impl Staged<'_> {
         }
     }
 
-    fn primitive(&self, place: Place) -> Option<u32> {
+    fn primitive(&self, place: SurfaceId) -> Option<u32> {
         self.posed.primitive(place.prim, place.facet)
     }
 
-    fn crossing(&self, ray: &Ray, place: Place, t: f64) -> Option<Crossing> {
+    fn crossing(&self, ray: &Ray, place: SurfaceId, t: f64) -> Option<Crossing> {
         let own = self.snapshot.own_ray(ray);
         self.snapshot.prims()[place.prim as usize].shape.crossing(&own, t, place.facet)
     }
 
     /// Whether a light is on the other side of the surface than the ray comes from, or something stands before it.
-    fn is_hidden(&self, ray: &Ray, place: Place, t: f64, light: DVec3) -> bool {
+    fn is_hidden(&self, ray: &Ray, place: SurfaceId, t: f64, light: DVec3) -> bool {
         let Some(crossing) = self.crossing(ray, place, t) else { return true };
         let point = ray.at(t);
         let towards = light - point;
@@ -109,7 +109,7 @@ impl Staged<'_> {
     fn follow(
         &self,
         ray: &Ray,
-        first: Option<(Place, f64)>,
+        first: Option<(SurfaceId, f64)>,
         count: u32,
         turn: impl Fn(DVec3, DVec3) -> DVec3,
     ) -> Option<([f64; 3], f64, u32)> {

@@ -6,7 +6,7 @@ use catoptra_core::TriangleMesh;
 
 use super::grow::grow;
 use super::{Preset, WideTree};
-use crate::kernel::magnitude_of;
+use crate::numeric::magnitude_of;
 
 /// A triangle mesh and a tree of boxes over its triangles, in the mesh's own space.
 #[derive(Debug)]

@@ -3,7 +3,7 @@
 use catoptra_core::{Ray, Span};
 
 use super::{Box32, MAX_DEPTH};
-use crate::memory::prefetch;
+use crate::lanes::prefetch;
 
 /// Children of a node, and triangles of a block: as many as one register of AVX2 or half a register of AVX-512 holds.
 pub(crate) const WIDTH: usize = 8;

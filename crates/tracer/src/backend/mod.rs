@@ -6,43 +6,8 @@ mod oracle;
 mod scalar;
 mod wide;
 
-use catoptra_core::Raster;
-use catoptra_core::glam::DVec3;
-
-use crate::query::{HitSlice, RaySlice};
-use crate::{Snapshot, Stats, Tile, View};
-
-/// What a backend is given: a snapshot, and from where it is looked at.
-#[derive(Debug, Clone, Copy)]
-pub struct Frame<'a> {
-    /// What is looked at.
-    pub snapshot: &'a Snapshot,
-    /// From where, and how far to go.
-    pub view: &'a View,
-    /// The view's rays, in the snapshot's frame.
-    pub raster: Raster,
-    /// The eye, relative to the snapshot's origin.
-    pub(crate) eye: DVec3,
-    /// Whether the eye, and so every ray of the view, stays outside all convex solids.
-    pub(crate) outside_solids: bool,
-}
-
-impl<'a> Frame<'a> {
-    /// Looks at a snapshot.
-    #[must_use]
-    pub fn new(snapshot: &'a Snapshot, view: &'a View) -> Self {
-        let frame = Self::without_eye(snapshot, view);
-        Self { outside_solids: snapshot.columns().is_outside(frame.eye), ..frame }
-    }
-
-    /// As [`new`](Self::new), without asking where the eye lies.
-    pub(crate) fn without_eye(snapshot: &'a Snapshot, view: &'a View) -> Self {
-        let raster = view.camera.raster(view.size.width, view.size.height);
-        let eye = raster.eye - snapshot.origin();
-        let raster = Raster { eye: raster.eye - snapshot.frame(), ..raster };
-        Self { snapshot, view, raster, eye, outside_solids: false }
-    }
-}
+use crate::rays::{HitSlice, RaySlice};
+use crate::{Frame, Snapshot, Stats, Tile, View};
 
 /// A way to trace.
 pub trait Backend: Send + Sync {
@@ -62,12 +27,12 @@ pub trait Backend: Send + Sync {
 
     /// Finds what each ray meets first, for as many rays as there are in `rays`. Knows no threads.
     fn find_nearest(&self, snapshot: &Snapshot, rays: RaySlice<'_>, hits: &mut HitSlice<'_>) -> Stats {
-        hits.fill(snapshot, rays, |way| snapshot.nearest_on(way))
+        hits.fill(snapshot, rays, |segment| snapshot.nearest_on(segment))
     }
 
     /// Finds whether each ray meets anything, for as many rays as there are in `rays`. Knows no threads.
     fn find_occluded(&self, snapshot: &Snapshot, rays: RaySlice<'_>, occluded: &mut [bool]) -> Stats {
-        rays.ask(snapshot, occluded, |way| snapshot.is_occluded_on(way))
+        rays.ask(snapshot, occluded, |segment| snapshot.is_occluded_on(segment))
     }
 }
 

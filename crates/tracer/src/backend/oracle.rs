@@ -2,20 +2,20 @@
 
 use catoptra_core::{Ray, Span};
 
-use super::{Backend, Frame};
+use super::Backend;
 use crate::integrator::{Search, trace_pixels};
-use crate::query::{HitSlice, RaySlice};
-use crate::{Hit, Place, Snapshot, Stats, Tile};
+use crate::rays::{HitSlice, RaySlice};
+use crate::{Frame, Hit, Snapshot, Stats, SurfaceId, Tile};
 
 /// Tries everything.
 pub(super) struct Oracle;
 
 impl Search for Oracle {
-    fn nearest(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<Place>) -> Option<Hit> {
+    fn nearest(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
         snapshot.nearest_of_all(ray, span, leaving)
     }
 
-    fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<Place>) -> bool {
+    fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool {
         snapshot.nearest_of_all(ray, span, leaving).is_some()
     }
 }
@@ -34,10 +34,10 @@ impl Backend for Oracle {
     }
 
     fn find_nearest(&self, snapshot: &Snapshot, rays: RaySlice<'_>, hits: &mut HitSlice<'_>) -> Stats {
-        hits.fill(snapshot, rays, |way| snapshot.nearest_of_all_on(way))
+        hits.fill(snapshot, rays, |segment| snapshot.nearest_of_all_on(segment))
     }
 
     fn find_occluded(&self, snapshot: &Snapshot, rays: RaySlice<'_>, occluded: &mut [bool]) -> Stats {
-        rays.ask(snapshot, occluded, |way| snapshot.nearest_of_all_on(way).is_some())
+        rays.ask(snapshot, occluded, |segment| snapshot.nearest_of_all_on(segment).is_some())
     }
 }

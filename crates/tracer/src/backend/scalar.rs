@@ -2,19 +2,19 @@
 
 use catoptra_core::{Ray, Span};
 
-use super::{Backend, Frame};
+use super::Backend;
 use crate::integrator::{Search, trace_pixels};
-use crate::{Hit, Place, Snapshot, Stats, Tile};
+use crate::{Frame, Hit, Snapshot, Stats, SurfaceId, Tile};
 
 /// Walks the trees.
 pub(super) struct Scalar;
 
 impl Search for Scalar {
-    fn nearest(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<Place>) -> Option<Hit> {
+    fn nearest(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
         snapshot.nearest(ray, span, leaving)
     }
 
-    fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<Place>) -> bool {
+    fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool {
         snapshot.occluded(ray, span, leaving)
     }
 }

@@ -2,4 +2,4 @@
 
 mod whitted;
 
-pub(crate) use whitted::{LIGHT_ITSELF, Search, trace_pixels};
+pub(crate) use whitted::{Search, trace_pixels, trace_tile};

@@ -7,10 +7,10 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane, LaneMask};
 use fearless_simd::Simd;
 
-use super::{PlaneRow, Proposal, Rays, bound, magnitude_of};
+use super::{PlaneRow, Proposal, Rays, bound};
 use crate::film::NOTHING;
 use crate::lanes::{F, M, U, splat3};
-use crate::numeric::{DIRECTION_ERROR, POINT_ERROR, WORLD_DRIFT};
+use crate::numeric::{DIRECTION_ERROR, POINT_ERROR, WORLD_DRIFT, magnitude_of};
 
 /// A box, placed.
 #[derive(Debug, Clone, Copy)]

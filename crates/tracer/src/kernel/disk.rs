@@ -5,8 +5,8 @@ use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::Simd;
 
 use super::flat::{FlatRow, Outline, Sides};
-use super::magnitude_of;
 use crate::lanes::{F, F3};
+use crate::numeric::magnitude_of;
 
 /// A disk, seen from its centre.
 #[derive(Debug, Clone, Copy)]

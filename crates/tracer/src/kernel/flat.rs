@@ -4,9 +4,9 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, LaneMask};
 use fearless_simd::Simd;
 
-use super::{DiskOutline, PlaneRow, Proposal, Rays, RectangleOutline, bound, rounded};
+use super::{DiskOutline, PlaneRow, Proposal, Rays, RectangleOutline, bound};
 use crate::lanes::{F, F3, M, splat3};
-use crate::numeric::POINT_ERROR;
+use crate::numeric::{POINT_ERROR, rounded};
 
 /// A flat shape with an end.
 #[derive(Debug, Clone, Copy)]

@@ -3,10 +3,10 @@
 //! A kernel may leave a lane undecided, never decide it wrongly: undecided lanes go to `f64`, one ray at a time.
 //! A shape without a kernel leaves every lane undecided: slower, the same answer.
 
-#[cfg(test)]
-mod attack;
 mod cuboid;
 mod disk;
+#[cfg(test)]
+mod error_bounds_tests;
 mod flat;
 pub(crate) mod mesh;
 mod plane;
@@ -14,13 +14,12 @@ mod rectangle;
 mod sphere;
 mod triangle;
 
+use catoptra_core::Lane;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, Lane, Ray, Span, Triple};
 use fearless_simd::Simd;
 
-use crate::integrator::LIGHT_ITSELF;
 use crate::lanes::{F, F3, M};
-use crate::numeric::{CERTAIN, LEAST_REACH};
+use crate::numeric::CERTAIN;
 
 pub(crate) use cuboid::CuboidRow;
 use disk::DiskOutline;
@@ -62,37 +61,31 @@ pub(crate) struct Proposal<S: Simd> {
     pub(crate) undecided: M<S>,
 }
 
-/// What a kernel says of a stretch from a point to a light.
+/// What a kernel says of a segment.
 #[derive(Clone, Copy)]
 pub(crate) struct Blocking<S: Simd> {
-    /// Where the way is blocked, for certain unless undecided.
+    /// Where the segment is blocked, for certain unless undecided.
     pub(crate) blocked: M<S>,
     /// Where `f32` cannot say.
     pub(crate) undecided: M<S>,
 }
 
-/// A light as kernels see it: how far rays to it reach, and where it stands.
+/// Where segments end, as kernels see it.
 #[derive(Clone, Copy)]
 pub(crate) struct Target<S: Simd> {
-    /// Metres along each ray; infinite for a light at infinity.
+    /// Metres along each ray; infinite for segments without an end.
     pub(crate) distance: F<S>,
-    /// Its position, or the unit vector towards it when `at_infinity`.
-    pub(crate) place: DVec3,
-    /// The same in the snapshot's frame.
-    pub(crate) in_frame: DVec3,
-    /// Whether it stands at infinity.
-    pub(crate) at_infinity: bool,
+    /// Where all of them end, if that is known to be one place.
+    pub(crate) end: Option<End>,
 }
 
-impl<S: Simd> Target<S> {
-    /// The way from a point to the light, in the snapshot's frame.
-    pub(crate) fn way_from(&self, point: DVec3) -> (Ray, Span) {
-        if self.at_infinity {
-            (Ray::new(point, self.in_frame), Span::AHEAD)
-        } else {
-            (Ray::new(point, self.in_frame - point), LIGHT_ITSELF)
-        }
-    }
+/// A common end of segments.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum End {
+    /// A point.
+    At(DVec3),
+    /// Infinitely far in the direction of a unit vector.
+    Towards(DVec3),
 }
 
 impl<S: Simd> Proposal<S> {
@@ -109,30 +102,4 @@ impl<S: Simd> Proposal<S> {
 #[inline(always)]
 pub(crate) fn bound<S: Simd>(s: S, error: F<S>) -> F<S> {
     if CERTAIN { error } else { F::splat(s, 0.0) }
-}
-
-/// Sum of the magnitudes of the coordinates.
-#[inline(always)]
-pub(crate) fn magnitude<S: Simd>(v: F3<S>) -> F<S> {
-    v.x.abs() + v.y.abs() + v.z.abs()
-}
-
-/// Sum of the magnitudes of the coordinates, rounded up, and at least [`LEAST_REACH`].
-pub(crate) fn magnitude_of(v: DVec3) -> f32 {
-    (v.abs().element_sum() as f32).next_up() + LEAST_REACH
-}
-
-/// Coordinates rounded to `f32`.
-pub(crate) fn rounded(v: DVec3) -> [f32; 3] {
-    v.to_array().map(|c| c as f32)
-}
-
-/// `a × b` with one product and one fused product a component.
-#[inline(always)]
-pub(crate) fn cross<L: Arithmetic>(a: Triple<L>, b: Triple<L>) -> Triple<L> {
-    Triple::new(
-        a.y.mul_add(b.z, -(a.z * b.y)),
-        a.z.mul_add(b.x, -(a.x * b.z)),
-        a.x.mul_add(b.y, -(a.y * b.x)),
-    )
 }

@@ -4,9 +4,9 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::Simd;
 
-use super::{Blocking, Proposal, Rays, bound, magnitude_of, rounded};
+use super::{Blocking, Proposal, Rays, bound};
 use crate::lanes::{F, splat3};
-use crate::numeric::{DIRECTION_ERROR, POINT_ERROR, WIDE_SHARE};
+use crate::numeric::{DIRECTION_ERROR, POINT_ERROR, WIDE_SHARE, magnitude_of, rounded};
 
 /// A plane `normal · p = distance`.
 #[derive(Debug, Clone, Copy)]

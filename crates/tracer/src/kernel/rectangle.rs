@@ -5,8 +5,8 @@ use catoptra_core::glam::DVec3;
 use fearless_simd::Simd;
 
 use super::flat::{FlatRow, Outline, Sides};
-use super::{magnitude_of, rounded};
 use crate::lanes::{F, F3, splat3};
+use crate::numeric::{magnitude_of, rounded};
 
 /// A rectangle, seen from its corner.
 #[derive(Debug, Clone, Copy)]

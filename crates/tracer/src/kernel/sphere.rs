@@ -4,9 +4,9 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
 
-use super::{Blocking, Proposal, Rays, Target, bound, magnitude_of, rounded};
+use super::{Blocking, End, Proposal, Rays, Target, bound};
 use crate::lanes::{F, F3, M, splat3};
-use crate::numeric::{PLAN_MARGIN, POINT_ERROR};
+use crate::numeric::{PLAN_MARGIN, POINT_ERROR, magnitude_of, rounded};
 
 /// A sphere.
 #[derive(Debug, Clone, Copy)]
@@ -99,7 +99,11 @@ impl SphereRow {
         starts_outside: bool,
     ) -> Blocking<S> {
         let most = self.radius * self.radius * (1.0 + PLAN_MARGIN);
-        let may_end_inside = !target.at_infinity && target.place.distance_squared(self.center) <= most;
+        let may_end_inside = match target.end {
+            Some(End::At(place)) => place.distance_squared(self.center) <= most,
+            Some(End::Towards(_)) => false,
+            None => true,
+        };
         if may_end_inside || leaving.any() {
             return self.propose(s, rays, leaving).blocking(target);
         }

@@ -8,9 +8,9 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
 
-use super::{PlaneRow, Proposal, Rays, cross, magnitude, magnitude_of, rounded};
-use crate::lanes::{F, M, splat3};
-use crate::numeric::EDGE_ERROR;
+use super::{PlaneRow, Proposal, Rays};
+use crate::lanes::{F, M, cross, magnitude, splat3};
+use crate::numeric::{EDGE_ERROR, magnitude_of, rounded};
 
 /// A triangle that stands alone or is a face of a solid.
 #[derive(Debug, Clone, Copy)]

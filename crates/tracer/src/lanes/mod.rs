@@ -1,6 +1,9 @@
 //! Lanes of the CPU's SIMD registers as the formulas' numbers: `f32` at native width and the same lanes in `f64`.
 
+mod column;
 mod double;
+mod level;
+mod prefetch;
 mod vectors;
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -8,10 +11,13 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 use catoptra_core::{Arithmetic, Coefficient, Lane, LaneMask};
 use fearless_simd::prelude::*;
 
+pub(crate) use column::Column;
 pub(crate) use double::D;
+pub(crate) use level::{Work, at_level, outlined};
+pub(crate) use prefetch::prefetch;
 pub(crate) use vectors::{
-    D3, F3, LaneVectors, compress_wide3, compress3, load_wide3, load3, narrow3, pick3, splat_wide, splat3,
-    store_wide3, store3, vector_of, widen3,
+    D3, F3, LaneVectors, compress_wide3, compress3, cross, load_wide3, load3, magnitude, narrow3, pick3,
+    splat_wide, splat3, store_wide3, store3, vector_of, widen3,
 };
 
 /// `f32` in every lane.

@@ -2,8 +2,8 @@
 
 use std::ops::{Deref, DerefMut};
 
-use catoptra_core::Triple;
 use catoptra_core::glam::DVec3;
+use catoptra_core::{Arithmetic, Lane, Triple};
 use fearless_simd::prelude::*;
 
 use super::{D, F, M, MOST_LANES};
@@ -119,5 +119,21 @@ pub(crate) fn pick3<S: Simd>(mask: M<S>, if_true: D3<S>, if_false: D3<S>) -> D3<
         D::pick(mask, if_true.x, if_false.x),
         D::pick(mask, if_true.y, if_false.y),
         D::pick(mask, if_true.z, if_false.z),
+    )
+}
+
+/// Sum of the magnitudes of the coordinates.
+#[inline(always)]
+pub(crate) fn magnitude<S: Simd>(v: F3<S>) -> F<S> {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
+
+/// `a × b` with one product and one fused product a component.
+#[inline(always)]
+pub(crate) fn cross<L: Arithmetic>(a: Triple<L>, b: Triple<L>) -> Triple<L> {
+    Triple::new(
+        a.y.mul_add(b.z, -(a.z * b.y)),
+        a.z.mul_add(b.x, -(a.x * b.z)),
+        a.x.mul_add(b.y, -(a.y * b.x)),
     )
 }

@@ -2,9 +2,10 @@
 
 use catoptra_core::geometry::Plane;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Coefficient, Constant3, Light, Material, Placement, Rgb};
+use catoptra_core::{Coefficient, Constant3, Light, Material, Placement, Ray, Rgb, Span};
 
-use crate::kernel::magnitude_of;
+use crate::kernel::End;
+use crate::numeric::magnitude_of;
 
 /// A material.
 #[derive(Debug, Clone)]
@@ -67,6 +68,21 @@ impl LightRow {
             reach: if at_infinity { 0.0 } else { magnitude_of(place(&own)) },
             behind: planes.iter().map(behind).map(|side| -f64::from(side as i8)).collect(),
             light: own,
+        }
+    }
+
+    /// Where it stands, as kernels see it.
+    #[inline(always)]
+    pub(crate) fn end(&self) -> End {
+        if self.at_infinity { End::Towards(self.place) } else { End::At(self.place) }
+    }
+
+    /// The segment from a point to the light, in the snapshot's frame.
+    pub(crate) fn segment_from(&self, point: DVec3) -> (Ray, Span) {
+        if self.at_infinity {
+            (Ray::new(point, self.in_frame), Span::AHEAD)
+        } else {
+            (Ray::new(point, self.in_frame - point), Span::TO_LIGHT)
         }
     }
 }

@@ -15,8 +15,8 @@ use catoptra_core::{Constant3, EntityId, Light, Material, Ray, Rgb, Shape};
 pub(crate) use columns::{Affine, Ball, Columns, Instance, Row};
 pub(crate) use lighting::{LightRow, MaterialRow};
 pub use needs::Needs;
-pub(crate) use search::Way;
-pub use search::{Hit, Place};
+pub(crate) use search::RaySegment;
+pub use search::{Hit, SurfaceId};
 
 use crate::accel::{MeshTree, Tree};
 

@@ -13,7 +13,7 @@ use crate::accel::WideTree;
 
 /// A place on a surface that a ray leaves from: that meeting is not found again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Place {
+pub struct SurfaceId {
     /// Which shape of the snapshot.
     pub prim: u32,
     /// Which flat piece of it; see [`Crossing::facet`].
@@ -24,7 +24,7 @@ pub struct Place {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
     /// Where on which shape.
-    pub place: Place,
+    pub place: SurfaceId,
     /// The crossing, in the snapshot's frame.
     pub crossing: Crossing,
 }
@@ -32,20 +32,20 @@ pub struct Hit {
 impl Snapshot {
     /// What a ray in the snapshot's frame meets first, found by the trees; ties go to the shape with the lower id.
     #[must_use]
-    pub fn nearest(&self, ray: &Ray, span: Span, leaving: Option<Place>) -> Option<Hit> {
-        self.nearest_on(&Way::new(ray, span, leaving))
+    pub fn nearest(&self, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
+        self.nearest_on(&RaySegment::new(ray, span, leaving))
     }
 
     /// Whether a ray in the snapshot's frame meets anything on the stretch, found by the trees.
     #[must_use]
-    pub fn occluded(&self, ray: &Ray, span: Span, leaving: Option<Place>) -> bool {
-        self.is_occluded_on(&Way::new(ray, span, leaving))
+    pub fn occluded(&self, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool {
+        self.is_occluded_on(&RaySegment::new(ray, span, leaving))
     }
 
     /// What a ray in the snapshot's frame meets first, found by trying every shape and every triangle.
     #[must_use]
-    pub fn nearest_of_all(&self, ray: &Ray, span: Span, leaving: Option<Place>) -> Option<Hit> {
-        self.nearest_of_all_on(&Way::new(ray, span, leaving))
+    pub fn nearest_of_all(&self, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
+        self.nearest_of_all_on(&RaySegment::new(ray, span, leaving))
     }
 
     /// A ray of the world in the snapshot's frame, unless that rounds it.
@@ -54,85 +54,89 @@ impl Snapshot {
     }
 
     /// As [`nearest`](Self::nearest).
-    pub(crate) fn nearest_on(&self, way: &Way<'_>) -> Option<Hit> {
+    pub(crate) fn nearest_on(&self, segment: &RaySegment<'_>) -> Option<Hit> {
         let mut best = None;
         for &prim in &self.unbounded {
-            best = self.closer(way, best, self.cross(prim, &way.until(best)));
+            best = self.closer(segment, best, self.cross(prim, &segment.until(best)));
         }
-        self.tree.walk(&self.box_ray(way), way.until(best).span, |item| {
-            let hit = self.cross(self.bounded[item as usize], &way.until(best));
-            best = self.closer(way, best, hit);
-            way.until(best).span.max
+        self.tree.walk(&self.box_ray(segment), segment.until(best).span, |item| {
+            let hit = self.cross(self.bounded[item as usize], &segment.until(best));
+            best = self.closer(segment, best, hit);
+            segment.until(best).span.max
         });
         best
     }
 
     /// As [`occluded`](Self::occluded).
-    pub(crate) fn is_occluded_on(&self, way: &Way<'_>) -> bool {
-        if self.unbounded.iter().any(|&prim| self.cross(prim, way).is_some()) {
+    pub(crate) fn is_occluded_on(&self, segment: &RaySegment<'_>) -> bool {
+        if self.unbounded.iter().any(|&prim| self.cross(prim, segment).is_some()) {
             return true;
         }
         let mut found = false;
-        self.tree.walk(&self.box_ray(way), way.span, |item| {
-            found = found || self.cross(self.bounded[item as usize], way).is_some();
-            if found { f64::NEG_INFINITY } else { way.span.max }
+        self.tree.walk(&self.box_ray(segment), segment.span, |item| {
+            found = found || self.cross(self.bounded[item as usize], segment).is_some();
+            if found { f64::NEG_INFINITY } else { segment.span.max }
         });
         found
     }
 
     /// As [`nearest_of_all`](Self::nearest_of_all).
-    pub(crate) fn nearest_of_all_on(&self, way: &Way<'_>) -> Option<Hit> {
+    pub(crate) fn nearest_of_all_on(&self, segment: &RaySegment<'_>) -> Option<Hit> {
         (0..self.prims.len() as u32).fold(None, |best, prim| {
-            let crossing =
-                self.shape(way, prim).cross(way.ray, way.until(best).span, facet_left(prim, way.leaving));
-            let hit = crossing.map(|crossing| Hit { place: Place { prim, facet: crossing.facet }, crossing });
-            self.closer(way, best, hit)
+            let crossing = self.shape(segment, prim).cross(
+                segment.ray,
+                segment.until(best).span,
+                facet_left(prim, segment.leaving),
+            );
+            let hit =
+                crossing.map(|crossing| Hit { place: SurfaceId { prim, facet: crossing.facet }, crossing });
+            self.closer(segment, best, hit)
         })
     }
 
     /// The ray of a way relative to the origin, rounded: for boxes, which are wide enough for that.
-    fn box_ray(&self, way: &Way<'_>) -> Ray {
-        let zero = if way.in_world { self.origin } else { self.origin_in_frame() };
-        Ray::new(way.ray.origin - zero, way.ray.direction)
+    fn box_ray(&self, segment: &RaySegment<'_>) -> Ray {
+        let zero = if segment.in_world { self.origin } else { self.origin_in_frame() };
+        Ray::new(segment.ray.origin - zero, segment.ray.direction)
     }
 
     /// A shape where a way's ray is given.
-    fn shape(&self, way: &Way<'_>, prim: u32) -> Cow<'_, Shape> {
+    fn shape(&self, segment: &RaySegment<'_>, prim: u32) -> Cow<'_, Shape> {
         let shape = &self.prims[prim as usize].shape;
-        if way.in_world { relative(shape, -self.frame) } else { Cow::Borrowed(shape) }
+        if segment.in_world { relative(shape, -self.frame) } else { Cow::Borrowed(shape) }
     }
 
     /// The nearer of two hits of one ray; the lower shape where they tie.
-    fn closer(&self, way: &Way<'_>, a: Option<Hit>, b: Option<Hit>) -> Option<Hit> {
+    fn closer(&self, segment: &RaySegment<'_>, a: Option<Hit>, b: Option<Hit>) -> Option<Hit> {
         match (a, b) {
-            (Some(a), Some(b)) => Some(if self.precedes(way, &b, &a) { b } else { a }),
+            (Some(a), Some(b)) => Some(if self.precedes(segment, &b, &a) { b } else { a }),
             (a, b) => a.or(b),
         }
     }
 
     /// Whether a ray meets one hit before another: exactly, and of hits in one place that with the lower shape, then the
     /// lower facet.
-    pub(crate) fn precedes(&self, way: &Way<'_>, a: &Hit, b: &Hit) -> bool {
+    pub(crate) fn precedes(&self, segment: &RaySegment<'_>, a: &Hit, b: &Hit) -> bool {
         let order = a.crossing.order(
             &b.crossing,
-            || [a, b].map(|hit| self.root(way, hit.place)),
-            || [a, b].map(|hit| self.root(way, hit.place)),
+            || [a, b].map(|hit| self.root(segment, hit.place)),
+            || [a, b].map(|hit| self.root(segment, hit.place)),
         );
         comes_first(order, a.place, b.place)
     }
 
     /// As [`precedes`](Self::precedes), of hits that are known to be ones, wherever they are.
-    pub(crate) fn place_precedes(&self, way: &Way<'_>, a: Place, b: Place) -> bool {
+    pub(crate) fn surface_precedes(&self, segment: &RaySegment<'_>, a: SurfaceId, b: SurfaceId) -> bool {
         let order = order_of_roots(
-            || [a, b].map(|place| self.root(way, place)),
-            || [a, b].map(|place| self.root(way, place)),
+            || [a, b].map(|place| self.root(segment, place)),
+            || [a, b].map(|place| self.root(segment, place)),
         );
         comes_first(order, a, b)
     }
 
-    fn root<N: Number>(&self, way: &Way<'_>, place: Place) -> Verdict<Option<Root<N>>> {
-        let left = facet_left(place.prim, way.leaving);
-        self.shape(way, place.prim).root(place.facet, way.ray, way.span, left)
+    fn root<N: Number>(&self, segment: &RaySegment<'_>, place: SurfaceId) -> Verdict<Option<Root<N>>> {
+        let left = facet_left(place.prim, segment.leaving);
+        self.shape(segment, place.prim).root(place.facet, segment.ray, segment.span, left)
     }
 
     /// Where a ray in the snapshot's frame crosses one shape, or the facet of it alone where it is made of facets.
@@ -142,14 +146,14 @@ impl Snapshot {
         facet: Option<u32>,
         ray: &Ray,
         span: Span,
-        leaving: Option<Place>,
+        leaving: Option<SurfaceId>,
     ) -> Option<Hit> {
         let Some(facet) = facet else {
-            return self.cross(prim, &Way::new(ray, span, leaving));
+            return self.cross(prim, &RaySegment::new(ray, span, leaving));
         };
         let shape = &self.prims[prim as usize].shape;
         let crossing = shape.cross_part(facet, ray, span, facet_left(prim, leaving))?;
-        Some(Hit { place: Place { prim, facet: crossing.facet }, crossing })
+        Some(Hit { place: SurfaceId { prim, facet: crossing.facet }, crossing })
     }
 
     /// The mesh that a shape is, if it is one.
@@ -161,32 +165,32 @@ impl Snapshot {
     }
 
     /// Where a ray crosses one shape; meshes by their tree.
-    fn cross(&self, prim: u32, way: &Way<'_>) -> Option<Hit> {
-        let left = facet_left(prim, way.leaving);
-        let crossing = match (&*self.shape(way, prim), self.prims[prim as usize].mesh) {
+    fn cross(&self, prim: u32, segment: &RaySegment<'_>) -> Option<Hit> {
+        let left = facet_left(prim, segment.leaving);
+        let crossing = match (&*self.shape(segment, prim), self.prims[prim as usize].mesh) {
             (Shape::Mesh(mesh), Some(tree)) => {
                 let tree = &self.meshes[tree as usize].tree;
-                cross_mesh(mesh, tree, &mesh.own_ray(way.ray), way.span, left)
+                cross_mesh(mesh, tree, &mesh.own_ray(segment.ray), segment.span, left)
             }
-            (shape, _) => shape.cross(way.ray, way.span, left),
+            (shape, _) => shape.cross(segment.ray, segment.span, left),
         }?;
-        Some(Hit { place: Place { prim, facet: crossing.facet }, crossing })
+        Some(Hit { place: SurfaceId { prim, facet: crossing.facet }, crossing })
     }
 }
 
 /// What is asked of a ray.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Way<'a> {
+pub(crate) struct RaySegment<'a> {
     pub(crate) ray: &'a Ray,
     pub(crate) span: Span,
-    pub(crate) leaving: Option<Place>,
+    pub(crate) leaving: Option<SurfaceId>,
     /// Whether the ray is given in the world, and not in the snapshot's frame.
     pub(crate) in_world: bool,
 }
 
-impl<'a> Way<'a> {
+impl<'a> RaySegment<'a> {
     /// In the snapshot's frame.
-    pub(crate) fn new(ray: &'a Ray, span: Span, leaving: Option<Place>) -> Self {
+    pub(crate) fn new(ray: &'a Ray, span: Span, leaving: Option<SurfaceId>) -> Self {
         Self { ray, span, leaving, in_world: false }
     }
 
@@ -198,7 +202,7 @@ impl<'a> Way<'a> {
 }
 
 /// Whether one place comes before another on a ray, by their order there, and of places in one by their numbers.
-fn comes_first(order: Ordering, a: Place, b: Place) -> bool {
+fn comes_first(order: Ordering, a: SurfaceId, b: SurfaceId) -> bool {
     order.then((a.prim, a.facet).cmp(&(b.prim, b.facet))).is_lt()
 }
 
@@ -222,6 +226,6 @@ fn cross_mesh(mesh: &Mesh, tree: &WideTree, own: &Ray, span: Span, left: Option<
     best
 }
 
-fn facet_left(prim: u32, leaving: Option<Place>) -> Option<u32> {
+fn facet_left(prim: u32, leaving: Option<SurfaceId>) -> Option<u32> {
     leaving.filter(|place| place.prim == prim).map(|place| place.facet)
 }

@@ -1,19 +1,19 @@
 //! How rays find triangles of a mesh: many from one point at once, or one against eight boxes and eight triangles.
 //!
 //! Both pass over what they are certain to miss, in `f32` with bounds. What remains is decided in `f64` with bounds, and
-//! by an [`Umpire`] where those do not decide either.
+//! by an [`ExactResolver`] where those do not decide either.
 
-#[cfg(test)]
-mod attack;
-mod bundle;
+mod accept;
+mod common_origin;
 mod edges;
-mod fan;
-mod lone;
-mod lones;
+#[cfg(test)]
+mod error_bounds_tests;
 mod packets;
 mod planes;
 mod precise;
-mod weigh;
+mod ray_bundle;
+mod ray_setup;
+mod single_ray;
 
 use catoptra_core::{Ray, Span};
 use fearless_simd::prelude::*;
@@ -22,11 +22,11 @@ use fearless_simd::{Simd, f32x8};
 use crate::accel::{MAX_DEPTH, Node8, WIDTH, WideTree};
 use crate::numeric::CERTAIN;
 
-pub(crate) use bundle::{Bundle, Lines};
-pub(crate) use fan::{Fan, FanRays};
-pub(crate) use lone::LoneBest;
-pub(crate) use lones::Lones;
+pub(crate) use common_origin::{Fan, FanRays};
 pub(crate) use precise::LaneTriangles;
+pub(crate) use ray_bundle::{Bundle, Lines};
+pub(crate) use ray_setup::RaySetup;
+pub(crate) use single_ray::ClosestHit;
 
 use precise::{Verdict, crossing, depth, meet};
 
@@ -37,7 +37,7 @@ fn bound_eight<S: Simd>(s: S, error: f32x8<S>) -> f32x8<S> {
 }
 
 /// Decides for certain what bounds leave open.
-pub(crate) trait Umpire {
+pub(crate) trait ExactResolver {
     /// The ray of a lane in the mesh's own space, and the stretch of it that is asked about.
     fn ray(&mut self, lane: usize) -> Option<(Ray, Span)>;
 
@@ -51,7 +51,7 @@ enum Settled {
     Not,
     /// At that `t`, in front of all else.
     Nearer(f64),
-    /// Only the umpire can tell.
+    /// Only the exact can tell.
     Open,
 }
 

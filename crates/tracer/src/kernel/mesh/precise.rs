@@ -6,8 +6,7 @@ use catoptra_core::Ray;
 use catoptra_core::glam::DVec3;
 use fearless_simd::Simd;
 
-use crate::kernel::cross;
-use crate::lanes::{D, D3, F3, M, U, splat3, widen3};
+use crate::lanes::{D, D3, F3, M, U, cross, splat3, widen3};
 use crate::numeric::{DEPTH_ERROR, MEET_EDGE_ERROR, MEET_SLOPE_ERROR, MEET_TOP_ERROR};
 
 /// What is certain of a ray and a triangle.

@@ -1,0 +1,191 @@
+//! The view frustum of a part of a picture, and how much of it a shape covers.
+
+use std::cell::OnceCell;
+
+use catoptra_core::Aabb;
+use catoptra_core::glam::DVec3;
+
+use super::beam::Beam;
+use super::point_bounds::PointBounds;
+use crate::film::{BLOCK, NOTHING};
+use crate::frame::Frame;
+use crate::kernel::{PlaneRow, TriangleRow};
+use crate::numeric::PLAN_MARGIN;
+use crate::snapshot::Ball;
+use crate::{Region, Size};
+
+/// The quarters of a region, in whole blocks; fewer where it is too small for that.
+pub(crate) fn quarters(region: Region) -> impl Iterator<Item = Region> {
+    let halves = |start: u32, length: u32| {
+        let first = (length / 2).next_multiple_of(BLOCK).min(length);
+        [(start, first), (start + first, length - first)].into_iter().filter(|&(_, length)| length > 0)
+    };
+    let Size { width, height } = region.size;
+    halves(region.y, height).flat_map(move |(y, height)| {
+        halves(region.x, width).map(move |(x, width)| Region::new(x, y, Size::new(width, height)))
+    })
+}
+
+/// The camera rays of a region: those within four directions from the eye.
+pub(crate) struct Frustum {
+    eye: DVec3,
+    corners: [DVec3; 4],
+    /// Inward unit normals of the four sides, once they have been asked for.
+    sides: OnceCell<[DVec3; 4]>,
+}
+
+/// How much of a frustum something takes up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Coverage {
+    /// No ray meets it.
+    Nothing,
+    /// Some rays may meet it.
+    Part,
+    /// Every ray meets it.
+    All,
+}
+
+impl Frustum {
+    pub(crate) fn new(frame: &Frame<'_>, region: &Region) -> Self {
+        let raster = &frame.raster;
+        let corner = |x: u32, y: u32| {
+            raster.corner + raster.across * f64::from(region.x + x) + raster.down * f64::from(region.y + y)
+        };
+        let Size { width: w, height: h } = region.size;
+        let corners = [corner(0, 0), corner(w, 0), corner(w, h), corner(0, h)];
+        Self { eye: frame.eye, corners, sides: OnceCell::new() }
+    }
+
+    fn sides(&self) -> &[DVec3; 4] {
+        self.sides.get_or_init(|| {
+            let middle: DVec3 = self.corners.iter().sum();
+            std::array::from_fn(|i| {
+                let side = self.corners[i].cross(self.corners[(i + 1) % 4]).normalize_or_zero();
+                side * side.dot(middle).signum()
+            })
+        })
+    }
+
+    /// The rays through it.
+    pub(crate) fn beam(&self) -> Beam {
+        let length = self.corners[0].length();
+        Beam::new(NOTHING, Aabb::of([self.eye]), Aabb::of(self.corners.map(|corner| corner / length)))
+    }
+
+    /// 1 / t of a plane along the four corners.
+    pub(crate) fn inverse_t(&self, row: &PlaneRow) -> [f64; 4] {
+        let inverse = 1.0 / (row.distance - row.normal.dot(self.eye));
+        let (normal, [a, b, c, d]) = (row.normal, &self.corners);
+        [
+            normal.dot(*a) * inverse,
+            normal.dot(*b) * inverse,
+            normal.dot(*c) * inverse,
+            normal.dot(*d) * inverse,
+        ]
+    }
+
+    /// Where the points of a plane lie that are seen through the frustum; `None` where they may have no end.
+    pub(crate) fn place_on(&self, row: &PlaneRow) -> Option<PointBounds> {
+        let inverse_t = self.inverse_t(row);
+        let margin = PLAN_MARGIN * inverse_t.iter().fold(0.0, |m, w| w.abs().max(m));
+        if !inverse_t.iter().all(|w| *w > margin && w.is_finite()) {
+            return None;
+        }
+        let points = std::array::from_fn::<_, 4, _>(|i| self.eye + self.corners[i] / inverse_t[i]);
+        Some(PointBounds::new(row.prim, Aabb::of(points)))
+    }
+
+    /// Whether a ball may be seen.
+    pub(crate) fn may_show(&self, ball: &Ball) -> bool {
+        let to_center = ball.center - self.eye;
+        let reach = ball.radius + PLAN_MARGIN * (to_center.length() + ball.radius);
+        self.sides().iter().all(|side| side.dot(to_center) >= -reach)
+    }
+
+    /// How much of the frustum a face takes up.
+    ///
+    /// Directions that meet a triangle make a convex cone with three sides, as those of the frustum make one with four:
+    /// they are apart where all corners of one lie beyond a side of the other, and the frustum lies within the triangle
+    /// where its corners do.
+    pub(crate) fn coverage(&self, face: &TriangleRow) -> Coverage {
+        let corners = face.corners().map(|corner| corner - self.eye);
+        let size = corners.map(|corner| corner.abs().element_sum()).into_iter().fold(0.0, f64::max);
+        let margin = PLAN_MARGIN * (size + self.eye.abs().element_sum());
+        if self.sides().iter().any(|side| corners.iter().all(|corner| side.dot(*corner) < -margin)) {
+            return Coverage::Nothing;
+        }
+        let [a, b, c] = corners;
+        let turn = a.cross(b).dot(c).signum();
+        let longest = self.corners.iter().map(|corner| corner.length()).fold(0.0, f64::max);
+        let margin = margin * size * longest;
+        let mut all = true;
+        for side in [a.cross(b), b.cross(c), c.cross(a)] {
+            let off = self.corners.map(|corner| turn * side.dot(corner));
+            if off.iter().all(|off| *off < -margin) {
+                return Coverage::Nothing;
+            }
+            all &= off.iter().all(|off| *off > margin);
+        }
+        if all { Coverage::All } else { Coverage::Part }
+    }
+
+    /// Whether the eye may see the outer side of a face.
+    pub(crate) fn may_face(&self, face: &TriangleRow) -> bool {
+        let PlaneRow { normal, distance, .. } = face.plane;
+        let margin = PLAN_MARGIN * (distance.abs() + self.eye.abs().element_sum());
+        !(normal.dot(self.eye) - distance < -margin)
+    }
+
+    /// Where the points of a ball lie that are seen through the frustum, from outside it: on its near side.
+    ///
+    /// At an angle θ to the ball's centre, its near side is |L| cos θ − √(R² − |L|² sin² θ) away, which grows with θ up
+    /// to the silhouette. The frustum holds the directions within ω of its middle.
+    pub(crate) fn place_on_ball(&self, prim: u32, ball: &Ball) -> PointBounds {
+        let to_center = ball.center - self.eye;
+        let (distance2, radius2) = (to_center.length_squared(), ball.radius * ball.radius);
+        let middle = self.corners.iter().sum::<DVec3>().normalize_or_zero();
+        let widest =
+            self.corners.iter().map(|c| c.dot(middle) / c.length()).fold(1.0, f64::min) - PLAN_MARGIN;
+        let spread = (1.0 - widest * widest).max(0.0).sqrt();
+        let (along, aside) = (to_center.dot(middle), to_center.cross(middle).length());
+        let near_side = |along: f64, aside: f64| {
+            let half_chord2 = radius2 - aside * aside;
+            if along > 0.0 && half_chord2 > 0.0 {
+                along - half_chord2.sqrt()
+            } else {
+                (distance2 - radius2).max(0.0).sqrt()
+            }
+        };
+        let towards = (along * widest + aside * spread, (aside * widest - along * spread).max(0.0));
+        let least =
+            if towards.1 > 0.0 { near_side(towards.0, towards.1) } else { distance2.sqrt() - ball.radius };
+        let most = near_side(along * widest - aside * spread, aside * widest + along * spread);
+        let reach = (most - least) / 2.0 + most * (2.0 - 2.0 * widest).max(0.0).sqrt();
+        let reach = DVec3::splat(reach);
+        let center = self.eye + middle * ((least + most) / 2.0);
+        PointBounds::new(prim, Aabb { min: center - reach, max: center + reach })
+    }
+
+    /// Whether the eye may lie within a ball.
+    pub(crate) fn is_within(&self, ball: &Ball) -> bool {
+        !(ball.center.distance(self.eye) > ball.radius * (1.0 + PLAN_MARGIN))
+    }
+
+    /// Whether every ray meets a ball from outside.
+    pub(crate) fn filled_by_ball(&self, ball: &Ball) -> bool {
+        let to_center = ball.center - self.eye;
+        let (distance2, radius2) = (to_center.length_squared(), ball.radius * ball.radius);
+        // Directions that meet a ball from outside make a convex cone.
+        self.corners.iter().all(|d| {
+            let along = d.dot(to_center);
+            let rest = d.length_squared() * ((distance2 - radius2) + PLAN_MARGIN * distance2);
+            along > 0.0 && along * along > rest
+        })
+    }
+
+    /// Whether a plane cannot stand between the eye and a place.
+    pub(crate) fn is_free_of(&self, row: &PlaneRow, place: &PointBounds) -> bool {
+        let behind = row.distance - row.normal.dot(self.eye);
+        behind != 0.0 && !place.may_lie_beyond(row, behind)
+    }
+}

@@ -1,0 +1,82 @@
+//! What is known of a part of a picture before its light is gathered: which lights reach it, what may stand in their way,
+//! and which of its mirrors show nothing but darkness.
+
+use catoptra_core::Rgb;
+
+use super::beam::Beam;
+use super::candidates::{Candidates, FEW};
+use super::darkness::goes_dark;
+use super::point_bounds::PointBounds;
+use crate::snapshot::LightRow;
+use crate::{Skip, Snapshot};
+
+/// What is planned for, and which work may be left out.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Planner<'a> {
+    pub(crate) snapshot: &'a Snapshot,
+    pub(crate) skip: Skip,
+    /// Whether every ray stays outside all convex solids.
+    pub(crate) outside: bool,
+}
+
+/// A plan for a part of a picture, or for a stream of reflected rays.
+#[derive(Debug, Default)]
+pub(crate) struct TilePlan {
+    /// Lights that reach anything that is seen, by their rows.
+    pub(crate) reached: Vec<usize>,
+    /// For every light, what may stand between it and what is seen.
+    pub(crate) occluders: Vec<Candidates>,
+    /// Shapes whose reflections all go into darkness.
+    pub(crate) dark: Vec<u32>,
+}
+
+impl TilePlan {
+    /// Starts anew: every light reaches everything, nothing is known to be dark. What stands in the way of lights is left to
+    /// [`plan_lights`](Self::plan_lights).
+    pub(crate) fn start(&mut self, snapshot: &Snapshot) {
+        let lights = snapshot.light_rows().len();
+        self.occluders.resize_with(lights, Candidates::default);
+        self.reached.clear();
+        self.reached.extend(0..lights);
+        self.dark.clear();
+    }
+
+    /// Finds out for every light whether it reaches points that are seen, and what may stand between.
+    pub(crate) fn plan_lights(&mut self, planner: &Planner<'_>, points: &[PointBounds]) {
+        let Planner { snapshot, skip, outside } = *planner;
+        if skip.unreached && snapshot.has_cones() {
+            let reaches = |light: &LightRow| points.iter().any(|bounds| bounds.is_reached_by(light));
+            self.reached.clear();
+            let lights = snapshot.light_rows().iter().enumerate();
+            self.reached.extend(lights.filter(|(_, light)| reaches(light)).map(|(i, _)| i));
+        }
+        for (occluders, light) in self.occluders.iter_mut().zip(snapshot.light_rows()) {
+            if skip.shafts {
+                occluders.occluders(snapshot.columns(), points, light, outside);
+            } else {
+                occluders.all(snapshot.columns());
+            }
+        }
+    }
+
+    /// Finds the shapes that send on all rays of some beams into darkness, of those whose points are known.
+    pub(crate) fn plan_darkness(&mut self, planner: &Planner<'_>, beams: &[Beam], points: &[PointBounds]) {
+        let Planner { snapshot, skip, outside } = *planner;
+        self.dark.clear();
+        let columns = snapshot.columns();
+        let plain = columns.general_unbounded.is_empty() && columns.bounded.len() <= FEW;
+        if !skip.beams || !plain || snapshot.background() != Rgb::BLACK {
+            return;
+        }
+        for bounds in points {
+            let material = snapshot.prims()[bounds.prim as usize].material;
+            if snapshot.material_rows()[material as usize].reflects && !self.dark.contains(&bounds.prim) {
+                self.dark.push(bounds.prim);
+            }
+        }
+        self.dark.retain(|&prim| {
+            let own = || points.iter().filter(|bounds| bounds.prim == prim);
+            beams.iter().all(|beam| own().all(|bounds| goes_dark(columns, beam, bounds, outside)))
+        });
+    }
+}

@@ -1,0 +1,53 @@
+//! Where the points of one shape lie that are seen, and what that tells of lights and of what stands in their way.
+
+use catoptra_core::Aabb;
+use catoptra_core::glam::DVec3;
+
+use crate::kernel::PlaneRow;
+use crate::numeric::PLAN_MARGIN;
+use crate::snapshot::{Ball, LightRow};
+
+/// A box round the points that are seen of one shape.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PointBounds {
+    pub(crate) prim: u32,
+    pub(crate) center: DVec3,
+    pub(crate) half: DVec3,
+    radius: f64,
+}
+
+impl PointBounds {
+    pub(crate) fn new(prim: u32, bounds: Aabb) -> Self {
+        let center = bounds.centre();
+        let margin = PLAN_MARGIN * (center.abs().element_sum() + bounds.size().element_sum());
+        let half = bounds.size() / 2.0 + DVec3::splat(margin);
+        Self { prim, center, half, radius: half.length() }
+    }
+
+    /// Whether a point may lie on the other side of a plane than a light that is `behind` it by so much.
+    pub(crate) fn may_lie_beyond(&self, row: &PlaneRow, behind: f64) -> bool {
+        if self.prim == row.prim {
+            return false;
+        }
+        let middle = row.distance - row.normal.dot(self.center);
+        let spread = row.normal.abs().dot(self.half);
+        let least = if behind > 0.0 { middle - spread } else { -middle - spread };
+        !(least > PLAN_MARGIN * (row.distance.abs() + self.center.abs().element_sum()))
+    }
+
+    /// Whether anything may arrive from a light.
+    pub(crate) fn is_reached_by(&self, light: &LightRow) -> bool {
+        light.light.may_reach(self.center, self.radius * (1.0 + PLAN_MARGIN))
+    }
+
+    /// Whether the ways from the points to a light may meet a ball.
+    pub(crate) fn shaft_meets(&self, light: &LightRow, ball: &Ball) -> bool {
+        let to_ball = ball.center - self.center;
+        let reach =
+            (ball.radius + self.radius) * (1.0 + PLAN_MARGIN) + PLAN_MARGIN * to_ball.abs().element_sum();
+        let way = if light.at_infinity { light.place } else { light.place - self.center };
+        let most = if light.at_infinity { f64::INFINITY } else { 1.0 };
+        let share = (to_ball.dot(way) / way.length_squared()).clamp(0.0, most);
+        !((to_ball - way * share).length_squared() > reach * reach)
+    }
+}

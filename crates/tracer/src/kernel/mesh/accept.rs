@@ -1,0 +1,157 @@
+//! Which rays of a packet through one point meet a triangle in front of all that they have met.
+
+use catoptra_core::{Lane, LaneMask};
+use fearless_simd::Simd;
+use fearless_simd::prelude::*;
+
+use super::edges::Prepared;
+use super::planes::Crossing;
+use super::{Edges, ExactResolver, Fan, FanRays, Settled, settle};
+use crate::accel::{WIDTH, WideTree};
+use crate::kernel::bound;
+use crate::lanes::{Bits, F, M, U, outlined};
+use crate::numeric::FAN_SLOPE;
+
+impl<S: Simd> FanRays<S> {
+    /// Takes over a triangle in some lanes.
+    #[inline(always)]
+    fn take(&mut self, s: S, lanes: M<S>, slot: u32, crossing: &Crossing<S>, any: bool) {
+        self.end =
+            [F::pick(lanes, crossing.depth[0], self.end[0]), F::pick(lanes, crossing.depth[1], self.end[1])];
+        self.slot = U::pick(lanes, U::splat(s, slot), self.slot);
+        if any {
+            self.live = self.live & !lanes;
+        }
+    }
+}
+
+impl Fan {
+    /// Takes over a triangle where it is nearer; whether it is for any ray.
+    #[inline(always)]
+    pub(super) fn accept<S: Simd>(
+        &self,
+        s: S,
+        (tree, prepared): (&WideTree, &Prepared),
+        (slot, facet): (u32, u32),
+        (rays, packet): (&mut FanRays<S>, usize),
+        exact: &mut dyn ExactResolver,
+    ) -> bool {
+        let at = slot as usize % WIDTH;
+        let edge = |[x, y, z]: &[[f32; WIDTH]; 3]| rays.value(s, [x[at], y[at], z[at]]);
+        let [a, b, c] = &prepared.edges;
+        let (a, b, c) = (edge(a), edge(b), edge(c));
+        let error = bound(s, F::splat(s, prepared.edge_error[at]));
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        let candidate = rays.live & !(low.less(-error) & error.less(high)) & !rays.left.is(facet);
+        if !candidate.any() {
+            return false;
+        }
+        let inside = error.less(low) | high.less(-error);
+        let crossing = rays.cross(s, &prepared.plane(at));
+        let take = candidate & inside & crossing.nearer;
+        let open = candidate & !take & !crossing.beside;
+        if take.any() {
+            rays.take(s, take, slot, &crossing, self.any);
+        }
+        if open.any() {
+            self.settle(tree, [open.bits(), inside.bits()], (slot, facet), (rays, packet), exact);
+        }
+        (take | open).any()
+    }
+
+    /// Decides what `f32` leaves open; some pass within all edges for certain.
+    #[cold]
+    #[inline(never)]
+    fn settle<S: Simd>(
+        &self,
+        tree: &WideTree,
+        [open, inside]: [u64; 2],
+        (slot, facet): (u32, u32),
+        (rays, packet): (&mut FanRays<S>, usize),
+        exact: &mut dyn ExactResolver,
+    ) {
+        // Where only edges are open, depths have said what they can.
+        let open =
+            if open & inside == 0 { open } else { self.settle_depths(tree, [open, inside], slot, rays) };
+        for lane in Bits(open) {
+            let other = rays.slot.lane(lane);
+            let held = (other != u32::MAX).then(|| tree.facet(other));
+            if held == Some(facet) {
+                continue;
+            }
+            rays.settled += 1;
+            let edges = if inside >> lane & 1 == 1 { Edges::Inside } else { Edges::Open };
+            let Some(t) = self.nearer(tree, (lane, edges), (slot, facet), (rays, packet), exact) else {
+                continue;
+            };
+            let z = t as f32 * rays.scale.lane(lane);
+            let error = z.abs() * (FAN_SLOPE + FAN_SLOPE);
+            rays.end[0].set(lane, z - error);
+            rays.end[1].set(lane, z + error);
+            rays.slot.set(lane, slot);
+            if self.any {
+                rays.live = rays.live & !M::from_bits(rays.slot.0.token(), 1 << lane);
+            }
+        }
+    }
+
+    /// Decides by depths from `f64` planes; the lanes that those leave open.
+    fn settle_depths<S: Simd>(
+        &self,
+        tree: &WideTree,
+        [open, inside]: [u64; 2],
+        slot: u32,
+        rays: &mut FanRays<S>,
+    ) -> u64 {
+        let s = rays.slot.0.token();
+        let corners = tree.triangle(slot);
+        let precise = self.precise_plane(&corners);
+        let plane = self.plane_of(&precise);
+        outlined(
+            s,
+            #[inline(always)]
+            || {
+                let (mut open, inside) = (M::from_bits(s, open), M::from_bits(s, inside));
+                let crossing = rays.cross(s, &plane);
+                let take = open & inside & crossing.nearer;
+                rays.take(s, take, slot, &crossing, self.any);
+                open = open & !take & !crossing.beside;
+                let ahead = rays.begin[1].less(crossing.depth[0]) & rays.begin[1].less(rays.end[0]);
+                let both = open & inside & ahead & !rays.slot.is(u32::MAX);
+                // Surfaces so close together that no depth in `f32` tells them apart.
+                for (held, lanes) in rays.slot.groups(both) {
+                    let held = self.precise_plane(&tree.triangle(held));
+                    let Some((m, error)) = self.order([&precise, &held]) else { continue };
+                    let (order, error) = (rays.value(s, m), F::splat(s, error));
+                    let before = lanes & order.less(-error);
+                    rays.take(s, before, slot, &crossing, self.any);
+                    open = open & !before & !(lanes & error.less(order));
+                }
+                open.bits()
+            },
+        )
+    }
+
+    /// At which `t` the ray of a lane meets a triangle in front of all that it has met, if it does.
+    fn nearer<S: Simd>(
+        &self,
+        tree: &WideTree,
+        (lane, edges): (usize, Edges),
+        (slot, facet): (u32, u32),
+        (rays, packet): (&FanRays<S>, usize),
+        exact: &mut dyn ExactResolver,
+    ) -> Option<f64> {
+        let of_all = packet * F::<S>::LANES + lane;
+        let (ray, span) = exact.ray(of_all)?;
+        let other = Some(rays.slot.lane(lane)).filter(|&slot| slot != u32::MAX);
+        // Two roundings of a sum and a quotient, towards smaller numbers.
+        let least = rays.end[0].lane(lane) * (1.0 - 4.0 * FAN_SLOPE);
+        let before = if self.any { f64::INFINITY } else { f64::from(least / rays.scale.lane(lane)) };
+        let (next, held) = (tree.triangle(slot), other.map(|slot| tree.triangle(slot)));
+        match settle((&next, edges), held, before, (&ray, span)) {
+            Settled::Not => None,
+            Settled::Nearer(t) => Some(t),
+            Settled::Open => exact.decide(of_all, facet, other.map(|slot| tree.facet(slot))),
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! Which rays of a group go through one point: those of a camera, and backwards those to a lamp.
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Lane, LaneMask, Ray};
+use fearless_simd::Simd;
+use fearless_simd::prelude::*;
+
+use super::common_origin::{Aim, Fan, FanRays};
+use crate::lanes::{D, D3, F, LaneVectors, M, U, outlined, splat_wide, vector_of};
+use crate::numeric::{FAN_SLOPE, FAN_SPREAD, FAN_STEEP};
+
+/// Rays of a packet as lines from a point each.
+#[derive(Clone, Copy)]
+pub(crate) struct Lines<S: Simd> {
+    pub(crate) origin: D3<S>,
+    pub(crate) direction: D3<S>,
+    pub(crate) live: M<S>,
+}
+
+/// What lines through one point have in common.
+pub(crate) struct Bundle {
+    pub(crate) fan: Fan,
+    /// How far the lines pass the point by.
+    pub(crate) slack: f32,
+}
+
+impl Bundle {
+    /// Of the lines of some packets, if they go through one point and much the same way; for a mesh of that reach.
+    /// Origins may be `off` by so much, beyond the roundings of `f64`. The rays then have the lines' slopes. See [`outlined`].
+    #[inline(always)]
+    pub(crate) fn of<S: Simd>(
+        s: S,
+        rays: &mut [FanRays<S>],
+        lines: impl Fn(usize) -> Lines<S>,
+        reach: (f32, f32),
+    ) -> Option<Self> {
+        outlined(
+            s,
+            #[inline(always)]
+            || Self::of_here(s, rays, lines, reach),
+        )
+    }
+
+    #[inline(always)]
+    fn of_here<S: Simd>(
+        s: S,
+        rays: &mut [FanRays<S>],
+        lines: impl Fn(usize) -> Lines<S>,
+        (off, reach): (f32, f32),
+    ) -> Option<Self> {
+        let (first, (apex, along)) =
+            (0..rays.len()).find_map(|packet| Some((packet, lines(packet).first()?)))?;
+        let aim = Aim::of(along);
+        // Where nothing goes together, the first packet mostly tells, before all that is to be kept of others.
+        if lines(first).astray(s, &aim, apex).1.any() {
+            return None;
+        }
+        let model = aim.slopes_of(s, along);
+        let (mut apart, mut least) = (F::splat(s, 0.0), model[2]);
+        let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+        for (packet, rays) in rays.iter_mut().enumerate() {
+            let lines = lines(packet);
+            rays.follow(s, &aim, &lines, model);
+            let (from, astray) = lines.astray(s, &aim, apex);
+            apart = F::pick(lines.live, apart.max(from), apart);
+            // Written so that NaN counts.
+            if (astray | (lines.live & !rays.are_small(s))).any() {
+                return None;
+            }
+            least = least.min(rays.scale);
+            for axis in 0..2 {
+                low[axis] = low[axis].min(rays.slopes[0][axis]);
+                high[axis] = high[axis].max(rays.slopes[1][axis]);
+            }
+        }
+        let least = least.0.reduce_min();
+        let slack = (apart.0.reduce_max() + off) * (1.0 + FAN_SLOPE);
+        let through_one = slack <= FAN_SPREAD * least && least > 0.0;
+        if !through_one {
+            return None;
+        }
+        let fan = Fan::new(&aim, apex, slack, [low, high], reach).with_slopes_off(2.0 * slack / least);
+        Some(Self { fan, slack })
+    }
+}
+
+impl Aim {
+    /// Slopes and depth per length of one direction, in every lane.
+    #[inline(always)]
+    fn slopes_of<S: Simd>(&self, s: S, direction: DVec3) -> [F<S>; 3] {
+        let [u, v, z] = self.axes;
+        let (du, dv, dz) = (direction[u], direction[v], direction[z]);
+        let depth = dz * f64::from(self.sign);
+        [F::splat(s, (du / dz) as f32), F::splat(s, (dv / dz) as f32), F::splat(s, depth as f32)]
+    }
+}
+
+impl<S: Simd> Lines<S> {
+    /// One by one, for some lanes; none of those that have none.
+    #[inline(always)]
+    pub(crate) fn gathered(s: S, lanes: M<S>, mut ray: impl FnMut(usize) -> Option<Ray>) -> Self {
+        let (mut origins, mut directions, mut live) = (LaneVectors::default(), LaneVectors::default(), 0);
+        for lane in lanes.lanes() {
+            let Some(ray) = ray(lane) else { continue };
+            origins.set(lane, ray.origin);
+            directions.set(lane, ray.direction);
+            live |= 1 << lane;
+        }
+        Self { origin: origins.load(s), direction: directions.load(s), live: M::from_bits(s, live) }
+    }
+
+    /// Origin and direction of the first of them.
+    #[inline(always)]
+    fn first(&self) -> Option<(DVec3, DVec3)> {
+        let lane = self.live.lanes().next()?;
+        Some((vector_of(&self.origin, lane), vector_of(&self.direction, lane)))
+    }
+
+    /// Depth per length of each direction.
+    #[inline(always)]
+    fn depths(&self, s: S, aim: &Aim) -> F<S> {
+        (component(&self.direction, aim.axes[2]) * D::splat(s, f64::from(aim.sign))).narrow()
+    }
+
+    /// How far from a point they begin, and which of them too far from it to go together; those of NaN as well.
+    #[inline(always)]
+    fn astray(&self, s: S, aim: &Aim, apex: DVec3) -> (F<S>, M<S>) {
+        let from = self.origin - splat_wide(s, apex);
+        let from = from.x.abs().max(from.y.abs()).max(from.z.abs()).narrow();
+        let spread = self.depths(s, aim) * F::splat(s, 2.0 * FAN_SPREAD);
+        (from, self.live & !from.less(spread))
+    }
+}
+
+impl<S: Simd> FanRays<S> {
+    /// No rays.
+    #[inline(always)]
+    pub(crate) fn nothing(s: S) -> Self {
+        let (zero, none) = (F::splat(s, 0.0), U::splat(s, u32::MAX));
+        Self {
+            u: zero,
+            v: zero,
+            slopes: [[0.0; 2]; 2],
+            begin: [zero; 2],
+            end: [zero; 2],
+            slot: none,
+            left: none,
+            scale: zero,
+            live: M::splat(s, false),
+            settled: 0,
+        }
+    }
+
+    /// Takes over the lines that are any; lanes that are none follow a model.
+    #[inline(always)]
+    fn follow(&mut self, s: S, aim: &Aim, lines: &Lines<S>, model: [F<S>; 3]) {
+        let [u, v, z] = aim.axes;
+        let (du, dv) = (component(&lines.direction, u), component(&lines.direction, v));
+        let dz = component(&lines.direction, z);
+        let (live, inverse) = (lines.live, D::splat(s, 1.0) / dz);
+        self.u = F::pick(live, (du * inverse).narrow(), model[0]);
+        self.v = F::pick(live, (dv * inverse).narrow(), model[1]);
+        self.scale = F::pick(live, lines.depths(s, aim), model[2]);
+        self.live = live;
+        let (u, v) = (self.u.0, self.v.0);
+        self.slopes = [[u.reduce_min(), v.reduce_min()], [u.reduce_max(), v.reduce_max()]];
+    }
+
+    /// Whether a line runs along the main axis rather than across it, or at least not much more across.
+    #[inline(always)]
+    fn are_small(&self, s: S) -> M<S> {
+        let most = F::splat(s, FAN_STEEP);
+        self.u.abs().less(most) & self.v.abs().less(most)
+    }
+
+    /// Error of the slopes where a point of each line is off by so much.
+    #[inline(always)]
+    pub(crate) fn error_where_off(&self, s: S, off: F<S>) -> f32 {
+        // Both coordinates across and the depth, times a slope below 2, count; a quotient and a sum are rounded.
+        let most = off * F::splat(s, 3.5) / self.scale;
+        F::pick(self.live, most, F::splat(s, 0.0)).0.reduce_max()
+    }
+
+    /// Begins a search from the triangles that are left: between those depths lies the begin; the end is known within a bound.
+    #[inline(always)]
+    pub(crate) fn start(&mut self, s: S, begin: [F<S>; 2], [end, error]: [F<S>; 2], left: U<S>) {
+        self.begin = begin;
+        self.end = [end - error, end + error];
+        (self.left, self.slot, self.settled) = (left, U::splat(s, u32::MAX), 0);
+    }
+}
+
+#[inline(always)]
+fn component<S: Simd>(v: &D3<S>, axis: usize) -> D<S> {
+    match axis {
+        0 => v.x,
+        1 => v.y,
+        _ => v.z,
+    }
+}

@@ -1,0 +1,54 @@
+//! Which segments a mesh blocks: all lanes together where they go through one point, else lane by lane.
+
+use fearless_simd::Simd;
+
+use super::Searcher;
+use super::exact_resolver::AnyInTheWay;
+use super::mesh::NONE;
+use super::occluded::{Segments, ShadowRays};
+use crate::kernel::mesh::ClosestHit;
+use crate::lanes::{M, outlined};
+use crate::snapshot::Instance;
+
+impl<S: Simd> Searcher<'_, S> {
+    /// The segments still open once a mesh stands there. See [`outlined`].
+    pub(crate) fn occlude_by_mesh(
+        &mut self,
+        segments: &impl Segments<S>,
+        rays: &ShadowRays<'_, S>,
+        open: M<S>,
+        instance: &Instance,
+    ) -> M<S> {
+        outlined(
+            self.s,
+            #[inline(always)]
+            || self.occlude_by_triangles(segments, rays, open, instance),
+        )
+    }
+
+    #[inline(always)]
+    fn occlude_by_triangles(
+        &mut self,
+        segments: &impl Segments<S>,
+        rays: &ShadowRays<'_, S>,
+        open: M<S>,
+        instance: &Instance,
+    ) -> M<S> {
+        let snapshot = self.snapshot;
+        let Some(mesh) = snapshot.mesh_at(instance.prim) else { return open };
+        let tree = &instance.tree.tree;
+        let mut exact = AnyInTheWay { snapshot, mesh, prim: instance.prim, segments, leaving: rays.leaving };
+        let slots = if let Some((fan, mut bundle)) = segments.bundle(self, rays, open, instance) {
+            fan.search(self.s, tree, self.visits, &mut bundle, &mut exact);
+            self.stats.settled += bundle[0].settled;
+            bundle[0].slot
+        } else {
+            let (setup, live) = segments.single_rays(self, rays, open, instance, mesh);
+            let leaving = rays.leaving.facets_of(self.s, instance.prim);
+            let begun = |lane| ClosestHit::nothing_on(segments.span(lane)).for_any(true);
+            setup.search(self.s, (tree, self.visits), (live, leaving), begun, &mut exact)
+        };
+        self.count_visits();
+        open & slots.is(NONE)
+    }
+}

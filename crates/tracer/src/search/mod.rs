@@ -1,0 +1,40 @@
+//! What rays meet: the closest surface of every lane, or whether anything stands in its way, and where exactly that is.
+
+mod closest;
+mod exact_resolver;
+mod hits;
+mod mesh;
+mod mesh_occluded;
+mod occluded;
+mod own_segments;
+mod packet;
+pub(crate) mod query;
+mod refine;
+mod self_hit;
+mod surface;
+mod to_light;
+mod walk;
+
+use fearless_simd::Simd;
+
+use crate::kernel::mesh::Visits;
+use crate::{Snapshot, Stats};
+
+pub(crate) use hits::{HitColumns, Hits};
+pub(crate) use occluded::ShadowRays;
+pub(crate) use own_segments::OwnSegments;
+pub(crate) use packet::{Leaving, Packet, PreciseRays, drift, kernel_rays, nearly_unit_rays};
+pub(crate) use refine::Refined;
+pub(crate) use surface::Surface;
+pub(crate) use to_light::ToLight;
+
+/// Searches a snapshot with packets of rays.
+pub(crate) struct Searcher<'a, S: Simd> {
+    pub(crate) s: S,
+    pub(crate) snapshot: &'a Snapshot,
+    pub(crate) stats: Stats,
+    /// Room for walks through trees of meshes.
+    pub(crate) visits: &'a mut Visits,
+    /// Whether every ray stays outside all convex solids.
+    pub(crate) outside: bool,
+}

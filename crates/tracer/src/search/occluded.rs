@@ -1,0 +1,280 @@
+//! Which segments are blocked: those from surfaces to a light, or any others.
+
+use catoptra_core::geometry::Mesh;
+use catoptra_core::{LaneMask, Ray, Span};
+use fearless_simd::Simd;
+
+use super::Searcher;
+use super::packet::Leaving;
+use crate::Snapshot;
+use crate::cull::Candidates;
+use crate::kernel::mesh::{Fan, FanRays, RaySetup};
+use crate::kernel::{Blocking, PlaneRow, Rays, Target};
+use crate::lanes::{Bits, F, M, outlined};
+use crate::numeric::CERTAIN;
+use crate::snapshot::{Instance, Row};
+
+/// Segments that are tested for anything in their way, one in every lane.
+#[derive(Clone, Copy)]
+pub(crate) struct ShadowRays<'a, S: Simd> {
+    /// The segments as kernels see them; how far their starts and lengths may be off is part of their reach.
+    pub(crate) rays: Rays<S>,
+    /// Surfaces that they leave.
+    pub(crate) leaving: Leaving<S>,
+    /// Lanes that are segments at all.
+    pub(crate) live: M<S>,
+    /// Where they end.
+    pub(crate) target: Target<S>,
+    /// Where all end in one place: how far that lies behind each plane, see [`LightRow`](crate::snapshot::LightRow);
+    /// else empty.
+    pub(crate) behind: &'a [f64],
+}
+
+impl<S: Simd> ShadowRays<'_, S> {
+    /// What a plane blocks.
+    #[inline(always)]
+    fn blocked_by_plane(&self, s: S, plane: &PlaneRow, row: u32) -> Blocking<S> {
+        match self.behind.get(row as usize) {
+            Some(&behind) => plane.block(s, &self.rays, behind),
+            None => plane.propose(s, &self.rays).blocking(&self.target),
+        }
+    }
+}
+
+/// Where shadow rays stand exactly, for what `f32` cannot decide; and how a mesh is searched for them.
+pub(crate) trait Segments<S: Simd> {
+    /// The segment of a lane, in the snapshot's frame.
+    fn segment(&self, snapshot: &Snapshot, lane: usize) -> Option<(Ray, Span)>;
+
+    /// The open ones as rays through one point of the mesh's own space, if that is what they are.
+    fn bundle(
+        &self,
+        search: &Searcher<'_, S>,
+        rays: &ShadowRays<'_, S>,
+        open: M<S>,
+        instance: &Instance,
+    ) -> Option<(Fan, [FanRays<S>; 1])>;
+
+    /// The open ones as single rays in the mesh's own space, and which of them are rays at all.
+    fn single_rays(
+        &self,
+        search: &Searcher<'_, S>,
+        rays: &ShadowRays<'_, S>,
+        open: M<S>,
+        instance: &Instance,
+        mesh: &Mesh,
+    ) -> (RaySetup, M<S>);
+
+    /// The span that single rays are searched on.
+    fn span(&self, lane: usize) -> Span;
+}
+
+impl<S: Simd> Searcher<'_, S> {
+    /// Which segments are blocked, where only planes and spheres may stand there and `f32` can tell.
+    #[inline(always)]
+    pub(crate) fn occluded_for_certain(
+        &mut self,
+        rays: &ShadowRays<'_, S>,
+        occluders: &Candidates,
+    ) -> Option<M<S>> {
+        let columns = self.snapshot.columns();
+        if occluders.tree || !columns.general_unbounded.is_empty() {
+            return None;
+        }
+        let (mut open, mut undecided) = (rays.live, M::splat(self.s, false));
+        for &row in &occluders.planes {
+            let plane = &columns.planes[row as usize];
+            let blocking = rays.blocked_by_plane(self.s, plane, row);
+            let other = open & !rays.leaving.from(self.s, plane.prim, 0);
+            undecided = undecided | (other & blocking.undecided);
+            open = open & !(other & blocking.blocked);
+        }
+        for &prim in &occluders.bounded {
+            let Row::Sphere(row) = columns.rows[prim as usize] else { return None };
+            let own = rays.leaving.from(self.s, prim, 0) & open;
+            if own.any() && !self.outside {
+                return None;
+            }
+            let nothing = M::splat(self.s, false);
+            let sphere = &columns.spheres[row as usize];
+            let blocking = sphere.block(self.s, &rays.rays, &rays.target, nothing, self.outside);
+            let other = open & !own;
+            undecided = undecided | (other & blocking.undecided);
+            open = open & !(other & blocking.blocked);
+        }
+        if undecided.any() {
+            return None;
+        }
+        let tested = occluders.planes.len() + occluders.bounded.len();
+        self.stats.tests.shapes += (tested * F::<S>::LANES) as u64;
+        Some(rays.live & !open)
+    }
+
+    /// Which segments are blocked.
+    #[inline(always)]
+    pub(crate) fn occluded(
+        &mut self,
+        segments: &impl Segments<S>,
+        rays: &ShadowRays<'_, S>,
+        occluders: &Candidates,
+    ) -> M<S> {
+        let columns = self.snapshot.columns();
+        let mut open = rays.live;
+        for &row in &occluders.planes {
+            let plane = &columns.planes[row as usize];
+            let blocking = rays.blocked_by_plane(self.s, plane, row);
+            let allowed = open & !rays.leaving.from(self.s, plane.prim, 0);
+            open = self.close(segments, rays, open, allowed, (plane.prim, Some(0)), blocking);
+        }
+        for &prim in &columns.general_unbounded {
+            open = self.close_exactly(segments, rays, open, open, (prim, None));
+        }
+        if !open.any() {
+            return rays.live;
+        }
+        for &prim in &occluders.bounded {
+            open = self.occlude_by(segments, rays, open, prim);
+        }
+        if occluders.tree {
+            open = self.occlude_by_tree(segments, rays, open);
+        }
+        rays.live & !open
+    }
+
+    /// The segments still open once one bounded shape stands there.
+    #[inline(always)]
+    pub(crate) fn occlude_by(
+        &mut self,
+        segments: &impl Segments<S>,
+        rays: &ShadowRays<'_, S>,
+        open: M<S>,
+        prim: u32,
+    ) -> M<S> {
+        let columns = self.snapshot.columns();
+        if let Row::Sphere(row) = columns.rows[prim as usize] {
+            let own = rays.leaving.from(self.s, prim, 0) & open;
+            // Seen from outside, what faces the light is not shadowed by its own sphere.
+            let (tested, leaving) =
+                if self.outside { (open & !own, M::splat(self.s, false)) } else { (open, own) };
+            let sphere = &columns.spheres[row as usize];
+            let blocking = sphere.block(self.s, &rays.rays, &rays.target, leaving, self.outside);
+            self.close(segments, rays, open, tested, (prim, Some(0)), blocking)
+        } else {
+            let rays = *rays;
+            outlined(
+                self.s,
+                #[inline(always)]
+                || self.occlude_by_facets(segments, &rays, open, prim),
+            )
+        }
+    }
+
+    /// As [`occlude_by`](Self::occlude_by) for a shape that is no sphere.
+    #[inline(always)]
+    fn occlude_by_facets(
+        &mut self,
+        segments: &impl Segments<S>,
+        rays: &ShadowRays<'_, S>,
+        open: M<S>,
+        prim: u32,
+    ) -> M<S> {
+        let columns = self.snapshot.columns();
+        match columns.rows[prim as usize] {
+            Row::Flat(row) => {
+                let flat = &columns.flats[row as usize];
+                let blocking = flat.propose(self.s, &rays.rays).blocking(&rays.target);
+                let allowed = open & !rays.leaving.from(self.s, prim, 0);
+                self.close(segments, rays, open, allowed, (prim, Some(0)), blocking)
+            }
+            Row::Cuboid(row) => {
+                let cuboid = &columns.cuboids[row as usize];
+                let hits = self.self_hits_of_segments(rays, &cuboid.faces);
+                let open = self.close_exactly(segments, rays, open, hits.undecided, (prim, None));
+                if !(open & hits.possible).any() {
+                    return open;
+                }
+                let entered = hits.entered(self.s, &rays.leaving);
+                let (proposal, _) = cuboid.propose(self.s, &rays.rays, entered);
+                let blocking = proposal.blocking(&rays.target);
+                self.close(segments, rays, open, open & hits.possible, (prim, None), blocking)
+            }
+            Row::Triangles(first, count) => {
+                let triangles = &columns.triangles[first as usize..(first + count) as usize];
+                let hits = self.self_hits_of_segments(rays, triangles);
+                let mut open = self.close_exactly(segments, rays, open, hits.undecided, (prim, None));
+                if !(open & hits.possible).any() {
+                    return open;
+                }
+                for triangle in triangles {
+                    let blocking = triangle.propose(self.s, &rays.rays).blocking(&rays.target);
+                    let allowed = open & hits.possible & !rays.leaving.from(self.s, prim, triangle.facet);
+                    open = self.close(segments, rays, open, allowed, (prim, Some(triangle.facet)), blocking);
+                }
+                open
+            }
+            Row::Instance(row) => {
+                self.occlude_by_mesh(segments, rays, open, &columns.instances[row as usize])
+            }
+            Row::General | Row::Plane(_) | Row::Sphere(_) => {
+                self.close_exactly(segments, rays, open, open, (prim, None))
+            }
+        }
+    }
+
+    /// The segments still open after what a kernel found; what it could not decide is decided in `f64`.
+    #[inline(always)]
+    fn close(
+        &mut self,
+        segments: &impl Segments<S>,
+        rays: &ShadowRays<'_, S>,
+        open: M<S>,
+        allowed: M<S>,
+        surface: (u32, Option<u32>),
+        blocking: Blocking<S>,
+    ) -> M<S> {
+        self.stats.tests.shapes += F::<S>::LANES as u64;
+        let undecided = allowed & blocking.undecided;
+        let left = open & !(allowed & blocking.blocked & !undecided);
+        if CERTAIN && undecided.any() {
+            self.close_exactly(segments, rays, left, undecided, surface)
+        } else {
+            left
+        }
+    }
+
+    /// Decides in `f64`, lane by lane, whether a shape blocks a segment.
+    #[inline(always)]
+    fn close_exactly(
+        &mut self,
+        segments: &impl Segments<S>,
+        rays: &ShadowRays<'_, S>,
+        open: M<S>,
+        lanes: M<S>,
+        surface: (u32, Option<u32>),
+    ) -> M<S> {
+        let leaving = rays.leaving;
+        let closed = self.closed_lanes(segments, &leaving, (lanes & open).bits(), surface);
+        open & !M::from_bits(self.s, closed)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn closed_lanes(
+        &mut self,
+        segments: &impl Segments<S>,
+        leaving: &Leaving<S>,
+        lanes: u64,
+        (prim, facet): (u32, Option<u32>),
+    ) -> u64 {
+        let snapshot = self.snapshot;
+        let mut closed = 0;
+        for lane in Bits(lanes) {
+            self.stats.settled += 1;
+            let Some((ray, span)) = segments.segment(snapshot, lane) else { continue };
+            if snapshot.cross_part(prim, facet, &ray, span, leaving.lane(lane)).is_some() {
+                closed |= 1 << lane;
+            }
+        }
+        closed
+    }
+}

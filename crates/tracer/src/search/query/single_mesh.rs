@@ -1,0 +1,281 @@
+//! Ray queries where one mesh is all there is: groups of packets walk its tree together, and nothing
+//! is worked out that only other shapes need.
+
+use catoptra_core::geometry::Mesh;
+use catoptra_core::{Geometry, LaneMask, Ray, Span};
+use fearless_simd::Simd;
+
+use super::{Answers, RayQuery};
+use crate::Snapshot;
+use crate::film::NOTHING;
+use crate::kernel::mesh::{Bundle, ClosestHit, ExactResolver, FanRays, GROUP, Lines};
+use crate::lanes::{F, M, U, outlined};
+use crate::search::Searcher;
+use crate::search::mesh::{NONE, ends_of_segments};
+use crate::snapshot::{Instance, RaySegment, Row};
+
+/// Rays of a caller, and the mesh that is all there is.
+#[derive(Clone, Copy)]
+struct MeshQuery<'a> {
+    query: &'a RayQuery<'a>,
+    instance: &'a Instance,
+    mesh: &'a Mesh,
+    /// Whether anything that the rays meet will do.
+    any: bool,
+}
+
+/// Packets that stand side by side.
+#[derive(Clone, Copy)]
+struct Group<S: Simd> {
+    /// The first ray.
+    at: usize,
+    packets: usize,
+    /// Rays to be followed.
+    live: [M<S>; GROUP],
+}
+
+impl<S: Simd> Group<S> {
+    /// The first ray of one of the packets.
+    #[inline(always)]
+    fn start(&self, packet: usize) -> usize {
+        self.at + packet * F::<S>::LANES
+    }
+
+    /// Some of the packets.
+    #[inline(always)]
+    fn part(&self, s: S, first: usize, packets: usize) -> Self {
+        let mut live = [M::splat(s, false); GROUP];
+        live[..packets].copy_from_slice(&self.live[first..first + packets]);
+        Self { at: self.start(first), packets, live }
+    }
+}
+
+/// The mesh that is all there is, if so.
+pub(super) fn single_mesh(snapshot: &Snapshot) -> Option<&Instance> {
+    let columns = snapshot.columns();
+    let [Row::Instance(row)] = columns.rows[..] else { return None };
+    Some(&columns.instances[row as usize])
+}
+
+impl<S: Simd> Searcher<'_, S> {
+    /// Answers about rays where a mesh is all there is.
+    pub(super) fn answer_of_mesh(
+        &mut self,
+        query: &RayQuery<'_>,
+        instance: &Instance,
+        answers: &mut Answers<'_, '_>,
+    ) {
+        let Some(mesh) = self.snapshot.mesh_at(instance.prim) else { return };
+        let of = &MeshQuery { query, instance, mesh, any: matches!(answers, Answers::Occluded(_)) };
+        let (mut rays, mut backwards) = ([FanRays::nothing(self.s); GROUP], false);
+        for at in (0..query.len()).step_by(GROUP * F::<S>::LANES) {
+            let packets = (query.len() - at).div_ceil(F::<S>::LANES).min(GROUP);
+            let mut group = Group { at, packets, live: [M::splat(self.s, false); GROUP] };
+            for packet in 0..packets {
+                group.live[packet] = query.live(self.s, at + packet * F::<S>::LANES);
+            }
+            outlined(
+                self.s,
+                #[inline(always)]
+                || self.answer_group(of, &group, (answers, &mut rays, &mut backwards)),
+            );
+        }
+    }
+
+    #[inline(always)]
+    fn answer_group(
+        &mut self,
+        of: &MeshQuery<'_>,
+        group: &Group<S>,
+        (answers, rays, backwards): (&mut Answers<'_, '_>, &mut [FanRays<S>; GROUP], &mut bool),
+    ) {
+        let mut slots = [U::splat(self.s, NONE); GROUP];
+        // What does not go together is halved; what does doubles what is tried next.
+        let (mut first, mut size) = (0, group.packets);
+        while first < group.packets {
+            let part = group.part(self.s, first, size.min(group.packets - first));
+            if self.find_together(of, &part, (&mut slots[first..], rays, backwards)) {
+                (first, size) = (first + part.packets, 2 * part.packets);
+            } else if part.packets == 1 {
+                slots[first] = self.find_each(of, &part);
+                first += 1;
+            } else {
+                size = part.packets.div_ceil(2);
+            }
+        }
+        for (packet, slots) in slots.into_iter().enumerate().take(group.packets) {
+            let part = group.part(self.s, packet, 1);
+            self.store_packet(of, (&part, slots), answers);
+        }
+    }
+
+    /// Finds triangles for all rays of a group at once, if they go through one point; whether they do.
+    #[inline(always)]
+    fn find_together(
+        &mut self,
+        of: &MeshQuery<'_>,
+        group: &Group<S>,
+        (slots, rays, backwards): (&mut [U<S>], &mut [FanRays<S>; GROUP], &mut bool),
+    ) -> bool {
+        let rays = &mut rays[..group.packets];
+        let bundle = if of.any {
+            // The way that went well last is tried first.
+            let bundle = self.bundle_of_segments(of, group, (rays, *backwards));
+            bundle.or_else(|| {
+                let bundle = self.bundle_of_segments(of, group, (rays, !*backwards));
+                *backwards ^= bundle.is_some();
+                bundle
+            })
+        } else {
+            self.bundle_of_rays(of, group, rays)
+        };
+        let Some(bundle) = bundle else { return false };
+        for (packet, rays) in rays.iter_mut().enumerate() {
+            let at = group.start(packet);
+            let [begin, end] = if of.any {
+                ends_of_segments(self.s, rays.scale, bundle.slack)
+            } else {
+                of.query.depths(self.s, at, rays.scale)
+            };
+            rays.start(self.s, begin, end, of.query.leaving(self.s, at).facets_of(self.s, of.instance.prim));
+        }
+        let mut exact = of.resolver(self.snapshot, group.at);
+        let fan = if of.any { bundle.fan.for_any() } else { bundle.fan };
+        fan.search(self.s, &of.instance.tree.tree, self.visits, rays, &mut exact);
+        self.count_visits();
+        for (slot, rays) in slots.iter_mut().zip(rays) {
+            *slot = rays.slot;
+            self.stats.settled += rays.settled;
+        }
+        true
+    }
+
+    #[inline(always)]
+    fn bundle_of_rays(
+        &self,
+        of: &MeshQuery<'_>,
+        group: &Group<S>,
+        rays: &mut [FanRays<S>],
+    ) -> Option<Bundle> {
+        Bundle::of(
+            self.s,
+            rays,
+            #[inline(always)]
+            |packet| {
+                let (origin, direction) = of.query.own_lines(self.s, group.start(packet), of.instance);
+                Lines { origin, direction, live: group.live[packet % GROUP] }
+            },
+            self.reach(of.instance),
+        )
+    }
+
+    /// The spans of rays as lines from where they begin, or backwards from where they end.
+    #[inline(always)]
+    fn bundle_of_segments(
+        &self,
+        of: &MeshQuery<'_>,
+        group: &Group<S>,
+        (rays, backwards): (&mut [FanRays<S>], bool),
+    ) -> Option<Bundle> {
+        Bundle::of(
+            self.s,
+            rays,
+            #[inline(always)]
+            |packet| {
+                let [start, end] = of.query.span_ends(self.s, group.start(packet));
+                let start = of.instance.own_points(self.s, start);
+                let end = of.instance.own_points(self.s, end);
+                let (origin, other) = if backwards { (end, start) } else { (start, end) };
+                Lines { origin, direction: other - origin, live: group.live[packet % GROUP] }
+            },
+            self.reach(of.instance),
+        )
+    }
+
+    /// Finds triangles for the rays of a packet, one after another.
+    #[inline(always)]
+    fn find_each(&mut self, of: &MeshQuery<'_>, packet: &Group<S>) -> U<S> {
+        of.query.rays.prefetch(packet.start(GROUP));
+        let leaving = of.query.leaving(self.s, packet.at).facets_of(self.s, of.instance.prim);
+        let mut exact = of.resolver(self.snapshot, packet.at);
+        let (origin, direction) = of.query.own_lines(self.s, packet.at, of.instance);
+        let lines = Lines { origin, direction, live: packet.live[0] };
+        let slots = self.ray_setup(&lines, of.instance).search(
+            self.s,
+            (&of.instance.tree.tree, self.visits),
+            (lines.live, leaving),
+            #[inline(always)]
+            |lane| ClosestHit::nothing_on(of.query.span_at(packet.at + lane)).for_any(of.any),
+            &mut exact,
+        );
+        self.count_visits();
+        slots
+    }
+
+    /// Keeps what a packet has found.
+    #[inline(always)]
+    fn store_packet(
+        &mut self,
+        of: &MeshQuery<'_>,
+        (packet, slots): (&Group<S>, U<S>),
+        answers: &mut Answers<'_, '_>,
+    ) {
+        let (at, instance) = (packet.at, of.instance);
+        let taken = packet.live[0] & !slots.is(NONE);
+        match answers {
+            Answers::Nearest(hits) => {
+                let (prim, nothing) = (U::splat(self.s, instance.prim), U::splat(self.s, NOTHING));
+                U::pick(taken, prim, nothing).store(&mut hits.prim[at..]);
+                if taken.any() {
+                    let triangles = instance.triangles(self.s, slots, taken);
+                    let lines = of.query.own_lines(self.s, at, instance);
+                    let of_lane = |lane: usize| of.query.segment(at + lane);
+                    let t = self.refined_t(instance.prim, lines, taken, &triangles, of_lane);
+                    triangles.facet.store(&mut hits.facet[at..]);
+                    t.store(&mut hits.t[at..]);
+                }
+            }
+            Answers::Occluded(occluded) => {
+                let bits = taken.bits();
+                for (lane, occluded) in occluded[at..].iter_mut().enumerate().take(F::<S>::LANES) {
+                    *occluded = bits >> lane & 1 == 1;
+                }
+            }
+        }
+        self.answer_one_by_one(of.query, at, !packet.live[0], answers);
+    }
+}
+
+impl<'a> MeshQuery<'a> {
+    /// Decides what a group of packets meets whose first ray is `at`.
+    fn resolver(&self, snapshot: &'a Snapshot, at: usize) -> ClosestOfQuery<'a> {
+        ClosestOfQuery { snapshot, of: *self, at }
+    }
+}
+
+/// Decides what rays of a caller meet, of a mesh that is all there is.
+struct ClosestOfQuery<'a> {
+    snapshot: &'a Snapshot,
+    of: MeshQuery<'a>,
+    /// The ray of lane 0.
+    at: usize,
+}
+
+impl ExactResolver for ClosestOfQuery<'_> {
+    fn ray(&mut self, lane: usize) -> Option<(Ray, Span)> {
+        let (ray, span, _) = self.of.query.segment(self.at + lane);
+        Some((self.of.mesh.own_ray(&ray), span))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn decide(&mut self, lane: usize, facet: u32, held: Option<u32>) -> Option<f64> {
+        let (ray, span, leaving) = self.of.query.segment(self.at + lane);
+        let prim = self.of.instance.prim;
+        let cross = |facet: u32| self.snapshot.cross_part(prim, Some(facet), &ray, span, leaving);
+        let hit = cross(facet)?;
+        let segment = RaySegment::new(&ray, span, leaving);
+        let other = held.and_then(cross);
+        other.is_none_or(|other| self.snapshot.precedes(&segment, &hit, &other)).then_some(hit.crossing.t)
+    }
+}

@@ -1,0 +1,114 @@
+//! The segments from what rays have met to a light: backwards from a lamp all lanes together, towards the sun lane by lane.
+
+use catoptra_core::geometry::Mesh;
+use catoptra_core::{Arithmetic, Geometry, LaneMask, Ray, Span};
+use fearless_simd::Simd;
+
+use super::Searcher;
+use super::occluded::{Segments, ShadowRays};
+use super::packet::{Leaving, Packet, PreciseRays};
+use crate::Snapshot;
+use crate::kernel::mesh::{Bundle, Fan, FanRays, Lines, RaySetup};
+use crate::lanes::{D3, F, M, pick3, splat_wide, widen3};
+use crate::numeric::{END_ERROR, FAN_STEEP, POINT_ERROR, START_ERROR};
+use crate::snapshot::{Instance, LightRow};
+
+/// Segments from the surfaces that the rays of a packet meet to a light.
+pub(crate) struct ToLight<'a, S: Simd, P> {
+    pub(crate) packet: &'a Packet<'a, S, P>,
+    /// What the rays have met.
+    pub(crate) from: Leaving<S>,
+    pub(crate) light: &'a LightRow,
+}
+
+impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
+    /// From where the ray of a lane meets its surface in `f64`, whatever `f32` made of that point.
+    fn segment(&self, snapshot: &Snapshot, lane: usize) -> Option<(Ray, Span)> {
+        let (ray, span, leaving) = self.packet.segment(lane);
+        let from = self.from.lane(lane)?;
+        let met = snapshot.cross_part(from.prim, Some(from.facet), &ray, span, leaving)?;
+        Some(self.light.segment_from(ray.at(met.crossing.t)))
+    }
+
+    #[inline(always)]
+    fn bundle(
+        &self,
+        search: &Searcher<'_, S>,
+        rays: &ShadowRays<'_, S>,
+        open: M<S>,
+        instance: &Instance,
+    ) -> Option<(Fan, [FanRays<S>; 1])> {
+        if self.light.at_infinity {
+            return None;
+        }
+        let s = search.s;
+        let common = instance.own_points(s, splat_wide(s, self.light.place));
+        let (start, off) = self.own_starts(search, rays, open, instance);
+        let lines = Lines { origin: common, direction: start - common, live: open };
+        let mut bundled = [FanRays::nothing(s)];
+        let bundle = Bundle::of(s, &mut bundled, |_| lines, search.reach(instance))?;
+        let (scale, zero) = (bundled[0].scale, F::splat(s, 0.0));
+        let error = scale.mul_add(F::splat(s, END_ERROR), off);
+        let leaving = rays.leaving.facets_of(s, instance.prim);
+        bundled[0].start(s, [zero, zero], [scale, error], leaving);
+        let steep = bundled[0].error_where_off(s, off);
+        // So close to the lamp that nothing is known of slopes, each goes its own way.
+        (steep < 2.0 - FAN_STEEP).then(|| (bundle.fan.for_any().with_slopes_off(steep), bundled))
+    }
+
+    #[inline(always)]
+    fn single_rays(
+        &self,
+        search: &Searcher<'_, S>,
+        rays: &ShadowRays<'_, S>,
+        open: M<S>,
+        instance: &Instance,
+        mesh: &Mesh,
+    ) -> (RaySetup, M<S>) {
+        let (s, snapshot) = (search.s, search.snapshot);
+        if self.light.at_infinity {
+            let (origin, off) = self.own_starts(search, rays, open, instance);
+            let sunwards = mesh.to_object().vector(self.light.in_frame);
+            let lines = Lines { origin, direction: splat_wide(s, sunwards), live: open };
+            (RaySetup::of(s, &lines, off, instance.tree.reach), open)
+        } else {
+            // The starts of segments to one point tell nothing of their directions.
+            let own = |lane| self.segment(snapshot, lane).map(|(ray, _)| mesh.own_ray(&ray));
+            let lines = Lines::gathered(s, open, own);
+            let exact = F::splat(s, 0.0);
+            (RaySetup::of(s, &lines, exact, instance.tree.reach), lines.live)
+        }
+    }
+
+    fn span(&self, _lane: usize) -> Span {
+        if self.light.at_infinity { Span::AHEAD } else { Span::TO_LIGHT }
+    }
+}
+
+impl<S: Simd, P: PreciseRays<S>> ToLight<'_, S, P> {
+    /// Where segments begin in a mesh's own space, and how far that may be off: refined in `f64` where they leave the mesh
+    /// itself.
+    #[inline(always)]
+    fn own_starts(
+        &self,
+        search: &Searcher<'_, S>,
+        rays: &ShadowRays<'_, S>,
+        open: M<S>,
+        instance: &Instance,
+    ) -> (D3<S>, F<S>) {
+        let s = search.s;
+        let reach = rays.rays.reach * F::splat(s, instance.scale());
+        let start = instance.own_points(s, widen3(rays.rays.origin));
+        let off = reach * F::splat(s, POINT_ERROR);
+        let own = open & rays.leaving.prim.is(instance.prim);
+        if !own.any() {
+            return (start, off);
+        }
+        let triangles = instance.facets(s, rays.leaving.facet, own);
+        let (origin, direction) = search.own_lines(self.packet, instance);
+        let of_lane = |lane: usize| self.packet.segment(lane);
+        let t = search.refined_t(instance.prim, (origin, direction), own, &triangles, of_lane);
+        let refined = direction.scale_add(t, origin);
+        (pick3(own, refined, start), F::pick(own, reach * F::splat(s, START_ERROR), off))
+    }
+}

@@ -1,0 +1,215 @@
+//! What light arrives at the packets of a chunk, and which shadow rays are traced.
+
+use catoptra_core::light::LightVisitor;
+use catoptra_core::{Arithmetic, Arrival, Emitter, Lane, LaneMask};
+use fearless_simd::Simd;
+
+use super::Shader;
+use super::chunk::{CHUNK, Chunk};
+use crate::kernel::{Rays, Target};
+use crate::lanes::{F, F3, M, magnitude, outlined};
+use crate::numeric::POINT_ERROR;
+use crate::search::{Leaving, ShadowRays, ToLight, drift};
+use crate::stream::Batch;
+
+/// Adds to the first packets of the chunk what a light makes of them.
+struct AddLight<'t, 'a, S: Simd, B> {
+    shader: &'t mut Shader<'a, S>,
+    batch: &'t B,
+    count: usize,
+    /// How many of their lanes answer lights.
+    lit: u64,
+    /// Which light.
+    light: usize,
+}
+
+impl<S: Simd, B: Batch<S>> LightVisitor for AddLight<'_, '_, S, B> {
+    #[inline(always)]
+    fn visit<E: Emitter>(mut self, light: &E) {
+        let open = self.shader.is_open(self.light, light.shadow());
+        let smooth = self.shader.search.snapshot.columns().smooth;
+        let faced = if open && !smooth { self.add_open(light) } else { self.add(light, open, smooth) };
+        let stats = &mut self.shader.search.stats;
+        let in_cone = if E::HAS_CONE { faced.in_cone } else { self.lit };
+        stats.skipped.out_of_cone += self.lit - in_cone;
+        stats.skipped.facing_away += in_cone - faced.facing;
+        *match (light.shadow(), open) {
+            (false, _) => &mut stats.skipped.shadow_off,
+            (true, true) => &mut stats.skipped.nothing_between,
+            (true, false) => &mut stats.rays.shadow,
+        } += faced.facing;
+    }
+}
+
+/// How many lanes that answer lights lie in a light's cone, and how many of those face it.
+#[derive(Default)]
+struct Faced {
+    in_cone: u64,
+    facing: u64,
+}
+
+/// Lanes that face a light, and what arrives at them.
+struct Facing<S: Simd> {
+    arrival: Arrival<F<S>>,
+    cosine: F<S>,
+    lanes: M<S>,
+}
+
+impl<S: Simd, B: Batch<S>> AddLight<'_, '_, S, B> {
+    /// Adds a light that nothing stands in the way of, where all normals are geometric.
+    #[inline(always)]
+    fn add_open<E: Emitter>(&mut self, light: &E) -> Faced {
+        let zero = F::splat(self.shader.s, 0.0);
+        let color = F3::of(zero, light.color());
+        let chunk = &mut *self.shader.chunk;
+        let mut faced = Faced::default();
+        for packet in 0..self.count.min(CHUNK) {
+            let facing = face(chunk, light, packet, false, &mut faced);
+            let arriving = F::pick(facing.lanes, facing.cosine * facing.arrival.strength, zero);
+            chunk.irradiance[packet] = color.scale_add(arriving, chunk.irradiance[packet]);
+        }
+        for packet in 0..self.count.min(CHUNK) {
+            if self.shader.chunk.glossy[packet] {
+                let facing = face(self.shader.chunk, light, packet, false, &mut Faced::default());
+                self.shader.add_gloss(packet, &facing, facing.lanes, color);
+            }
+        }
+        faced
+    }
+
+    /// Adds any light.
+    #[inline(always)]
+    fn add<E: Emitter>(&mut self, light: &E, open: bool, smooth: bool) -> Faced {
+        let zero = F::splat(self.shader.s, 0.0);
+        let color = F3::of(zero, light.color());
+        let mut faced = Faced::default();
+        for packet in 0..self.count.min(CHUNK) {
+            let facing = face(self.shader.chunk, light, packet, smooth, &mut faced);
+            let reached = if open {
+                facing.lanes
+            } else {
+                facing.lanes & !self.shader.shadowed(self.batch, packet, self.light, &facing)
+            };
+            let arriving = F::pick(reached, facing.cosine * facing.arrival.strength, zero);
+            let irradiance = &mut self.shader.chunk.irradiance[packet];
+            *irradiance = color.scale_add(arriving, *irradiance);
+            if self.shader.chunk.glossy[packet] {
+                self.shader.add_gloss(packet, &facing, reached, color);
+            }
+        }
+        faced
+    }
+}
+
+/// What arrives at a packet of the chunk from a light, if nothing stands in its way.
+#[inline(always)]
+fn face<S: Simd, E: Emitter>(
+    chunk: &Chunk<S>,
+    light: &E,
+    packet: usize,
+    smooth: bool,
+    faced: &mut Faced,
+) -> Facing<S> {
+    let lit = chunk.lit[packet];
+    let arrival = light.arriving(chunk.point[packet]);
+    let zero = arrival.strength.number(0.0);
+    // Where the light itself is, the cosine is NaN, which faces nothing.
+    let in_cone = if E::HAS_CONE { lit & arrival.lit } else { lit };
+    let mut cosine = arrival.cosine(chunk.normal[packet]);
+    let mut lanes = in_cone & zero.less(cosine);
+    if smooth {
+        cosine = arrival.cosine(chunk.smooth[packet]);
+        lanes = lanes & zero.less(cosine);
+    }
+    if E::HAS_CONE {
+        faced.in_cone += in_cone.count();
+    }
+    faced.facing += lanes.count();
+    Facing { arrival, cosine, lanes }
+}
+
+impl<S: Simd> Shader<'_, S> {
+    /// Adds what every light makes of the first `count` packets of the chunk. Each kind of light has a loop of its own.
+    #[inline(always)]
+    pub(crate) fn add_lights(&mut self, batch: &impl Batch<S>, count: usize) {
+        let rows = self.search.snapshot.light_rows();
+        let lit = self.chunk.lit[..count].iter().map(|lit| lit.count()).sum();
+        self.search.stats.skipped.unreached += lit * (rows.len() - self.plan.reached.len()) as u64;
+        for place in 0..self.plan.reached.len() {
+            let light = self.plan.reached[place];
+            let row = &rows[light];
+            outlined(
+                self.s,
+                #[inline(always)]
+                || row.light.visit(AddLight { shader: self, batch, count, lit, light }),
+            );
+        }
+    }
+
+    /// Whether nothing stands between the chunk's points and a light, or the light throws no shadows.
+    #[inline(always)]
+    fn is_open(&self, light: usize, shadow: bool) -> bool {
+        let general = &self.search.snapshot.columns().general_unbounded;
+        !shadow || (self.plan.occluders[light].is_empty() && general.is_empty())
+    }
+
+    /// Adds the gloss of the lanes that a light reaches.
+    #[inline(always)]
+    fn add_gloss(&mut self, packet: usize, facing: &Facing<S>, reached: M<S>, color: F3<S>) {
+        let zero = F::splat(self.s, 0.0);
+        let light = color.scale(F::pick(reached, facing.arrival.strength, zero));
+        let materials = self.search.snapshot.material_rows();
+        let (at, groups) = (self.shading_point(packet), &self.chunk.groups[packet]);
+        let mut sum = self.chunk.gloss[packet];
+        for group in 0..groups.len() {
+            let (mask, material) = groups.get(self.s, group);
+            let material = &materials[material].material;
+            if material.is_glossy() {
+                let gloss = material.gloss(&at, facing.arrival.towards, facing.cosine);
+                sum = F3::select(mask, gloss.times_add(light, sum), sum);
+            }
+        }
+        self.chunk.gloss[packet] = sum;
+    }
+
+    /// Lanes whose way to a light is blocked.
+    #[inline(always)]
+    fn shadowed(&mut self, batch: &impl Batch<S>, packet: usize, light: usize, facing: &Facing<S>) -> M<S> {
+        let Facing { arrival, lanes, .. } = facing;
+        if !lanes.any() {
+            return *lanes;
+        }
+        let (best, point) = (self.chunk.best[packet], self.chunk.point[packet]);
+        let row = &self.search.snapshot.light_rows()[light];
+        let rays = ShadowRays {
+            rays: Rays {
+                origin: point,
+                direction: arrival.towards,
+                reach: best.error.mul_add(
+                    F::splat(self.s, 1.0 / POINT_ERROR),
+                    magnitude(point)
+                        + F::splat(self.s, row.reach + drift(self.search.snapshot.origin_in_frame())),
+                ),
+            },
+            leaving: Leaving { prim: best.prim, facet: best.facet, any: true },
+            live: *lanes,
+            target: Target { distance: arrival.distance, end: Some(row.end()) },
+            behind: &row.behind,
+        };
+        let occluders = &self.plan.occluders[light];
+        if let Some(blocked) = self.search.occluded_for_certain(&rays, occluders) {
+            return blocked;
+        }
+        // A copy, so that the rays may stay in registers where this is not reached.
+        let copy = rays;
+        outlined(
+            self.s,
+            #[inline(always)]
+            || {
+                let packet = batch.packet(self.s, self.chunk.at[packet]);
+                let segments = ToLight { packet: &packet, from: copy.leaving, light: row };
+                self.search.occluded(&segments, &copy, occluders)
+            },
+        )
+    }
+}

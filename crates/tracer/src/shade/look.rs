@@ -1,0 +1,150 @@
+//! Surfaces to light: what the lanes of a packet show of their surfaces' own look under the light that has arrived.
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Arithmetic, Lane, LaneMask, Material, Rgb};
+use fearless_simd::Simd;
+
+use super::{Shader, dark};
+use crate::Tile;
+use crate::lanes::{F, F3, M, magnitude, outlined};
+use crate::numeric::POSITION_ERROR;
+use crate::search::{Hits, Packet, PreciseRays, Refined};
+use crate::stream::Batch;
+
+impl<S: Simd> Shader<'_, S> {
+    /// Adds the light of a packet of the chunk to its pixels.
+    #[inline(always)]
+    pub(super) fn show(&mut self, batch: &impl Batch<S>, slot: usize, tile: &mut Tile, depth: u32) {
+        let (at, groups) = (self.chunk.at[slot], self.chunk.groups[slot].len());
+        if groups == 0 && depth > 0 && self.search.snapshot.background() == Rgb::BLACK {
+            return;
+        }
+        let sky = F3::of(self.chunk.best[slot].t, self.search.snapshot.background_light());
+        let mut shown = F3::select(batch.live_lanes(self.s, at), sky, dark(self.s));
+        if groups > 0 {
+            shown = self.show_group(batch, slot, 0, shown);
+        }
+        if groups > 1 {
+            shown = self.show_others(batch, slot, shown);
+        }
+        self.search.stats.not_finite += batch.add(self.s, at, &self.chunk.best[slot], shown, tile);
+    }
+
+    /// What the lanes of one material show.
+    #[inline(always)]
+    fn show_group(&mut self, batch: &impl Batch<S>, slot: usize, group: usize, shown: F3<S>) -> F3<S> {
+        let (mask, material) = self.chunk.groups[slot].get(self.s, group);
+        if !self.search.snapshot.material_rows()[material].reflects {
+            self.search.stats.skipped.not_reflective += mask.count();
+        }
+        F3::select(mask, self.own_look(batch, slot, (mask, material)), shown)
+    }
+
+    /// What the lanes of further materials show. Most packets meet one material; see [`outlined`].
+    #[inline(always)]
+    fn show_others(&mut self, batch: &impl Batch<S>, slot: usize, shown: F3<S>) -> F3<S> {
+        let mut shown = shown;
+        outlined(
+            self.s,
+            #[inline(always)]
+            || {
+                for group in 1..self.chunk.groups[slot].len() {
+                    shown = self.show_group(batch, slot, group, shown);
+                }
+                shown
+            },
+        )
+    }
+
+    /// The own look of the lanes of `mask`, which have one material, in the share that is not reflected.
+    #[inline(always)]
+    fn own_look(&mut self, batch: &impl Batch<S>, slot: usize, (mask, material): (M<S>, usize)) -> F3<S> {
+        let snapshot = self.search.snapshot;
+        let row = &snapshot.material_rows()[material];
+        if row.is_pattern {
+            outlined(
+                self.s,
+                #[inline(always)]
+                || self.move_off_edges(batch, slot, mask, &row.material),
+            );
+        }
+        let ambient = F3::of(F::splat(self.s, 0.0), snapshot.ambient_light());
+        let irradiance = self.chunk.irradiance[slot];
+        let mut shown = row.material.shown(|| self.shading_point(slot), ambient, irradiance);
+        if self.chunk.glossy[slot] {
+            shown = shown + self.chunk.gloss[slot];
+        }
+        if row.reflects { shown.scale(ambient.x.of(row.kept)) } else { shown }
+    }
+
+    /// Where `f32` cannot tell on which side of a pattern's edge a point lies, takes one for it that `f64` has found to
+    /// look the same.
+    #[inline(always)]
+    fn move_off_edges(&mut self, batch: &impl Batch<S>, slot: usize, mask: M<S>, material: &Material) {
+        let at = self.shading_point(slot);
+        // A ray's origin is no farther out than its end and three times its length.
+        let size = at.distance.mul_add(F::splat(self.s, 4.0), magnitude(at.position));
+        let error = size.mul_add(F::splat(self.s, POSITION_ERROR), self.chunk.best[slot].error);
+        let lanes = mask & material.undecided(&at, error);
+        if !lanes.any() {
+            return;
+        }
+        let (packet, best) = (self.packet_of(batch, slot), self.chunk.best[slot]);
+        let point = self.refine_every(&packet, &best, lanes).point;
+        let position = &mut self.chunk.point[slot];
+        for lane in lanes.lanes() {
+            self.search.stats.settled += 1;
+            let near =
+                material.reduced(DVec3::new(point.x.lane(lane), point.y.lane(lane), point.z.lane(lane)));
+            position.x.set(lane, near.x as f32);
+            position.y.set(lane, near.y as f32);
+            position.z.set(lane, near.z as f32);
+        }
+    }
+
+    /// The packet in a slot of the chunk.
+    #[inline(always)]
+    pub(crate) fn packet_of<'b, B: Batch<S>>(&self, batch: &'b B, slot: usize) -> Packet<'b, S, B::Precise> {
+        batch.packet(self.s, self.chunk.at[slot])
+    }
+
+    /// Refines lanes, shape by shape.
+    #[inline(always)]
+    pub(crate) fn refine_every<P: PreciseRays<S>>(
+        &mut self,
+        packet: &Packet<'_, S, P>,
+        best: &Hits<S>,
+        lanes: M<S>,
+    ) -> Refined<S> {
+        let mut left = lanes.bits();
+        let prim = best.prim.lane(left.trailing_zeros() as usize);
+        let mut mask = lanes & best.prim.is(prim);
+        let mut refined = self.search.refine(packet, best, mask, prim);
+        left &= !mask.bits();
+        while left != 0 {
+            let prim = best.prim.lane(left.trailing_zeros() as usize);
+            mask = lanes & best.prim.is(prim);
+            refined = self.refine_too(packet, best, mask, prim, refined);
+            left &= !mask.bits();
+        }
+        refined
+    }
+
+    /// Refines the lanes on another shape. Most packets meet one shape; see [`outlined`].
+    #[inline(always)]
+    fn refine_too<P: PreciseRays<S>>(
+        &mut self,
+        packet: &Packet<'_, S, P>,
+        best: &Hits<S>,
+        mask: M<S>,
+        prim: u32,
+        before: Refined<S>,
+    ) -> Refined<S> {
+        let (packet, best) = (*packet, *best);
+        outlined(
+            self.s,
+            #[inline(always)]
+            || self.search.refine(&packet, &best, mask, prim).over(mask, before),
+        )
+    }
+}

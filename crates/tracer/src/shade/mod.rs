@@ -1,0 +1,39 @@
+//! From hits to light: surfaces, the light that arrives at them, what they show of it, and the rays they send on.
+
+mod chunk;
+mod direct_light;
+mod filled;
+mod groups;
+mod hits;
+mod look;
+mod reflect;
+
+use fearless_simd::Simd;
+
+use crate::View;
+use crate::cull::TilePlan;
+use crate::lanes::{F3, splat3};
+use crate::search::Searcher;
+use crate::stream::{LaneBounds, Queue};
+
+pub(crate) use chunk::Chunk;
+
+/// Gathers the light of packets, a chunk of them at a time.
+pub(crate) struct Shader<'a, S: Simd> {
+    pub(crate) s: S,
+    pub(crate) search: Searcher<'a, S>,
+    pub(crate) view: &'a View,
+    /// What is known of the batch under way.
+    pub(crate) plan: &'a mut TilePlan,
+    pub(crate) chunk: &'a mut Chunk<S>,
+    /// Rays that surfaces send on.
+    pub(crate) next: &'a mut Queue,
+    /// Where those start, and the unit vectors along which they run.
+    pub(crate) sent: &'a mut LaneBounds<S, 2>,
+}
+
+/// No light in any lane.
+#[inline(always)]
+fn dark<S: Simd>(s: S) -> F3<S> {
+    splat3(s, [0.0; 3])
+}

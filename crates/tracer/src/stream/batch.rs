@@ -1,0 +1,208 @@
+//! Where packets come from: the camera, pixel block by pixel block, or the stream of rays that surfaces sent on.
+
+use std::ops::Range;
+
+use catoptra_core::{Constant3, Lane, LaneMask};
+use fearless_simd::Simd;
+
+use super::{CameraPackets, Queue};
+use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING};
+use crate::lanes::{Column, F, F3, M, U, load3, magnitude, store3};
+use crate::search::{Hits, Packet, PreciseRays};
+use crate::{Region, Tile};
+
+/// Packets that are traced together.
+pub(crate) trait Batch<S: Simd> {
+    /// The rays in `f64`.
+    type Precise: PreciseRays<S>;
+
+    /// How many stretches of rays there are.
+    fn stretches(&self) -> u32;
+
+    /// Places of the rays of a stretch, in whole packets.
+    fn stretch(&self, stretch: u32) -> Range<usize>;
+
+    /// How many rays there are.
+    fn live(&self) -> u64;
+
+    /// The packet that starts with ray `at`.
+    fn packet(&self, s: S, at: usize) -> Packet<'_, S, Self::Precise>;
+
+    /// Which lanes of the packet that starts with ray `at` are rays at all.
+    fn live_lanes(&self, s: S, at: usize) -> M<S>;
+
+    /// How much of the light that arrives along the packet that starts with ray `at` counts, per channel.
+    fn weights(&self, s: S, at: usize) -> F3<S>;
+
+    /// Pixels of the packet that starts with ray `at`, by their places in the tile's columns.
+    fn pixels(&self, s: S, at: usize) -> U<S>;
+
+    /// Adds the light that arrives along the packet that starts with ray `at` to its pixels, and keeps what camera
+    /// rays have met. Returns how many sums were not finite (stored as 0 or [`f32::MAX`]).
+    fn add(&self, s: S, at: usize, best: &Hits<S>, light: F3<S>, tile: &mut Tile) -> u64;
+}
+
+/// The camera rays of a part of a tile.
+pub(crate) struct Part<'a, S: Simd> {
+    pub(crate) camera: &'a CameraPackets<'a, S>,
+    /// Which part, from the tile's corner, in whole blocks.
+    pub(crate) region: Region,
+}
+
+impl<S: Simd> Part<'_, S> {
+    /// Fills the part with what rays show that meet nothing.
+    #[inline(always)]
+    pub(crate) fn fill(&self, s: S, background: &Constant3, tile: &mut Tile) {
+        let (far, nothing) = (F::splat(s, f32::INFINITY), U::splat(s, NOTHING));
+        let light = F3::of(far, background);
+        for stretch in 0..self.stretches() {
+            for at in self.stretch(stretch).step_by(F::<S>::LANES) {
+                self.store(s, at, light, (far, nothing), tile);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn store(&self, s: S, at: usize, light: F3<S>, (depth, prim): (F<S>, U<S>), tile: &mut Tile) -> u64 {
+        let light = if self.camera.fresh { light } else { load3(s, &tile.radiance, at) + light };
+        let not_finite = store_finite(s, light, &mut tile.radiance, at);
+        if self.camera.kept {
+            depth.store(&mut tile.depth[at..]);
+            prim.store(&mut tile.surface[at..]);
+        }
+        not_finite
+    }
+}
+
+/// Stores the lanes that are finite; others, which are counted, become the largest number where they are past every
+/// number, and 0 where they are none.
+#[inline(always)]
+fn store_finite<S: Simd>(s: S, light: F3<S>, radiance: &mut [Column<f32>; 3], at: usize) -> u64 {
+    store3(light, radiance, at);
+    // Where a number is not finite, the sum is not; the other way round it may be only the sum.
+    let all_finite = magnitude(light).less(F::splat(s, f32::INFINITY));
+    if (!all_finite).any() { store_only_finite(s, light, radiance, at) } else { 0 }
+}
+
+#[cold]
+#[inline(never)]
+fn store_only_finite<S: Simd>(s: S, light: F3<S>, radiance: &mut [Column<f32>; 3], at: usize) -> u64 {
+    let mut not_finite = 0;
+    for (pixels, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
+        let finite = light.abs().less(F::splat(s, f32::INFINITY));
+        let (zero, most) = (F::splat(s, 0.0), F::splat(s, f32::MAX));
+        F::pick(finite, light, F::pick(zero.less(light), most, zero)).store(&mut pixels[at..]);
+        not_finite += (!finite).count();
+    }
+    not_finite
+}
+
+impl<'a, S: Simd> Batch<S> for Part<'a, S> {
+    type Precise = CameraPackets<'a, S>;
+
+    #[inline(always)]
+    fn stretches(&self) -> u32 {
+        self.region.size.height.div_ceil(BLOCK)
+    }
+
+    #[inline(always)]
+    fn stretch(&self, stretch: u32) -> Range<usize> {
+        let first =
+            (self.region.y / BLOCK + stretch) * self.camera.width.div_ceil(BLOCK) + self.region.x / BLOCK;
+        let blocks = first as usize..(first + self.region.size.width.div_ceil(BLOCK)) as usize;
+        blocks.start * BLOCK_PIXELS..blocks.end * BLOCK_PIXELS
+    }
+
+    #[inline(always)]
+    fn live(&self) -> u64 {
+        u64::from(self.region.size.width) * u64::from(self.region.size.height)
+    }
+
+    #[inline(always)]
+    fn packet(&self, s: S, at: usize) -> Packet<'_, S, Self::Precise> {
+        self.camera.packet_at(s, at)
+    }
+
+    #[inline(always)]
+    fn live_lanes(&self, s: S, at: usize) -> M<S> {
+        self.camera.live_lanes(s, at)
+    }
+
+    #[inline(always)]
+    fn weights(&self, s: S, _: usize) -> F3<S> {
+        F3::splat(F::splat(s, 1.0))
+    }
+
+    #[inline(always)]
+    fn pixels(&self, s: S, at: usize) -> U<S> {
+        U::counted(s, at as u32)
+    }
+
+    #[inline(always)]
+    fn add(&self, s: S, at: usize, best: &Hits<S>, light: F3<S>, tile: &mut Tile) -> u64 {
+        let (most, infinite) = (F::splat(s, f32::MAX), F::splat(s, f32::INFINITY));
+        self.store(s, at, light, (F::pick(best.t.less(most), best.t, infinite), best.prim), tile)
+    }
+}
+
+impl<S: Simd> Batch<S> for Queue {
+    type Precise = Self;
+
+    #[inline(always)]
+    fn stretches(&self) -> u32 {
+        1
+    }
+
+    #[inline(always)]
+    fn stretch(&self, _: u32) -> Range<usize> {
+        0..self.len().next_multiple_of(F::<S>::LANES)
+    }
+
+    #[inline(always)]
+    fn live(&self) -> u64 {
+        self.len() as u64
+    }
+
+    #[inline(always)]
+    fn packet(&self, s: S, at: usize) -> Packet<'_, S, Self> {
+        self.packet_at(s, at)
+    }
+
+    #[inline(always)]
+    fn live_lanes(&self, s: S, at: usize) -> M<S> {
+        Queue::live_lanes(self, s, at)
+    }
+
+    #[inline(always)]
+    fn weights(&self, s: S, at: usize) -> F3<S> {
+        Queue::weights(self, s, at)
+    }
+
+    #[inline(always)]
+    fn pixels(&self, s: S, at: usize) -> U<S> {
+        Queue::pixels(self, s, at)
+    }
+
+    /// No pixel has two rays in a stream.
+    #[inline(always)]
+    fn add(&self, s: S, at: usize, _: &Hits<S>, light: F3<S>, tile: &mut Tile) -> u64 {
+        let (pixel, live, light) =
+            (self.pixels(s, at), self.live_lanes(s, at), light.times(self.weights(s, at)));
+        let first = pixel.lane(0);
+        if (pixel.counts_from(s, first) & live).count() as usize == F::<S>::LANES {
+            let sum = load3(s, &tile.radiance, first as usize) + light;
+            return store_finite(s, sum, &mut tile.radiance, first as usize);
+        }
+        let mut not_finite = 0;
+        for lane in live.lanes() {
+            let pixel = pixel.lane(lane) as usize;
+            for (pixels, light) in tile.radiance.iter_mut().zip([light.x, light.y, light.z]) {
+                let sum = pixels[pixel] + light.lane(lane);
+                let nearest = if sum > 0.0 { f32::MAX } else { 0.0 };
+                pixels[pixel] = if sum.is_finite() { sum } else { nearest };
+                not_finite += u64::from(!sum.is_finite());
+            }
+        }
+        not_finite
+    }
+}

@@ -1,0 +1,154 @@
+//! The rays of a stream, gathered lane by lane and handed out in full packets.
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Ray, Span};
+use fearless_simd::Simd;
+
+use crate::kernel::Rays;
+use crate::lanes::{
+    Column, D, D3, F, F3, M, U, compress_wide3, compress3, load_wide3, load3, narrow3, store_wide3, store3,
+};
+use crate::search::{Leaving, Packet, PreciseRays, drift, nearly_unit_rays};
+
+/// Columns of rays; each has room for one more packet than there are rays.
+#[derive(Default)]
+pub(crate) struct Queue {
+    length: usize,
+    /// Where in the snapshot's frame coordinates are zero.
+    zero: DVec3,
+    origin: [Column<f64>; 3],
+    /// Of unit length, up to rounding in `f32`.
+    direction: [Column<f64>; 3],
+    weight: [Column<f32>; 3],
+    pixel: Column<u32>,
+    prim: Column<u32>,
+    facet: Column<u32>,
+}
+
+/// Rays that are to be queued.
+pub(crate) struct QueuedRays<S: Simd> {
+    pub(crate) origin: D3<S>,
+    /// Of unit length, up to rounding in `f32`.
+    pub(crate) direction: D3<S>,
+    pub(crate) weight: F3<S>,
+    pub(crate) pixel: U<S>,
+    pub(crate) prim: U<S>,
+    pub(crate) facet: U<S>,
+}
+
+impl Queue {
+    /// How many rays there are.
+    pub(crate) fn len(&self) -> usize {
+        self.length
+    }
+
+    /// Says where in the snapshot's frame coordinates are zero.
+    pub(crate) fn start_from(&mut self, zero: DVec3) {
+        self.zero = zero;
+    }
+
+    /// Forgets all rays and keeps the room.
+    pub(crate) fn clear(&mut self) {
+        self.length = 0;
+    }
+
+    /// Appends the lanes where the mask holds.
+    #[inline(always)]
+    pub(crate) fn push<S: Simd>(&mut self, mask: M<S>, rays: &QueuedRays<S>) {
+        self.make_room(F::<S>::LANES);
+        let (at, count) = (self.length, mask.count() as usize);
+        self.length += count;
+        if count == F::<S>::LANES {
+            store_wide3(rays.origin, &mut self.origin, at);
+            store_wide3(rays.direction, &mut self.direction, at);
+            store3(rays.weight, &mut self.weight, at);
+            rays.pixel.store(&mut self.pixel[at..]);
+            rays.prim.store(&mut self.prim[at..]);
+            rays.facet.store(&mut self.facet[at..]);
+        } else {
+            compress_wide3(rays.origin, mask, &mut self.origin, at);
+            compress_wide3(rays.direction, mask, &mut self.direction, at);
+            store3(compress3(rays.weight, mask), &mut self.weight, at);
+            rays.pixel.compressed(mask).store(&mut self.pixel[at..]);
+            rays.prim.compressed(mask).store(&mut self.prim[at..]);
+            rays.facet.compressed(mask).store(&mut self.facet[at..]);
+        }
+    }
+
+    /// The packet that starts with ray `at`.
+    #[inline(always)]
+    pub(crate) fn packet_at<S: Simd>(&self, s: S, at: usize) -> Packet<'_, S, Self> {
+        let (origin, direction) = self.precise(s, at);
+        let (rays, inverse_length) = nearly_unit_rays(s, narrow3(origin), narrow3(direction));
+        let reach = rays.reach + F::splat(s, drift(self.zero));
+        Packet {
+            precise: self,
+            at,
+            rays: Rays { reach, ..rays },
+            inverse_length,
+            leaving: Leaving {
+                prim: U::load(s, &self.prim[at..]),
+                facet: U::load(s, &self.facet[at..]),
+                any: true,
+            },
+            live: self.live_lanes(s, at),
+        }
+    }
+
+    /// Which lanes from ray `at` on are rays.
+    #[inline(always)]
+    pub(crate) fn live_lanes<S: Simd>(&self, s: S, at: usize) -> M<S> {
+        let (lanes, left) = (F::<S>::LANES, self.length - at);
+        M::from_bits(s, if left >= lanes { u64::MAX >> (64 - lanes) } else { (1 << left) - 1 })
+    }
+
+    /// How much of the light along the rays from `at` on counts.
+    #[inline(always)]
+    pub(crate) fn weights<S: Simd>(&self, s: S, at: usize) -> F3<S> {
+        load3(s, &self.weight, at)
+    }
+
+    /// The pixels of the rays from `at` on.
+    #[inline(always)]
+    pub(crate) fn pixels<S: Simd>(&self, s: S, at: usize) -> U<S> {
+        U::load(s, &self.pixel[at..])
+    }
+
+    /// Room for another packet beyond the rays there are and the one that is stored whole.
+    #[inline(always)]
+    fn make_room(&mut self, lanes: usize) {
+        let needed = self.length + 2 * lanes;
+        if self.pixel.len() >= needed {
+            return;
+        }
+        let room = needed.next_power_of_two();
+        self.origin.iter_mut().chain(&mut self.direction).for_each(|c| c.resize(room, 0.0));
+        self.weight.iter_mut().for_each(|c| c.resize(room, 0.0));
+        [&mut self.pixel, &mut self.prim, &mut self.facet].into_iter().for_each(|c| c.resize(room, 0));
+    }
+}
+
+impl<S: Simd> PreciseRays<S> for Queue {
+    const UNIT: bool = true;
+    const FROM_ORIGIN: bool = true;
+
+    fn ray(&self, at: usize) -> Ray {
+        let vector = |[x, y, z]: &[Column<f64>; 3]| DVec3::new(x[at], y[at], z[at]);
+        Ray::new(vector(&self.origin) + self.zero, vector(&self.direction))
+    }
+
+    fn span(&self, _at: usize) -> Span {
+        Span::AHEAD
+    }
+
+    #[inline(always)]
+    fn precise(&self, s: S, at: usize) -> (D3<S>, D3<S>) {
+        (load_wide3(s, &self.origin, at), load_wide3(s, &self.direction, at))
+    }
+
+    #[inline(always)]
+    fn ends(&self, s: S, at: usize) -> [D3<S>; 2] {
+        let (origin, direction) = self.precise(s, at);
+        [origin, direction.scale_add(D::splat(s, f64::INFINITY), origin)]
+    }
+}
