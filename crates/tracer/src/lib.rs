@@ -42,6 +42,7 @@ pub mod query;
 #[cfg(test)]
 mod random;
 mod render;
+mod sampler;
 mod snapshot;
 mod stats;
 mod view;

@@ -2,6 +2,7 @@
 
 mod double;
 mod vectors;
+mod word;
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -13,6 +14,7 @@ pub(crate) use vectors::{
     D3, F3, LaneVectors, compress_wide3, compress3, load_wide3, load3, narrow3, pick3, splat_wide, splat3,
     store_wide3, store3, vector_of, widen3,
 };
+pub(crate) use word::{HALVES, Word};
 
 /// `f32` in every lane.
 #[derive(Clone, Copy)]
