@@ -34,9 +34,11 @@ mod window;
 use std::any::Any;
 use std::cell::RefCell;
 
+use catoptra_core::Integrator;
 use fearless_simd::{Level, Simd};
 
 use super::{Backend, Frame};
+use crate::integrator::{Trees, trace_pixels};
 use crate::kernel::mesh::Visits;
 use crate::lanes::{F, F3, splat3};
 use crate::query::{HitSlice, RaySlice};
@@ -70,6 +72,9 @@ impl Backend for Wide {
     }
 
     fn trace(&self, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
+        if frame.view.integrator != Integrator::Whitted {
+            return trace_pixels(&Trees, frame, tile);
+        }
         let level = frame.view.instructions.map_or_else(Level::new, Instructions::level);
         ROOM.with_borrow_mut(|room| at_level(level, TraceTile { frame, tile, room }))
     }
