@@ -1,8 +1,10 @@
 //! What the whole-system tests share: the shipped scenes, films of scenes, and what a failure leaves to look at.
 
+mod bits;
 mod comparison;
 mod scenes;
 
+pub use bits::{assert_same_bits, assert_same_part};
 pub use comparison::{Comparison, Rates, picture};
 pub use scenes::{camera_of, load, parsed, scene_file, shipped_scenes, triangles};
 

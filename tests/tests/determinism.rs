@@ -1,8 +1,10 @@
 //! Are the bits of a film the same however the work is shared out?
 
-use catoptra_core::{EntityId, Scene};
+use catoptra_core::Scene;
 use catoptra_lab::scenes::placed_mesh;
-use catoptra_tests::{camera_of, film, parsed, shipped_scenes, traced, triangles};
+use catoptra_tests::{
+    assert_same_bits, assert_same_part, camera_of, film, parsed, shipped_scenes, traced, triangles,
+};
 use catoptra_tracer::{Film, Instructions, Pattern, Region, Size, Skip, View, backends};
 
 /// Of two mirrors side by side, the left one shows, in a mirror beside the camera, the right one with darkness in it; the
@@ -29,26 +31,6 @@ fn scenes() -> Vec<(String, Scene)> {
 /// What a scene's first camera sees, with reflections and their order in play.
 fn view(scene: &Scene) -> View {
     View::of(scene, camera_of(scene), ODD)
-}
-
-/// Everything that a film knows of each pixel, colours and depths by their bits.
-fn bits(film: &Film) -> Vec<([u32; 3], u32, Option<EntityId>)> {
-    let Size { width, height } = film.size();
-    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    places
-        .map(|(x, y)| (film.radiance(x, y).map(f32::to_bits), film.depth(x, y).to_bits(), film.surface(x, y)))
-        .collect()
-}
-
-#[track_caller]
-fn assert_same_bits(reference: &Film, test: &Film, what: &str) {
-    let (reference, test) = (bits(reference), bits(test));
-    let differing: Vec<usize> = (0..reference.len()).filter(|&i| reference[i] != test[i]).collect();
-    if let Some(&first) = differing.first() {
-        let (x, y) = (first % ODD.width as usize, first / ODD.width as usize);
-        let (was, is) = (reference[first], test[first]);
-        panic!("{what}: {} pixels differ, the first at {x},{y}: {was:x?} became {is:x?}", differing.len());
-    }
 }
 
 /// A size that no tile divides, so that tiles at the border are cut.
@@ -103,19 +85,6 @@ fn every_kind_of_instructions_gives_the_same_bits() {
                     &format!("{name} with {instructions:?}, {grid} x {grid} by {pattern:?}"),
                 );
             }
-        }
-    }
-}
-
-/// The part of a whole film that a cropped one holds has the same bits.
-fn assert_same_part(whole: &Film, part: &Film, what: &str) {
-    let Region { x, y, size } = part.region();
-    let (whole_bits, part_bits) = (bits(whole), bits(part));
-    for row in 0..size.height {
-        for column in 0..size.width {
-            let was = &whole_bits[((y + row) * whole.size().width + x + column) as usize];
-            let is = &part_bits[(row * size.width + column) as usize];
-            assert!(was == is, "{what} at {column},{row}: {was:x?} became {is:x?}");
         }
     }
 }

@@ -44,6 +44,9 @@ pub(crate) struct JobArgs {
     /// Backend to trace with: wide (fast), scalar or oracle (exhaustive)
     #[arg(long, value_name = "NAME", default_value = "wide")]
     pub(crate) backend: String,
+    /// What the picture shows: whitted (light, shadows, mirrors) or occlusion [default: the scene's setting]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) integrator: Option<String>,
     /// Threads to trace with [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
@@ -53,6 +56,9 @@ pub(crate) struct JobArgs {
     /// Where the samples lie in a pixel: grid or sobol
     #[arg(long, value_name = "NAME", default_value = "grid")]
     pub(crate) pattern: String,
+    /// What random choices go by: another number makes other ones, the same one the same picture
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u32,
     /// Reflections followed one after another [default: the scene's setting]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub(crate) max_depth: Option<u32>,

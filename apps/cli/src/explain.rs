@@ -1,6 +1,6 @@
 //! `catoptra explain`: what does a scene need, what runs for it, and which work was skipped as it could not matter?
 
-use catoptra_core::Light;
+use catoptra_core::{Integrator, Light};
 use catoptra_tracer::{Needs, Skipped, Stats};
 use miette::Result;
 use serde_json::{Map, Value, json};
@@ -54,6 +54,10 @@ const NO_REFLECTION_RAY: &[Reason] = &[
     ("too faint to change the picture", |skipped| skipped.weight_cutoff),
 ];
 
+/// Reasons against occlusion rays.
+const NO_OCCLUSION_RAY: &[Reason] =
+    &[("they would go below the surface, to where a smooth normal leads", |skipped| skipped.below_surface)];
+
 /// What is known of a scene after a frame.
 struct Found<'a> {
     job: &'a Job,
@@ -72,6 +76,8 @@ impl Found<'_> {
             "crop": self.job.view.crop,
             "samples": self.job.view.samples(),
             "pattern": self.job.view.pattern.name(),
+            "seed": self.job.view.seed,
+            "integrator": self.job.view.integrator.name(),
             "max_depth": self.job.view.max_depth,
             "backend": self.job.backend.name(),
             "simd": self.job.backend.level(&self.job.view),
@@ -146,11 +152,6 @@ impl Found<'_> {
                 needs.with_kernel
             ),
         };
-        let reflections = if needs.reflects {
-            format!("reflections, up to {} one after another", job.view.max_depth)
-        } else {
-            "no reflections: no surface in the scene reflects".to_owned()
-        };
         let mut lines = vec![format!(
             "backend {} with {} on {threads}",
             job.backend.name(),
@@ -160,8 +161,23 @@ impl Found<'_> {
             lines.push(kernels);
         }
         lines.push(format!("trees of {}", bytes(needs.tree_bytes as u64)));
-        lines.push(reflections);
+        lines.push(format!("integrator {}: {}", job.view.integrator.name(), self.paths()));
         lines
+    }
+
+    /// How far the integrator follows what the camera sees.
+    fn paths(&self) -> String {
+        let view = &self.job.view;
+        match view.integrator {
+            Integrator::Whitted if self.needs.reflects => {
+                format!("reflections, up to {} one after another", view.max_depth)
+            }
+            Integrator::Whitted => "no reflections: no surface in the scene reflects".to_owned(),
+            Integrator::Occlusion if view.occlusion_distance.is_finite() => {
+                format!("one direction a sample, {} m far", view.occlusion_distance)
+            }
+            Integrator::Occlusion => "one direction a sample, however far".to_owned(),
+        }
     }
 
     fn traced(&self) -> Vec<String> {
@@ -171,6 +187,7 @@ impl Found<'_> {
             counted(rays.primary, "primary ray"),
             counted(rays.shadow, "shadow ray"),
             counted(rays.reflection, "reflection ray"),
+            counted(rays.occlusion, "occlusion ray"),
             format!("{} against shapes and triangles, {}", counted(tests.shapes, "test"), each(tests.shapes)),
             format!("{} against boxes of trees, {}", counted(tests.boxes, "test"), each(tests.boxes)),
         ]
@@ -189,6 +206,7 @@ impl Found<'_> {
         }
         lines.extend(self.skipped_of("shadow ray", rays.shadow, NO_SHADOW_RAY));
         lines.extend(self.skipped_of("reflection ray", rays.reflection, NO_REFLECTION_RAY));
+        lines.extend(self.skipped_of("occlusion ray", rays.occlusion, NO_OCCLUSION_RAY));
         lines
     }
 

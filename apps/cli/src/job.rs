@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use catoptra_core::{Camera, EntityId, Role, Scene};
+use catoptra_core::{Camera, EntityId, Integrator, Role, Scene};
 use catoptra_tracer::{
     Backend, Cancelled, Control, Film, Instructions, Pattern, Pool, Region, Size, Snapshot, Stats, View,
     backend_named, backends, render,
@@ -36,10 +36,13 @@ impl Job {
         let (scene, _) = catoptra_scene::load(&args.scene)?;
         let camera_id = find_camera(&scene, args.camera.as_deref())?;
         let view = View::of(&scene, placed_camera(&scene, camera_id)?, args.size).with_samples(args.samples);
+        let named = args.integrator.as_deref().map(find_integrator).transpose()?;
         let view = View {
+            integrator: named.unwrap_or(view.integrator),
             max_depth: args.max_depth.unwrap_or(view.max_depth),
             crop: args.crop.map(|crop| check_crop(crop, args.size)).transpose()?,
             pattern: find_pattern(&args.pattern)?,
+            seed: args.seed,
             instructions: args.simd.as_deref().map(find_instructions).transpose()?,
             ..view
         };
@@ -77,6 +80,10 @@ fn file_name(path: &Path) -> String {
 pub(crate) fn find_backend(name: &str) -> Result<&'static dyn Backend> {
     let names = || backends().iter().map(|backend| backend.name()).collect::<Vec<_>>();
     backend_named(name).ok_or_else(|| unknown("backend", name, &names()))
+}
+
+fn find_integrator(name: &str) -> Result<Integrator> {
+    Integrator::named(name).ok_or_else(|| unknown("integrator", name, Integrator::NAMES))
 }
 
 fn find_pattern(name: &str) -> Result<Pattern> {

@@ -16,12 +16,8 @@ pub(crate) struct Request {
     pub(crate) snapshot: Arc<Snapshot>,
     /// Who traces.
     pub(crate) backend: &'static dyn Backend,
-    /// From where.
-    pub(crate) camera: Camera,
-    /// Width and height in pixels when traced in full.
-    pub(crate) size: (u32, u32),
-    /// How many reflections after one another, at most.
-    pub(crate) max_depth: u32,
+    /// From where, how large when traced in full, and what is shown.
+    pub(crate) view: View,
     /// How radiance becomes colour.
     pub(crate) display: Display,
 }
@@ -73,7 +69,7 @@ impl Tracing for PoolTracing {
     type Frame = Frame;
 
     fn size(request: &Request) -> (u32, u32) {
-        request.size
+        (request.view.size.width, request.view.size.height)
     }
 
     fn trace(
@@ -83,18 +79,19 @@ impl Tracing for PoolTracing {
         control: &Control,
         spares: &mut Vec<Frame>,
     ) -> Option<Frame> {
-        let (width, height) = reduced(request.size.0, request.size.1, divisor);
+        let full = Self::size(request);
+        let (width, height) = reduced(full.0, full.1, divisor);
         let size = Size { width, height };
         let spare = spares.iter().position(|s| s.film.size() == size).map(|i| spares.swap_remove(i));
         let (mut film, pixels) = match spare {
             Some(spare) => (spare.film, spare.pixels),
             None => (Film::with_tiles(size, tile_edge(size)), Pixels::default()),
         };
-        let view = View { max_depth: request.max_depth, ..View::new(request.camera.clone(), size) };
+        let view = View { size, ..request.view.clone() };
         let stats = render(request.backend, &request.snapshot, &view, &mut film, &self.pool, control).ok()?;
         let rays = stats.rays.total();
-        let camera = request.camera.clone();
-        let mut frame = Frame { film, pixels, camera, size: request.size, display: request.display, rays };
+        let mut frame =
+            Frame { film, pixels, camera: view.camera, size: full, display: request.display, rays };
         frame.encode(request.display, &self.pool);
         Some(frame)
     }

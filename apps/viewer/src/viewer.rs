@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use catoptra_core::scene::{Edit, EntityId, Role, SceneError, Subject};
-use catoptra_core::{Aabb, Camera};
+use catoptra_core::{Aabb, Camera, Integrator};
 use catoptra_raster::{Overlay, OverlayStyle};
 use catoptra_tracer::{Backend, Display, Size, Snapshot, View, backends, pick};
 
@@ -14,6 +14,9 @@ use crate::document::Document;
 use crate::input::{Mode, Pointer};
 use crate::loader::Opened;
 use crate::tracing::Request;
+
+/// Samples a pixel where each is one direction that sees the sky or does not: a quarter of the noise of a single one.
+const OCCLUSION_SAMPLES: u32 = 16;
 
 /// What has to be done again since something changed.
 #[derive(Debug, Clone, Copy, Default)]
@@ -179,12 +182,14 @@ impl Viewer {
 
     /// What the worker is to trace now.
     pub(crate) fn request(&self) -> Request {
+        let view = match self.document.scene().settings().integrator() {
+            Integrator::Whitted => self.view(),
+            Integrator::Occlusion => self.view().with_samples(OCCLUSION_SAMPLES),
+        };
         Request {
             snapshot: Arc::clone(&self.snapshot),
             backend: self.settings.backend,
-            camera: self.camera.clone(),
-            size: self.size,
-            max_depth: self.document.scene().settings().max_depth(),
+            view,
             display: self.settings.display,
         }
     }

@@ -126,6 +126,13 @@ const AFTER_A_MATERIAL: &[Case] = &[
     ),
     Case("settings { max-depth 1000000000 }", (2, 12), "max-depth must be a whole number in 0..1000", ""),
     Case("settings { max-depth 2.5 }", (2, 12), "max-depth must be a whole number", ""),
+    Case(
+        "settings { integrator \"oclusion\" }",
+        (2, 23),
+        "integrator is one of whitted, occlusion",
+        "did you mean \"occlusion\"?",
+    ),
+    Case("settings { occlusion-distance 0 }", (2, 12), "occlusion-distance must be greater than 0", ""),
     // What is missing or there twice
     Case("sphere \"s\" material=\"w\"", (2, 1), "this sphere needs a radius", "must be given radius"),
     Case(

@@ -1,5 +1,5 @@
 //! How a picture is traced: an immutable [`Snapshot`] of a scene, acceleration trees over it, backends that answer
-//! what a ray meets, a Whitted integrator over any of them, and the [`Film`] that holds the result.
+//! what a ray meets, integrators over any of them, and the [`Film`] that holds the result.
 //!
 //! ```
 //! use catoptra_core::{Camera, Rgb, Scene, geometry::Sphere, light::AmbientLight, material::Matte};
@@ -43,6 +43,7 @@ pub mod query;
 mod random;
 mod rays;
 mod render;
+mod sampler;
 mod search;
 mod shade;
 mod snapshot;

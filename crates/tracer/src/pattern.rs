@@ -1,6 +1,7 @@
 //! Where the samples of a pixel lie.
 
 use crate::numeric::SAMPLE_STEP;
+use crate::sampler::{share, sobol};
 
 /// A pattern of samples within a pixel, the same in every pixel; one sample lies in the middle by any of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -38,42 +39,21 @@ impl Pattern {
         let in_steps = |share: f64| (share / SAMPLE_STEP).round() * SAMPLE_STEP;
         let middle = |k: u32| in_steps((f64::from(k) + 0.5) / f64::from(grid));
         match self {
-            Self::Sobol if grid > 1 => sobol(row.wrapping_mul(grid).wrapping_add(column)).map(share_of),
+            Self::Sobol if grid > 1 => {
+                sobol(row.wrapping_mul(grid).wrapping_add(column), SEEDS).map(in_whole_steps)
+            }
             _ => [middle(column), middle(row)],
         }
     }
 }
 
-/// The upper bits as a share of 1, cut off to a multiple of [`SAMPLE_STEP`].
-fn share_of(bits: u32) -> f64 {
-    (f64::from(bits) / (1_u64 << 32) as f64 / SAMPLE_STEP).floor() * SAMPLE_STEP
+/// A share of 1, cut off to a multiple of [`SAMPLE_STEP`].
+fn in_whole_steps(bits: u32) -> f64 {
+    (share(bits) / SAMPLE_STEP).floor() * SAMPLE_STEP
 }
 
-/// Point number `index` of the scrambled sequence, as shares of 2³².
-///
-/// Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020. The first dimension is van der Corput's; direction
-/// numbers of the second are the rows of Pascal's triangle modulo 2.
-fn sobol(index: u32) -> [u32; 2] {
-    let (mut left, mut direction, mut second) = (index, 1_u32 << 31, 0);
-    while left > 0 {
-        if left & 1 == 1 {
-            second ^= direction;
-        }
-        direction ^= direction >> 1;
-        left >>= 1;
-    }
-    [scrambled(index.reverse_bits(), 0x5bd1_e995), scrambled(second, 0x9e37_79b9)]
-}
-
-/// A nested uniform scramble: every bit is flipped or not by a hash of the bits above it (Laine and Karras 2011, with
-/// Burley's constants).
-fn scrambled(bits: u32, seed: u32) -> u32 {
-    let mut x = bits.reverse_bits().wrapping_add(seed);
-    for factor in [0x6c50_b47c_u32, 0xb82f_1e52, 0xc7af_e638, 0x8d22_f6e6] {
-        x ^= x.wrapping_mul(factor);
-    }
-    x.reverse_bits()
-}
+/// What the two dimensions are scrambled with.
+const SEEDS: [u32; 2] = [0x5bd1_e995, 0x9e37_79b9];
 
 #[cfg(test)]
 mod tests {

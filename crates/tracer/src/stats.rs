@@ -12,6 +12,8 @@ pub struct Rays {
     pub shadow: u64,
     /// From a mirroring surface.
     pub reflection: u64,
+    /// From a surface to the sky.
+    pub occlusion: u64,
 }
 
 /// Tests of rays against things, by kind.
@@ -50,6 +52,8 @@ pub struct Skipped {
     pub depth_limit: u64,
     /// Reflection rays: too faint to matter.
     pub weight_cutoff: u64,
+    /// Occlusion rays: they would go below the surface, to where a smooth normal leads.
+    pub below_surface: u64,
 }
 
 /// Counts of one render, or of a part of it.
@@ -79,11 +83,11 @@ macro_rules! add_fields {
     };
 }
 
-add_fields!(Rays: primary, shadow, reflection);
+add_fields!(Rays: primary, shadow, reflection, occlusion);
 add_fields!(Tests: shapes, boxes);
 add_fields!(Skipped:
     nothing_seen, blank_before, unreached, facing_away, out_of_cone, shadow_off, unlit_material, nothing_between, nothing_ahead, not_reflective,
-    depth_limit, weight_cutoff);
+    depth_limit, weight_cutoff, below_surface);
 add_fields!(Stats: rays, tests, skipped, settled, exact, not_finite);
 
 impl Stats {
@@ -99,6 +103,6 @@ impl Rays {
     /// All rays traced.
     #[must_use]
     pub const fn total(&self) -> u64 {
-        self.primary + self.shadow + self.reflection
+        self.primary + self.shadow + self.reflection + self.occlusion
     }
 }

@@ -1,6 +1,6 @@
 //! What is asked for: camera, size, and how far to go.
 
-use catoptra_core::{Camera, Scene};
+use catoptra_core::{Camera, Integrator, Scene};
 
 use crate::numeric::WEIGHT_CUTOFF;
 use crate::{Instructions, Pattern};
@@ -73,11 +73,17 @@ pub struct View {
     pub size: Size,
     /// Only this part of it; its pixels are those of the whole picture, bit for bit.
     pub crop: Option<Region>,
+    /// What it shows.
+    pub integrator: Integrator,
     /// How many reflections after one another, at most.
     pub max_depth: u32,
     /// Rays that could add less than this share of what they meet are not traced; 0 traces them all. A pixel is darker
     /// for it by at most this share of the brightest radiance that any such ray would have met, and never brighter.
     pub weight_cutoff: f32,
+    /// Up to how far away a surface hides the sky from another, metres; infinite for any distance.
+    pub occlusion_distance: f64,
+    /// What random choices go by: another seed makes other ones, the same one makes the same bits.
+    pub seed: u32,
     /// Samples per pixel along each axis: n x n of them; 1 is the pixel's centre.
     pub grid: u32,
     /// Where in a pixel they lie.
@@ -113,15 +119,18 @@ impl Skip {
 }
 
 impl View {
-    /// Through a pixel's centre, five reflections deep.
+    /// By the default integrator, through a pixel's centre, five reflections deep.
     #[must_use]
     pub const fn new(camera: Camera, size: Size) -> Self {
         Self {
             camera,
             size,
             crop: None,
+            integrator: Integrator::ALL[0],
             max_depth: 5,
             weight_cutoff: WEIGHT_CUTOFF,
+            occlusion_distance: f64::INFINITY,
+            seed: 0,
             grid: 1,
             pattern: Pattern::Grid,
             skip: Skip::ALL,
@@ -129,10 +138,16 @@ impl View {
         }
     }
 
-    /// As deep as the scene's settings say, from the given camera.
+    /// As the scene's settings say, from the given camera.
     #[must_use]
     pub fn of(scene: &Scene, camera: Camera, size: Size) -> Self {
-        Self { max_depth: scene.settings().max_depth(), ..Self::new(camera, size) }
+        let settings = scene.settings();
+        Self {
+            integrator: settings.integrator(),
+            max_depth: settings.max_depth(),
+            occlusion_distance: settings.occlusion_distance().unwrap_or(f64::INFINITY),
+            ..Self::new(camera, size)
+        }
     }
 
     /// With at least `samples` samples a pixel, a square number of them.

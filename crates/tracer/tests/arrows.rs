@@ -20,7 +20,8 @@ const LAYERS: &[&[&str]] = &[
     &["display"],
     &["film"],
     &["view"],
-    &["pattern", "instructions", "stats", "control", "pool"],
+    &["pattern"],
+    &["sampler", "instructions", "stats", "control", "pool"],
     &["lanes", "random"],
     &["numeric"],
 ];

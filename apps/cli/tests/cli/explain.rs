@@ -29,6 +29,19 @@ fn json_has_the_same_counts() {
 }
 
 #[test]
+fn rays_to_the_sky_are_counted() {
+    let folder = folder();
+    let arguments = ["explain", "scene.kdl", "--size", "64x48", "--integrator", "occlusion"];
+    let ran = catoptra(folder.path(), &arguments);
+    assert!(ran.out.contains("integrator occlusion: one direction a sample, however far"), "{}", ran.out);
+    let ran = catoptra(folder.path(), &[&arguments[..], &["--json"]].concat());
+    let found: Value = serde_json::from_str(&ran.out).unwrap();
+    let rays = &found["counts"]["rays"];
+    assert_eq!((&found["integrator"], &rays["primary"]), (&"occlusion".into(), &(64 * 48).into()));
+    assert!(rays["occlusion"].as_u64().unwrap() > 0 && rays["shadow"] == 0, "{rays}");
+}
+
+#[test]
 fn a_scene_that_is_not_there_is_refused() {
     let folder = folder();
     assert_refused(folder.path(), &["explain", "nowhere.kdl"], &["nowhere.kdl"]);

@@ -60,6 +60,29 @@ fn cameras_backends_and_displays_are_chosen_by_name() {
 }
 
 #[test]
+fn integrators_are_chosen_by_name_or_by_the_scene_and_seeds_repeat() {
+    let folder = folder();
+    let scene = std::fs::read_to_string(folder.path().join("scene.kdl")).unwrap();
+    std::fs::write(
+        folder.path().join("own.kdl"),
+        format!("settings {{ integrator \"occlusion\" }}\n{scene}"),
+    )
+    .unwrap();
+    let picture = |scene: &str, options: &[&str]| {
+        let arguments =
+            [&["render", scene, "-o", "a.exr", "--size", "32x32", "--samples", "4"], options].concat();
+        let ran = catoptra(folder.path(), &arguments);
+        assert_eq!(ran.code, 0, "{options:?} {}", ran.err);
+        std::fs::read(folder.path().join("a.exr")).unwrap()
+    };
+    let occlusion = picture("scene.kdl", &["--integrator", "occlusion"]);
+    assert_eq!(occlusion, picture("own.kdl", &["--seed", "0"]));
+    assert_ne!(occlusion, picture("own.kdl", &["--seed", "1"]));
+    assert_ne!(occlusion, picture("own.kdl", &["--integrator", "whitted"]));
+    assert_eq!(picture("scene.kdl", &[]), picture("own.kdl", &["--integrator", "whitted", "--seed", "9"]));
+}
+
+#[test]
 fn an_exr_holds_the_linear_light_of_the_film() {
     let folder = folder();
     for name in ["a.exr", "b.exr"] {
@@ -153,6 +176,7 @@ fn unknown_names_are_refused_with_the_one_that_was_probably_meant() {
     assert_refused(folder.path(), &with("--camera", "frnt"), &["frnt", "did you mean `front`?"]);
     assert_refused(folder.path(), &with("--display", "sgrb"), &["sgrb", "did you mean `srgb`?"]);
     assert_refused(folder.path(), &with("--pattern", "sobl"), &["did you mean `sobol`?"]);
+    assert_refused(folder.path(), &with("--integrator", "oclusion"), &["did you mean `occlusion`?"]);
     assert_refused(folder.path(), &with("--display", "zzz"), &["linear"]);
 }
 
@@ -167,6 +191,7 @@ fn bad_numbers_are_refused() {
     assert_refused(folder.path(), &with("--threads", "0"), &["0"]);
     assert_refused(folder.path(), &with("--repeat", "0"), &["0"]);
     assert_refused(folder.path(), &with("--max-depth", "x"), &["max-depth"]);
+    assert_refused(folder.path(), &with("--seed", "4294967296"), &["seed"]);
 }
 
 #[test]

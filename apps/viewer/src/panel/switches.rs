@@ -1,6 +1,7 @@
 //! How is the scene looked at? Mode, backend, display transform, overlays, and the scene's own settings.
 
-use catoptra_core::scene::{Edit, Settings};
+use catoptra_core::InvalidPart;
+use catoptra_core::scene::{Edit, Integrator, Settings};
 use catoptra_tracer::{Display, backends};
 use egui::{ComboBox, Ui};
 
@@ -74,14 +75,27 @@ fn overlays(ui: &mut Ui, viewer: &mut Viewer) {
     viewer.stale.overlay |= (viewer.settings.style, viewer.shown.overlays) != before;
 }
 
-/// The settings that are saved with the scene: background and deepest reflection.
+/// The settings that are saved with the scene: background, what is shown, and how far it goes.
 fn settings(ui: &mut Ui, viewer: &mut Viewer) {
     let now = *viewer.document.scene().settings();
-    let key = |field| step_key("settings", 0, field);
-    if let Some((field, value)) = fields::show(ui, key(""), Settings::KIND.fields, &now.values()) {
-        match now.with(field, value) {
-            Ok(settings) => viewer.edit_on(Edit::Settings(settings), key(field)),
+    let changed = fields::show(ui, step_key("settings", 0, ""), Settings::KIND.fields, &now.values());
+    let changed = changed.map(|(field, value)| (field, now.with(field, value)));
+    let occlusion = now.integrator() == Integrator::Occlusion;
+    let limited = occlusion.then(|| limit(ui, &now)).flatten();
+    if let Some((field, settings)) = changed.or(limited) {
+        match settings {
+            Ok(settings) => viewer.edit_on(Edit::Settings(settings), step_key("settings", 0, field)),
             Err(refusal) => viewer.notify(refusal.to_string()),
         }
     }
+}
+
+/// Metres up to which surfaces hide the sky when that is first limited.
+const LIMIT: f64 = 1.0;
+
+/// Whether occlusion ends somewhere; where, is a field of the settings from then on.
+fn limit(ui: &mut Ui, now: &Settings) -> Option<(&'static str, Result<Settings, InvalidPart>)> {
+    let mut limited = now.occlusion_distance().is_some();
+    let changed = ui.checkbox(&mut limited, "occlusion ends at a distance").changed();
+    changed.then(|| ("limit", now.with_occlusion_distance(limited.then_some(LIMIT))))
 }

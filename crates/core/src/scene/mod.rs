@@ -16,6 +16,7 @@ mod error;
 mod fixture;
 mod history;
 mod ids;
+mod integrator;
 mod materials;
 mod node;
 mod settings;
@@ -28,6 +29,7 @@ pub use edit::{Change, ChangeKind, Edit, Subject};
 pub use error::SceneError;
 pub use history::History;
 pub use ids::{EntityId, MaterialId};
+pub use integrator::Integrator;
 pub use node::{Content, Node, Subtree};
 pub use settings::Settings;
 

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::scene::{Edit, EntityId, Node, Role, Scene, Settings, Subtree};
+use catoptra_core::scene::{Edit, EntityId, Integrator, Node, Role, Scene, Settings, Subtree};
 use catoptra_core::{Placement, Rgb, Shape, Value, Values};
 use catoptra_scene::{SceneFile, load, parse};
 
@@ -209,7 +209,12 @@ fn random_edit(scene: &mut Scene, count: usize, state: &mut u64) {
             let node = Node::shape(format!("new {count}"), sphere, material);
             Edit::insert(Subtree { node, parent: Some(other), index: Some(random(state, 3)) })
         }
-        _ => Edit::Settings(Settings::new(Rgb::grey(number), random(state, 9) as u32).unwrap()),
+        _ => {
+            let settings = Settings::new(Rgb::grey(number), random(state, 9) as u32).unwrap();
+            let distance = (random(state, 2) == 0).then_some(1.0 + number);
+            let integrator = Integrator::ALL[random(state, Integrator::ALL.len())];
+            Edit::Settings(settings.with_occlusion_distance(distance).unwrap().with_integrator(integrator))
+        }
     };
     let _ = scene.apply(edit);
 }

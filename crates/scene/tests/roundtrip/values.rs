@@ -1,7 +1,7 @@
 //! Does a changed value, placement or setting change its own spelling and no other?
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::scene::{Edit, Settings};
+use catoptra_core::scene::{Edit, Integrator, Settings};
 use catoptra_core::{Camera, Placement, Rgb, Value};
 use catoptra_scene::parse;
 
@@ -126,6 +126,26 @@ fn settings_change_or_appear() {
     scene.apply(Edit::Settings(Settings::default().with_max_depth(9).unwrap())).unwrap();
     file.update(&scene);
     assert_eq!(file.text(), "// nothing yet\nsettings {\n    max-depth 9\n}\n");
+}
+
+#[test]
+fn an_occlusion_distance_comes_and_goes() {
+    let text = "settings { integrator \"occlusion\"; occlusion-distance 2.50 } // near things alone\n";
+    let (mut scene, mut file) = parse(text, "near.kdl", None).unwrap();
+    let now = *scene.settings();
+    assert_eq!((now.integrator(), now.occlusion_distance()), (Integrator::Occlusion, Some(2.5)));
+    let unlimited = now.with_occlusion_distance(None).unwrap();
+    scene.apply(Edit::Settings(unlimited)).unwrap();
+    file.update(&scene);
+    assert!(
+        !file.text().contains("distance") && file.text().contains("// near things alone"),
+        "{}",
+        file.text()
+    );
+    assert_eq!(parse(&file.text(), "near.kdl", None).unwrap().0.settings(), &unlimited);
+    scene.apply(Edit::Settings(now.with_integrator(Integrator::Whitted))).unwrap();
+    file.update(&scene);
+    assert!(file.text().contains("integrator \"whitted\"") && file.text().contains("occlusion-distance 2.5"));
 }
 
 #[test]

@@ -1,24 +1,12 @@
 //! The backend that is obviously right: every ray against every shape and triangle, in `f64`.
 
-use catoptra_core::{Ray, Span};
-
 use super::Backend;
-use crate::integrator::{Search, trace_pixels};
+use crate::integrator::{Exhaustive, trace_pixels};
 use crate::rays::{HitSlice, RaySlice};
-use crate::{Frame, Hit, Snapshot, Stats, SurfaceId, Tile};
+use crate::{Frame, Snapshot, Stats, Tile};
 
 /// Tries everything.
 pub(super) struct Oracle;
-
-impl Search for Oracle {
-    fn nearest(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
-        snapshot.nearest_of_all(ray, span, leaving)
-    }
-
-    fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool {
-        snapshot.nearest_of_all(ray, span, leaving).is_some()
-    }
-}
 
 impl Backend for Oracle {
     fn name(&self) -> &'static str {
@@ -30,7 +18,7 @@ impl Backend for Oracle {
     }
 
     fn trace(&self, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
-        trace_pixels(self, frame, tile)
+        trace_pixels(&Exhaustive, frame, tile)
     }
 
     fn find_nearest(&self, snapshot: &Snapshot, rays: RaySlice<'_>, hits: &mut HitSlice<'_>) -> Stats {

@@ -1,7 +1,7 @@
 //! Packets of rays at the CPU's native width: `f32` kernels propose, `f64` settles.
 
 use super::Backend;
-use crate::integrator::trace_tile;
+use crate::integrator::trace_packets;
 use crate::rays::{HitSlice, RaySlice};
 use crate::search::query::{Answers, answer};
 use crate::{Frame, Instructions, Snapshot, Stats, Tile, View};
@@ -23,7 +23,7 @@ impl Backend for Wide {
     }
 
     fn trace(&self, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
-        trace_tile(frame, tile)
+        trace_packets(frame, tile)
     }
 
     fn find_nearest(&self, snapshot: &Snapshot, rays: RaySlice<'_>, hits: &mut HitSlice<'_>) -> Stats {

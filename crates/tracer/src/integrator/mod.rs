@@ -1,5 +1,66 @@
-//! How light gathers along a path: Whitted's recursion over any way of answering what a ray meets.
+//! What does a picture show? Which integrators there are, over any way of answering what a ray meets.
+//!
+//! An integrator says what light arrives along a camera ray. A new one is its name in `catoptra_core`'s list, one file
+//! here, its `mod` line and its name in the list below.
 
+mod hemisphere;
+mod occlusion;
+mod pixels;
+mod search;
+mod walker;
 mod whitted;
 
-pub(crate) use whitted::{Search, trace_pixels, trace_tile};
+use catoptra_core::{Integrator, Rgb};
+
+use crate::{Frame, Hit, Stats, Tile};
+pub(crate) use pixels::trace_pixels;
+pub(crate) use search::{Exhaustive, Search, Trees};
+use walker::{CameraRay, Walker};
+
+/// What an integrator must answer.
+pub(crate) trait Integrate {
+    /// The light that arrives along a camera ray, one path at a time in `f64`, and what the ray meets first.
+    fn gather<S: Search>(walker: &mut Walker<'_, S>, camera: &CameraRay) -> (Rgb, Option<Hit>);
+
+    /// Traces all pixels of a tile with packets of rays.
+    fn trace_tile(frame: &Frame<'_>, tile: &mut Tile) -> Stats;
+}
+
+/// What wants to know which integrator it is before it traces many rays.
+pub(crate) trait IntegratorVisitor {
+    /// What the work comes to.
+    type Output;
+
+    /// Works by the rules of some integrator.
+    fn visit<I: Integrate>(self) -> Self::Output;
+}
+
+/// Declares whose rules stand for which integrator: a type of the name that the enum has for it.
+macro_rules! integrators {
+    ($($file:ident::$name:ident),+ $(,)?) => {
+        /// Shows a visitor whose rules an integrator goes by.
+        pub(crate) fn visit<V: IntegratorVisitor>(integrator: Integrator, visitor: V) -> V::Output {
+            match integrator { $(Integrator::$name => visitor.visit::<$file::$name>()),+ }
+        }
+    };
+}
+
+integrators!(whitted::Whitted, occlusion::Occlusion);
+
+/// Traces all pixels of a tile with packets of rays, by the rules of the view's integrator.
+pub(crate) fn trace_packets(frame: &Frame<'_>, tile: &mut Tile) -> Stats {
+    visit(frame.view.integrator, Packets { frame, tile })
+}
+
+struct Packets<'a> {
+    frame: &'a Frame<'a>,
+    tile: &'a mut Tile,
+}
+
+impl IntegratorVisitor for Packets<'_> {
+    type Output = Stats;
+
+    fn visit<I: Integrate>(self) -> Stats {
+        I::trace_tile(self.frame, self.tile)
+    }
+}

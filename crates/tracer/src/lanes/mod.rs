@@ -5,6 +5,7 @@ mod double;
 mod level;
 mod prefetch;
 mod vectors;
+mod word;
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -19,6 +20,7 @@ pub(crate) use vectors::{
     D3, F3, LaneVectors, compress_wide3, compress3, cross, load_wide3, load3, magnitude, narrow3, pick3,
     splat_wide, splat3, store_wide3, store3, vector_of, widen3,
 };
+pub(crate) use word::{HALVES, Word, share_of_one};
 
 /// `f32` in every lane.
 #[derive(Clone, Copy)]

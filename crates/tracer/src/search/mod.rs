@@ -24,7 +24,6 @@ pub(crate) use hits::{HitColumns, Hits};
 pub(crate) use occluded::ShadowRays;
 pub(crate) use own_segments::OwnSegments;
 pub(crate) use packet::{Leaving, Packet, PreciseRays, drift, kernel_rays, nearly_unit_rays};
-pub(crate) use refine::Refined;
 pub(crate) use surface::Surface;
 pub(crate) use to_light::ToLight;
 

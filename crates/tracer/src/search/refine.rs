@@ -26,6 +26,46 @@ pub(crate) struct Refined<S: Simd> {
 }
 
 impl<S: Simd> Searcher<'_, S> {
+    /// Refines lanes, shape by shape.
+    #[inline(always)]
+    pub(crate) fn refine_every<P: PreciseRays<S>>(
+        &mut self,
+        packet: &Packet<'_, S, P>,
+        best: &Hits<S>,
+        lanes: M<S>,
+    ) -> Refined<S> {
+        let mut left = lanes.bits();
+        let prim = best.prim.lane(left.trailing_zeros() as usize);
+        let mut mask = lanes & best.prim.is(prim);
+        let mut refined = self.refine(packet, best, mask, prim);
+        left &= !mask.bits();
+        while left != 0 {
+            let prim = best.prim.lane(left.trailing_zeros() as usize);
+            mask = lanes & best.prim.is(prim);
+            refined = self.refine_too(packet, best, mask, prim, refined);
+            left &= !mask.bits();
+        }
+        refined
+    }
+
+    /// Refines the lanes on another shape. Most packets meet one shape; see [`outlined`].
+    #[inline(always)]
+    fn refine_too<P: PreciseRays<S>>(
+        &mut self,
+        packet: &Packet<'_, S, P>,
+        best: &Hits<S>,
+        mask: M<S>,
+        prim: u32,
+        before: Refined<S>,
+    ) -> Refined<S> {
+        let (packet, best) = (*packet, *best);
+        outlined(
+            self.s,
+            #[inline(always)]
+            || self.refine(&packet, &best, mask, prim).over(mask, before),
+        )
+    }
+
     /// Refines the lanes of `mask`, which all meet the shape `prim`.
     #[inline(always)]
     pub(crate) fn refine<P: PreciseRays<S>>(

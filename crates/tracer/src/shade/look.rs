@@ -8,7 +8,7 @@ use super::{Shader, dark};
 use crate::Tile;
 use crate::lanes::{F, F3, M, magnitude, outlined};
 use crate::numeric::POSITION_ERROR;
-use crate::search::{Hits, Packet, PreciseRays, Refined};
+use crate::search::Packet;
 use crate::stream::Batch;
 
 impl<S: Simd> Shader<'_, S> {
@@ -90,7 +90,7 @@ impl<S: Simd> Shader<'_, S> {
             return;
         }
         let (packet, best) = (self.packet_of(batch, slot), self.chunk.best[slot]);
-        let point = self.refine_every(&packet, &best, lanes).point;
+        let point = self.search.refine_every(&packet, &best, lanes).point;
         let position = &mut self.chunk.point[slot];
         for lane in lanes.lanes() {
             self.search.stats.settled += 1;
@@ -106,45 +106,5 @@ impl<S: Simd> Shader<'_, S> {
     #[inline(always)]
     pub(crate) fn packet_of<'b, B: Batch<S>>(&self, batch: &'b B, slot: usize) -> Packet<'b, S, B::Precise> {
         batch.packet(self.s, self.chunk.at[slot])
-    }
-
-    /// Refines lanes, shape by shape.
-    #[inline(always)]
-    pub(crate) fn refine_every<P: PreciseRays<S>>(
-        &mut self,
-        packet: &Packet<'_, S, P>,
-        best: &Hits<S>,
-        lanes: M<S>,
-    ) -> Refined<S> {
-        let mut left = lanes.bits();
-        let prim = best.prim.lane(left.trailing_zeros() as usize);
-        let mut mask = lanes & best.prim.is(prim);
-        let mut refined = self.search.refine(packet, best, mask, prim);
-        left &= !mask.bits();
-        while left != 0 {
-            let prim = best.prim.lane(left.trailing_zeros() as usize);
-            mask = lanes & best.prim.is(prim);
-            refined = self.refine_too(packet, best, mask, prim, refined);
-            left &= !mask.bits();
-        }
-        refined
-    }
-
-    /// Refines the lanes on another shape. Most packets meet one shape; see [`outlined`].
-    #[inline(always)]
-    fn refine_too<P: PreciseRays<S>>(
-        &mut self,
-        packet: &Packet<'_, S, P>,
-        best: &Hits<S>,
-        mask: M<S>,
-        prim: u32,
-        before: Refined<S>,
-    ) -> Refined<S> {
-        let (packet, best) = (*packet, *best);
-        outlined(
-            self.s,
-            #[inline(always)]
-            || self.search.refine(&packet, &best, mask, prim).over(mask, before),
-        )
     }
 }

@@ -58,7 +58,7 @@ impl<S: Simd> Shader<'_, S> {
     fn mirror(&mut self, batch: &impl Batch<S>, slot: usize, lanes: M<S>, weight: F3<S>) {
         let packet = &self.packet_of(batch, slot);
         let best = self.chunk.best[slot];
-        let refined = self.refine_every(packet, &best, lanes);
+        let refined = self.search.refine_every(packet, &best, lanes);
         let (_, d) = packet.precise_unit(self.s);
         let geometric = mirrored(d, refined.normal);
         let direction = if self.search.snapshot.columns().smooth {

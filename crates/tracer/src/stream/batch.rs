@@ -97,6 +97,20 @@ fn store_only_finite<S: Simd>(s: S, light: F3<S>, radiance: &mut [Column<f32>; 3
     not_finite
 }
 
+/// Divides the sums of a tile by the number of samples a pixel, `grid` x `grid`.
+#[inline(always)]
+pub(crate) fn divide<S: Simd>(s: S, tile: &mut Tile, grid: u32) {
+    if grid == 1 {
+        return;
+    }
+    let share = F::splat(s, 1.0 / (grid as f32 * grid as f32));
+    for column in &mut tile.radiance {
+        for at in (0..column.len()).step_by(F::<S>::LANES) {
+            (F::load(s, &column[at..]) * share).store(&mut column[at..]);
+        }
+    }
+}
+
 impl<'a, S: Simd> Batch<S> for Part<'a, S> {
     type Precise = CameraPackets<'a, S>;
 

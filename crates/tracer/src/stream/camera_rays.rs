@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 use crate::film::{BLOCK, BLOCK_PIXELS};
 use crate::frame::Frame;
 use crate::kernel::Rays;
-use crate::lanes::{Column, D, D3, F, F3, M, load3, magnitude, narrow3, splat_wide, store3};
+use crate::lanes::{Column, D, D3, F, F3, M, U, Word, load3, magnitude, narrow3, splat_wide, store3};
 use crate::search::{Leaving, Packet, PreciseRays, drift, kernel_rays};
 use crate::{Region, Size, Tile};
 
@@ -30,6 +30,12 @@ impl CameraRays {
         }
     }
 }
+
+/// Columns of a block's pixels.
+static COLUMNS: [u32; BLOCK_PIXELS] = [0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3];
+
+/// Rows of a block's pixels.
+static ROWS: [u32; BLOCK_PIXELS] = [0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3];
 
 /// What the camera's packets of one tile have in common.
 pub(crate) struct CameraPackets<'a, S: Simd> {
@@ -128,6 +134,15 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
         let (block, part) = (at as u32 / BLOCK_PIXELS as u32, at % BLOCK_PIXELS / F::<S>::LANES);
         let blocks_across = self.width.div_ceil(BLOCK);
         (block % blocks_across * BLOCK, block / blocks_across * BLOCK, part)
+    }
+
+    /// Columns and rows of the whole picture that the packet at a place in the tile's columns has its pixels in.
+    #[inline(always)]
+    pub(crate) fn pixels_of_picture(&self, s: S, at: usize) -> [U<S>; 2] {
+        let (x, y, part) = self.corner_of(at);
+        let lanes = |of: &[u32; BLOCK_PIXELS]| U::load(s, &of[part * F::<S>::LANES..]);
+        let [columns, rows] = [lanes(&COLUMNS), lanes(&ROWS)];
+        [columns.plus_number(self.x + x), rows.plus_number(self.y + y)]
     }
 
     /// Directions of the packet at a place in the tile's columns: those of [`Raster::ray`], bit for bit.

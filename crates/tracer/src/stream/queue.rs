@@ -4,11 +4,12 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Span};
 use fearless_simd::Simd;
 
-use crate::kernel::Rays;
+use crate::kernel::{Rays, Target};
 use crate::lanes::{
     Column, D, D3, F, F3, M, U, compress_wide3, compress3, load_wide3, load3, narrow3, store_wide3, store3,
 };
-use crate::search::{Leaving, Packet, PreciseRays, drift, nearly_unit_rays};
+use crate::numeric::{END_ERROR, POINT_ERROR};
+use crate::search::{Leaving, Packet, PreciseRays, ShadowRays, drift, nearly_unit_rays};
 
 /// Columns of rays; each has room for one more packet than there are rays.
 #[derive(Default)]
@@ -16,6 +17,8 @@ pub(crate) struct Queue {
     length: usize,
     /// Where in the snapshot's frame coordinates are zero.
     zero: DVec3,
+    /// How far every ray is followed, in lengths of its direction.
+    far: f64,
     origin: [Column<f64>; 3],
     /// Of unit length, up to rounding in `f32`.
     direction: [Column<f64>; 3],
@@ -42,12 +45,12 @@ impl Queue {
         self.length
     }
 
-    /// Says where in the snapshot's frame coordinates are zero.
-    pub(crate) fn start_from(&mut self, zero: DVec3) {
-        self.zero = zero;
+    /// Removes all rays; those to come are relative to `zero`, a point of the snapshot's frame, and followed up to `far`.
+    pub(crate) fn start(&mut self, zero: DVec3, far: f64) {
+        (self.length, self.zero, self.far) = (0, zero, far);
     }
 
-    /// Forgets all rays and keeps the room.
+    /// Removes all rays and keeps the room.
     pub(crate) fn clear(&mut self) {
         self.length = 0;
     }
@@ -95,6 +98,20 @@ impl Queue {
         }
     }
 
+    /// The rays of a packet as segments to be tested for anything in their way.
+    #[inline(always)]
+    pub(crate) fn shadow_rays<S: Simd>(&self, s: S, packet: &Packet<'_, S, Self>) -> ShadowRays<'static, S> {
+        // Lengths are off by a share of themselves, as are those of directions.
+        let off = if self.far.is_finite() { self.far as f32 * (END_ERROR / POINT_ERROR) } else { 0.0 };
+        ShadowRays {
+            rays: packet.rays.drifting(F::splat(s, off)),
+            leaving: packet.leaving,
+            live: packet.live,
+            target: Target { distance: F::splat(s, self.far as f32), end: None },
+            behind: &[],
+        }
+    }
+
     /// Which lanes from ray `at` on are rays.
     #[inline(always)]
     pub(crate) fn live_lanes<S: Simd>(&self, s: S, at: usize) -> M<S> {
@@ -138,7 +155,7 @@ impl<S: Simd> PreciseRays<S> for Queue {
     }
 
     fn span(&self, _at: usize) -> Span {
-        Span::AHEAD
+        Span::until(self.far)
     }
 
     #[inline(always)]
@@ -149,6 +166,6 @@ impl<S: Simd> PreciseRays<S> for Queue {
     #[inline(always)]
     fn ends(&self, s: S, at: usize) -> [D3<S>; 2] {
         let (origin, direction) = self.precise(s, at);
-        [origin, direction.scale_add(D::splat(s, f64::INFINITY), origin)]
+        [origin, direction.scale_add(D::splat(s, self.far), origin)]
     }
 }

@@ -6,5 +6,21 @@ mod paths;
 mod streams;
 mod tiles;
 
-pub(crate) use paths::{Search, trace_pixels};
-pub(crate) use tiles::trace_tile;
+use catoptra_core::Rgb;
+
+use super::walker::{CameraRay, Walker};
+use super::{Integrate, Search};
+use crate::{Frame, Hit, Stats, Tile};
+
+/// See the file's head.
+pub(super) struct Whitted;
+
+impl Integrate for Whitted {
+    fn gather<S: Search>(walker: &mut Walker<'_, S>, camera: &CameraRay) -> (Rgb, Option<Hit>) {
+        walker.follow(camera.ray)
+    }
+
+    fn trace_tile(frame: &Frame<'_>, tile: &mut Tile) -> Stats {
+        tiles::trace_tile(frame, tile)
+    }
+}

@@ -2,87 +2,15 @@
 //! one ray, the recursion is a loop that carries the weight of what is still to come.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arrival, Light, Material, Ray, Rgb, ShadingPoint, Span, Triple};
+use catoptra_core::{Arrival, Light, Ray, Rgb, Span, Triple};
 
-use crate::film::NOTHING;
-use crate::{Frame, Hit, Snapshot, Stats, SurfaceId, Tile};
+use crate::Hit;
+use crate::integrator::Search;
+use crate::integrator::walker::{Meeting, Walker};
 
-/// A way of answering what a ray meets.
-pub(crate) trait Search {
-    /// What a ray meets first.
-    fn nearest(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit>;
-
-    /// Whether a ray meets anything.
-    fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool;
-}
-
-/// Traces every pixel of a tile, one path after another.
-pub(crate) fn trace_pixels(search: &impl Search, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
-    let mut path = Path { search, frame, stats: Stats::default() };
-    let grid = frame.view.grid;
-    for (x, y) in (0..tile.height).flat_map(|y| (0..tile.width).map(move |x| (x, y))) {
-        let i = tile.index(x, y);
-        let mut sum = Rgb::BLACK;
-        for (u, v) in (0..grid).flat_map(|v| (0..grid).map(move |u| (u, v))) {
-            let [right, down] = frame.view.place(u, v);
-            let ray = frame.raster.ray(f64::from(tile.x + x) + right, f64::from(tile.y + y) + down);
-            let (light, seen) = path.trace(ray);
-            sum += light;
-            if (u, v) == (grid / 2, grid / 2) {
-                tile.depth[i] =
-                    seen.map_or(f32::INFINITY, |hit| (hit.crossing.t * ray.direction.length()) as f32);
-                tile.surface[i] = seen.map_or(NOTHING, |hit| hit.place.prim);
-            }
-        }
-        for (column, light) in tile.radiance.iter_mut().zip(sum.to_array()) {
-            column[i] = light as f32;
-        }
-    }
-    path.stats.not_finite += finish(tile, grid);
-    path.stats
-}
-
-/// Divides sums over `grid` x `grid` samples; lights past every number become the largest, what is no number black. How
-/// many those were.
-fn finish(tile: &mut Tile, grid: u32) -> u64 {
-    let share = 1.0 / (grid as f32 * grid as f32);
-    let mut not_finite = 0;
-    for column in &mut tile.radiance {
-        for light in column.iter_mut() {
-            let finite = light.is_finite();
-            *light = if finite {
-                *light * share
-            } else if *light > 0.0 {
-                f32::MAX
-            } else {
-                0.0
-            };
-            not_finite += u32::from(!finite);
-        }
-    }
-    u64::from(not_finite)
-}
-
-/// Where a ray has met a surface.
-struct Meeting<'a> {
-    hit: Hit,
-    ray: Ray,
-    material: &'a Material,
-    point: DVec3,
-    /// Unit normals on the viewer's side.
-    normal: DVec3,
-    shading: ShadingPoint<f64>,
-}
-
-struct Path<'a, S> {
-    search: &'a S,
-    frame: &'a Frame<'a>,
-    stats: Stats,
-}
-
-impl<'a, S: Search> Path<'a, S> {
+impl<S: Search> Walker<'_, S> {
     /// The light that arrives along a ray from the camera, and what the ray meets first.
-    fn trace(&mut self, mut ray: Ray) -> (Rgb, Option<Hit>) {
+    pub(super) fn follow(&mut self, mut ray: Ray) -> (Rgb, Option<Hit>) {
         let snapshot = self.frame.snapshot;
         let (mut light, mut weight) = (Rgb::BLACK, Rgb::WHITE);
         let (mut first, mut leaving) = (None, None);
@@ -125,27 +53,6 @@ impl<'a, S: Search> Path<'a, S> {
         };
         *reason += 1;
         false
-    }
-
-    fn meet(&self, hit: Hit, ray: Ray) -> Meeting<'a> {
-        let snapshot = self.frame.snapshot;
-        let prim = &snapshot.prims()[hit.place.prim as usize];
-        let point = ray.at(hit.crossing.t);
-        let side = if hit.crossing.normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
-        let length = ray.direction.length();
-        Meeting {
-            hit,
-            ray,
-            material: &snapshot.materials()[prim.material as usize],
-            point,
-            normal: hit.crossing.normal * side,
-            shading: ShadingPoint {
-                position: (point - snapshot.origin_in_frame()).into(),
-                normal: (hit.crossing.shading_normal * side).into(),
-                to_viewer: (ray.direction / -length).into(),
-                distance: hit.crossing.t * length,
-            },
-        }
     }
 
     /// The surface's own look: what it shows of itself, of ambient light, and of each light that reaches it.
@@ -191,7 +98,7 @@ impl<'a, S: Search> Path<'a, S> {
 }
 
 /// The way from a point to a light.
-pub(crate) fn shadow_ray(point: DVec3, lamp: &Light) -> Option<(Ray, Span)> {
+fn shadow_ray(point: DVec3, lamp: &Light) -> Option<(Ray, Span)> {
     match lamp.position() {
         Some(position) => Some((Ray::new(point, position - point), Span::TO_LIGHT)),
         None => lamp.direction().map(|direction| (Ray::new(point, -direction), Span::AHEAD)),

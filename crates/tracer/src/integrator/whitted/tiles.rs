@@ -17,7 +17,7 @@ use crate::kernel::mesh::Visits;
 use crate::lanes::{F, Work, at_level, outlined};
 use crate::search::{HitColumns, Searcher};
 use crate::shade::{Chunk, Shader};
-use crate::stream::{Batch, CameraPackets, CameraRays, LaneBounds, Part, Queue};
+use crate::stream::{Batch, CameraPackets, CameraRays, LaneBounds, Part, Queue, divide};
 use crate::{Frame, Instructions, Region, Size, Stats, Tile};
 
 /// Traces all pixels of a tile.
@@ -98,7 +98,7 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
     let mut own = Registers::take(s, registers.take());
     let Registers { chunk, seen, sent } = &mut *own;
     for queue in [&mut *next, &mut bounce.stream] {
-        queue.start_from(snapshot.origin_in_frame());
+        queue.start(snapshot.origin_in_frame(), f64::INFINITY);
     }
     plan.start(snapshot);
     let outside = frame.outside_solids;
@@ -120,7 +120,7 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
             tracer.follow(bounce, tile);
         }
     }
-    tracer.divide(tile, grid);
+    divide(s, tile, grid);
     let stats = tracer.shader.search.stats;
     *registers = Some(own);
     stats
@@ -264,19 +264,5 @@ impl<S: Simd> TileTracer<'_, S> {
             self.points.push(PointBounds::new(prim, bounds));
         }
         self.shader.plan.plan_lights(&self.planner, self.points);
-    }
-
-    /// Divides sums over `grid` x `grid` samples.
-    #[inline(always)]
-    fn divide(&mut self, tile: &mut Tile, grid: u32) {
-        if grid == 1 {
-            return;
-        }
-        let share = F::splat(self.s, 1.0 / (grid as f32 * grid as f32));
-        for column in &mut tile.radiance {
-            for at in (0..column.len()).step_by(F::<S>::LANES) {
-                (F::load(self.s, &column[at..]) * share).store(&mut column[at..]);
-            }
-        }
     }
 }

@@ -1,0 +1,80 @@
+//! How do samples become pixels? Every pixel of a tile, one path after another, by the rules of any integrator.
+
+use catoptra_core::Rgb;
+
+use super::walker::{CameraRay, Walker};
+use super::{Integrate, IntegratorVisitor, Search, visit};
+use crate::film::NOTHING;
+use crate::sampler::Sampler;
+use crate::{Frame, Hit, Stats, Tile};
+
+/// Traces every pixel of a tile by the rules of the view's integrator.
+pub(crate) fn trace_pixels(search: &impl Search, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
+    visit(frame.view.integrator, Pixels { search, frame, tile })
+}
+
+struct Pixels<'a, S> {
+    search: &'a S,
+    frame: &'a Frame<'a>,
+    tile: &'a mut Tile,
+}
+
+impl<S: Search> IntegratorVisitor for Pixels<'_, S> {
+    type Output = Stats;
+
+    fn visit<I: Integrate>(self) -> Stats {
+        let Self { search, frame, tile } = self;
+        let mut walker = Walker { search, frame, stats: Stats::default() };
+        let (width, height) = (tile.width, tile.height);
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            trace_pixel::<I, S>(&mut walker, tile, x, y);
+        }
+        walker.stats.not_finite += finish(tile, frame.view.grid);
+        walker.stats
+    }
+}
+
+/// Adds up the samples of a pixel; depth and surface are those of the one in the middle.
+fn trace_pixel<I: Integrate, S: Search>(walker: &mut Walker<'_, S>, tile: &mut Tile, x: u32, y: u32) {
+    let (frame, i) = (walker.frame, tile.index(x, y));
+    let grid = frame.view.grid;
+    let [column, row] = [tile.x + x, tile.y + y];
+    let sampler = Sampler::new(frame.view.seed, column, row);
+    let mut sum = Rgb::BLACK;
+    for (u, v) in (0..grid).flat_map(|v| (0..grid).map(move |u| (u, v))) {
+        let [right, down] = frame.view.place(u, v);
+        let ray = frame.raster.ray(f64::from(column) + right, f64::from(row) + down);
+        let (light, first) =
+            I::gather(walker, &CameraRay { ray, sampler, sample: v.wrapping_mul(grid).wrapping_add(u) });
+        sum += light;
+        if (u, v) == (grid / 2, grid / 2) {
+            let distance = |hit: Hit| (hit.crossing.t * ray.direction.length()) as f32;
+            tile.depth[i] = first.map_or(f32::INFINITY, distance);
+            tile.surface[i] = first.map_or(NOTHING, |hit| hit.place.prim);
+        }
+    }
+    for (channel, light) in tile.radiance.iter_mut().zip(sum.to_array()) {
+        channel[i] = light as f32;
+    }
+}
+
+/// Divides sums over `grid` x `grid` samples; lights past every number become the largest, what is no number black. How
+/// many those were.
+fn finish(tile: &mut Tile, grid: u32) -> u64 {
+    let share = 1.0 / (grid as f32 * grid as f32);
+    let mut not_finite = 0;
+    for column in &mut tile.radiance {
+        for light in column.iter_mut() {
+            let finite = light.is_finite();
+            *light = if finite {
+                *light * share
+            } else if *light > 0.0 {
+                f32::MAX
+            } else {
+                0.0
+            };
+            not_finite += u32::from(!finite);
+        }
+    }
+    u64::from(not_finite)
+}

@@ -1,0 +1,40 @@
+//! How is it answered what a ray meets? By the trees, or by trying everything.
+
+use catoptra_core::{Ray, Span};
+
+use crate::{Hit, Snapshot, SurfaceId};
+
+/// A way of answering what a ray meets.
+pub(crate) trait Search {
+    /// What a ray meets first.
+    fn nearest(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit>;
+
+    /// Whether a ray meets anything.
+    fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool;
+}
+
+/// Walks the trees.
+pub(crate) struct Trees;
+
+impl Search for Trees {
+    fn nearest(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
+        snapshot.nearest(ray, span, leaving)
+    }
+
+    fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool {
+        snapshot.occluded(ray, span, leaving)
+    }
+}
+
+/// Tries every shape and triangle.
+pub(crate) struct Exhaustive;
+
+impl Search for Exhaustive {
+    fn nearest(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
+        snapshot.nearest_of_all(ray, span, leaving)
+    }
+
+    fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool {
+        snapshot.nearest_of_all(ray, span, leaving).is_some()
+    }
+}

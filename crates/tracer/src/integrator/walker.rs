@@ -1,0 +1,60 @@
+//! What does an integrator have at hand that follows one path at a time in `f64`?
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Material, Ray, ShadingPoint};
+
+use super::Search;
+use crate::sampler::Sampler;
+use crate::{Frame, Hit, Stats};
+
+/// A ray from the camera, in the snapshot's frame, and what random choices along its path go by.
+pub(crate) struct CameraRay {
+    pub(super) ray: Ray,
+    /// The numbers of the pixel.
+    pub(super) sampler: Sampler<u32>,
+    /// Which of the pixel's samples it is.
+    pub(super) sample: u32,
+}
+
+/// Answers for paths of one frame, and counts them.
+pub(crate) struct Walker<'a, S> {
+    pub(super) search: &'a S,
+    pub(super) frame: &'a Frame<'a>,
+    pub(super) stats: Stats,
+}
+
+/// Where a ray has met a surface.
+pub(super) struct Meeting<'a> {
+    pub(super) hit: Hit,
+    pub(super) ray: Ray,
+    pub(super) material: &'a Material,
+    pub(super) point: DVec3,
+    /// The surface's own unit normal, on the viewer's side.
+    pub(super) normal: DVec3,
+    /// With the normal to shade with, on the same side.
+    pub(super) shading: ShadingPoint<f64>,
+}
+
+impl<'a, S: Search> Walker<'a, S> {
+    /// What is known where a ray has hit something.
+    pub(super) fn meet(&self, hit: Hit, ray: Ray) -> Meeting<'a> {
+        let snapshot = self.frame.snapshot;
+        let prim = &snapshot.prims()[hit.place.prim as usize];
+        let point = ray.at(hit.crossing.t);
+        let side = if hit.crossing.normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
+        let length = ray.direction.length();
+        Meeting {
+            hit,
+            ray,
+            material: &snapshot.materials()[prim.material as usize],
+            point,
+            normal: hit.crossing.normal * side,
+            shading: ShadingPoint {
+                position: (point - snapshot.origin_in_frame()).into(),
+                normal: (hit.crossing.shading_normal * side).into(),
+                to_viewer: (ray.direction / -length).into(),
+                distance: hit.crossing.t * length,
+            },
+        }
+    }
+}
