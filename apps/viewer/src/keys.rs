@@ -88,15 +88,15 @@ pub(crate) const BINDINGS: &[Binding] = &[
     named(NamedKey::ArrowRight, "Right", Command::Step(1, 0), "move the camera right"),
     named(NamedKey::ArrowUp, "Up", Command::Step(0, 1), "move the camera up"),
     named(NamedKey::ArrowDown, "Down", Command::Step(0, -1), "move the camera down"),
-    letter("t", "T", Command::ToggleMode, "orbit the camera, or turn the objects"),
+    letter("t", "T", Command::ToggleMode, "orbit the camera, or turn (and so edit) the objects"),
     letter("o", "O", Command::ToggleOverlays, "show or hide all overlays"),
     letter("p", "P", Command::Picture, "write the picture as PNG"),
     named(NamedKey::Delete, "Delete", Command::Delete, "take the selected thing out"),
-    named(NamedKey::Escape, "Esc", Command::Escape, "select nothing, close what is open"),
-    ctrl("s", "Ctrl+S", Command::Save, "save the scene"),
+    named(NamedKey::Escape, "Esc", Command::Escape, "select nothing, close what is open; no to a question"),
+    ctrl("s", "Ctrl+S", Command::Save, "save the scene; asks if its file was changed elsewhere"),
     ctrl("z", "Ctrl+Z", Command::Undo, "undo"),
     ctrl_shift("z", "Ctrl+Shift+Z", Command::Redo, "redo"),
-    ctrl("q", "Ctrl+Q", Command::Quit, "close the window"),
+    ctrl("q", "Ctrl+Q", Command::Quit, "close the window; asks about unsaved edits"),
 ];
 
 /// What the mouse does, for the help: what is done with it, and what follows.
@@ -107,7 +107,7 @@ pub(crate) const MOUSE: &[(&str, &str)] = &[
     ("Left drag on a ring", "change a spot light's cone angle"),
     ("Wheel", "zoom to the pointer; turntable: along the view"),
     ("Ctrl wheel", "the other of the two"),
-    ("Drop a file", "open a scene"),
+    ("Drop a file", "open a scene; asks about unsaved edits"),
 ];
 
 /// What that key asks for under those modifiers. Letters are compared without case.

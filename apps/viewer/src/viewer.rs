@@ -11,6 +11,7 @@ use catoptra_tracer::{Backend, Display, Size, Snapshot, View, backends, pick};
 
 use crate::camera_control;
 use crate::document::Document;
+use crate::guard::{Answer, Guard, Next};
 use crate::input::{Mode, Pointer};
 use crate::loader::Opened;
 use crate::tracing::Request;
@@ -67,6 +68,8 @@ pub(crate) struct Viewer {
     pub(crate) notice: Option<(String, Instant)>,
     /// A report of what is wrong with a file.
     pub(crate) error: Option<String>,
+    /// What is asked before work is lost.
+    pub(crate) guard: Guard,
     /// A picture is to be written as soon as it is finished.
     pub(crate) picture_wanted: bool,
     pub(crate) stale: Stale,
@@ -104,6 +107,7 @@ impl Viewer {
             size: (0, 0),
             notice: None,
             error: None,
+            guard: Guard::default(),
             picture_wanted: false,
             stale: Stale { trace: true, overlay: true, panel: true },
             seen,
@@ -119,8 +123,34 @@ impl Viewer {
         self.seen = self.document.scene().revision();
         self.selection = None;
         self.error = None;
+        self.guard.forget();
         self.adopt(self.document.scene().main_camera());
         self.stale = Stale { trace: true, overlay: true, panel: true };
+    }
+
+    /// Closes the window or opens another scene, once the edits are saved or given up.
+    pub(crate) fn leave(&mut self, next: Next) {
+        self.guard.leave(next, &self.document);
+        self.stale.panel = true;
+    }
+
+    /// Saves the scene, unless its file was changed by someone else: then it is asked about.
+    pub(crate) fn save(&mut self) {
+        let told = self.guard.save(&mut self.document);
+        self.tell(told);
+    }
+
+    /// Answers what is asked.
+    pub(crate) fn answer(&mut self, answer: Answer) {
+        let told = self.guard.answer(answer, &mut self.document);
+        self.tell(told);
+    }
+
+    fn tell(&mut self, told: Option<String>) {
+        self.stale.panel = true;
+        if let Some(told) = told {
+            self.notify(told);
+        }
     }
 
     /// Tells the person something.

@@ -1,10 +1,11 @@
 //! What stands beside and over the picture? The panel with tree, inspector and switches, the status line, the list of
-//! keys and the report of an error.
+//! keys, the report of an error, and what is asked before work is lost.
 
 mod dialogs;
 mod fields;
 mod inspector;
 mod placement;
+mod question;
 mod switches;
 mod theme;
 mod tree;
@@ -34,8 +35,10 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, status: &str) -> Rect {
             .show_inside(ui, |ui| side(ui, viewer));
     }
     dialogs::status(ui, viewer, status, room);
+    dialogs::turntable(ui, viewer, room);
     dialogs::help(ui, viewer, room);
     dialogs::error(ui, viewer, room);
+    question::show(ui, viewer, whole);
     if ui.input(|input| input.pointer.any_released()) {
         viewer.document.end_step();
     }
