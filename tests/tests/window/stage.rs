@@ -4,17 +4,21 @@ use std::fs::File;
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use crate::desktop;
 use crate::picture::Picture;
 
 /// How long anything may take before the test fails.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// How long the window must stay the same to count as at rest.
-const REST: Duration = Duration::from_millis(900);
+/// How long the window must stay the same to count as settled. What a test awaits it names itself ([`Stage::until`]);
+/// this only tells apart a state in between from the one that stays.
+const SETTLED: Duration = Duration::from_millis(150);
+
+/// How often is looked whether something has come.
+const LOOK: Duration = Duration::from_millis(15);
 
 /// Set to 1, a missing program fails the tests instead of skipping them.
 const REQUIRE: &str = "CATOPTRA_REQUIRE_WINDOW";
@@ -25,9 +29,6 @@ pub(crate) const SIZE: (usize, usize) = (900, 600);
 /// The picture's part of that.
 pub(crate) const PICTURE: (usize, usize) = (SIZE.0 - 272, SIZE.1);
 
-/// One window at a time: the machine may have few cores.
-static ONE: Mutex<()> = Mutex::new(());
-
 /// A running viewer on a virtual screen.
 pub(crate) struct Stage {
     viewer: Child,
@@ -37,7 +38,6 @@ pub(crate) struct Stage {
     /// The folder that the viewer runs in.
     pub(crate) folder: tempfile::TempDir,
     buffer: tempfile::TempDir,
-    _turn: MutexGuard<'static, ()>,
 }
 
 impl Stage {
@@ -49,7 +49,6 @@ impl Stage {
 
     /// As [`start`](Self::start), on a screen with that many pixels to a point.
     pub(crate) fn start_scaled(scene: Option<&str>, scale: u32) -> Option<Self> {
-        let turn = ONE.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(missing) = missing() {
             let demanded = std::env::var_os(REQUIRE).is_some_and(|v| v == "1");
             assert!(!demanded, "{REQUIRE}=1, but {missing} is missing");
@@ -69,11 +68,11 @@ impl Stage {
         command.env("WINIT_X11_SCALE_FACTOR", scale.to_string());
         command.stderr(File::create(folder.path().join("log")).expect("a log"));
         let viewer = command.spawn().expect("the viewer starts");
-        let mut stage = Self { viewer, screen, display, window: String::new(), folder, buffer, _turn: turn };
+        let mut stage = Self { viewer, screen, display, window: String::new(), folder, buffer };
         stage.window = stage.find_window();
         stage.xdotool(&["windowfocus", &stage.window.clone()]);
-        stage.wait("a first frame", |stage| stage.frames() > 0);
-        stage.rest();
+        stage.wait("a first picture in full", |stage| stage.log().contains(" 1/1"));
+        stage.settle();
         Some(stage)
     }
 
@@ -95,14 +94,12 @@ impl Stage {
     /// Presses a key.
     pub(crate) fn key(&self, key: &str) {
         self.xdotool(&["key", key]);
-        self.rest();
     }
 
     /// Clicks there with the left button.
     pub(crate) fn click(&self, x: usize, y: usize) {
         self.point(x, y);
         self.xdotool(&["click", "1"]);
-        self.rest();
     }
 
     /// Moves the pointer.
@@ -114,7 +111,6 @@ impl Stage {
     pub(crate) fn wheel(&self, x: usize, y: usize, button: &str, notches: u32) {
         self.point(x, y);
         self.xdotool(&["click", "--repeat", &notches.to_string(), "--delay", "30", button]);
-        self.rest();
     }
 
     /// Drags with a button, in ten steps.
@@ -123,49 +119,73 @@ impl Stage {
         self.xdotool(&["mousedown", button]);
         for _ in 0..10 {
             self.xdotool(&["mousemove_relative", "--", &(by.0 / 10).to_string(), &(by.1 / 10).to_string()]);
-            sleep(Duration::from_millis(15));
+            sleep(Duration::from_millis(10));
         }
         self.xdotool(&["mouseup", button]);
-        self.rest();
     }
 
     /// Makes the window another size.
     pub(crate) fn resize(&self, width: usize, height: usize) {
         self.xdotool(&["windowsize", &self.window, &width.to_string(), &height.to_string()]);
-        self.rest();
     }
 
     /// Takes the window off the screen, as minimising does.
     pub(crate) fn hide(&self) {
         self.xdotool(&["windowunmap", "--sync", &self.window]);
-        self.rest();
     }
 
     /// Puts the window back on the screen.
     pub(crate) fn show(&self) {
         self.xdotool(&["windowmap", "--sync", &self.window]);
-        self.rest();
     }
 
     /// What the screen shows.
     pub(crate) fn picture(&self) -> Picture {
-        Picture::read(&self.buffer.path().join("Xvfb_screen0")).expect("a screenshot")
+        Picture::read(&self.buffer_file()).expect("a screenshot")
     }
 
-    /// Waits until nothing is traced and nothing changes on the screen.
-    pub(crate) fn rest(&self) {
-        let begin = Instant::now();
-        let mut since = Instant::now();
-        let mut last = (self.frames(), None);
-        while since.elapsed() < REST {
-            assert!(begin.elapsed() < PATIENCE, "the window does not come to rest");
-            sleep(Duration::from_millis(60));
-            let now = (self.frames(), Picture::read(&self.buffer.path().join("Xvfb_screen0")));
-            if now != last {
+    fn buffer_file(&self) -> PathBuf {
+        self.buffer.path().join("Xvfb_screen0")
+    }
+
+    /// Presses the window's close button.
+    pub(crate) fn close(&self) {
+        desktop::close(&self.display, self.window_id()).expect("the button can be pressed");
+    }
+
+    /// Drops a file on the window.
+    pub(crate) fn drop_file(&self, file: &Path) {
+        desktop::drop_file(&self.display, self.window_id(), file).expect("the file can be dropped");
+    }
+
+    fn window_id(&self) -> u32 {
+        self.window.parse().expect("xdotool names windows by number")
+    }
+
+    /// Waits until the picture is traced in full and neither it nor anything else on the screen changes.
+    pub(crate) fn settle(&self) -> Picture {
+        let (begin, mut since, mut last) = (Instant::now(), Instant::now(), None);
+        while since.elapsed() < SETTLED {
+            assert!(begin.elapsed() < PATIENCE, "the window does not settle");
+            sleep(LOOK);
+            let log = self.log();
+            let now = (log.len(), std::fs::read(self.buffer_file()).ok());
+            if last.as_ref() != Some(&now) || !log.trim_end().ends_with(" 1/1") {
                 since = Instant::now();
-                last = now;
+                last = Some(now);
             }
         }
+        self.picture()
+    }
+
+    /// Waits until the screen shows something, and answers what it shows then.
+    pub(crate) fn until(&self, what: &str, mut shown: impl FnMut(&Picture) -> bool) -> Picture {
+        let mut found = None;
+        self.wait(what, |stage| {
+            found = Picture::read(&stage.buffer_file()).filter(&mut shown);
+            found.is_some()
+        });
+        found.unwrap_or_else(|| unreachable!("it was waited for"))
     }
 
     /// Waits for something to become true.
@@ -174,7 +194,7 @@ impl Stage {
         while !done(self) {
             let failed = begin.elapsed() > PATIENCE || self.log().contains("error:");
             assert!(!failed, "{what} did not come; the viewer said:\n{}", self.log());
-            sleep(Duration::from_millis(50));
+            sleep(LOOK);
         }
     }
 
@@ -210,7 +230,7 @@ impl Stage {
                 return status.code();
             }
             assert!(begin.elapsed() < PATIENCE, "the viewer does not end");
-            sleep(Duration::from_millis(30));
+            sleep(LOOK);
         }
     }
 }
@@ -239,7 +259,7 @@ fn open_screen(buffer: &Path) -> (Child, String) {
                 "1",
                 "-screen",
                 "0",
-                "1600x1000x24",
+                "1280x720x24",
                 "-nolisten",
                 "tcp",
                 "-noreset",
@@ -255,7 +275,7 @@ fn open_screen(buffer: &Path) -> (Child, String) {
         BufReader::new(stdout).read_line(&mut number).expect("Xvfb names its display");
         let display = format!(":{}", number.trim());
         let probe = Command::new("xdotool").arg("getdisplaygeometry").env("DISPLAY", &display).output();
-        if probe.is_ok_and(|answer| answer.stdout.starts_with(b"1600 1000")) {
+        if probe.is_ok_and(|answer| answer.stdout.starts_with(b"1280 720")) {
             return (screen, display);
         }
         end(&mut screen);
@@ -269,7 +289,7 @@ fn end(child: &mut Child) {
     let _ = Command::new("kill").arg(child.id().to_string()).stderr(Stdio::null()).status();
     let begin = Instant::now();
     while matches!(child.try_wait(), Ok(None)) && begin.elapsed() < Duration::from_secs(2) {
-        sleep(Duration::from_millis(20));
+        sleep(LOOK);
     }
     // It may have ended by itself.
     let _ = child.kill();
