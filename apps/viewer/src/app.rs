@@ -58,7 +58,7 @@ pub(crate) struct App {
     proxy: EventLoopProxy<Wake>,
     ticket: u64,
     /// The revision of the scene when a file was last asked for: edits up to there may go for it.
-    given_up: u64,
+    wished_at: u64,
 }
 
 impl App {
@@ -93,7 +93,7 @@ impl App {
             starting: options.file.is_some(),
             proxy,
             ticket: 0,
-            given_up: 0,
+            wished_at: 0,
             options,
         };
         if let Some(file) = app.options.file.clone() {
@@ -105,7 +105,7 @@ impl App {
     /// Starts to read a file; the scene shown stays until it is there, and goes then with the edits made so far.
     fn open(&mut self, file: PathBuf) {
         self.ticket += 1;
-        self.given_up = self.viewer.document.scene().revision();
+        self.wished_at = self.viewer.document.scene().revision();
         self.viewer.notify(format!("opening {}", file.display()));
         let proxy = self.proxy.clone();
         loader::open(file, self.ticket, Arc::clone(&self.pool), move |outcome| {
@@ -120,27 +120,17 @@ impl App {
         }
         self.starting = false;
         match outcome.result {
-            Ok(_) if self.has_later_edits() => {
-                // What is asked already was asked later.
-                if self.viewer.guard.question().is_none() {
-                    self.viewer.leave(Next::Open(outcome.path));
-                }
-            }
             Ok(opened) => {
-                self.viewer.show(*opened);
-                self.viewer.notify(format!("opened {}", outcome.path.display()));
+                if self.viewer.lets_in(&outcome.path, self.wished_at) {
+                    self.viewer.show(*opened);
+                    self.viewer.notify(format!("opened {}", outcome.path.display()));
+                }
             }
             Err(report) => {
                 self.viewer.notify(format!("{} was not opened", outcome.path.display()));
                 self.viewer.error = Some(report);
             }
         }
-    }
-
-    /// Whether there are unsaved edits that were made while a file was read.
-    fn has_later_edits(&self) -> bool {
-        let document = &self.viewer.document;
-        !document.is_saved() && document.scene().revision() != self.given_up
     }
 
     /// Follows the scene and asks for a new picture if one is due.

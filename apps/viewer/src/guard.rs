@@ -1,7 +1,7 @@
 //! What must be asked before work is lost? Edits that are not saved when the window closes or another scene comes in,
 //! and what someone else has written into the file that is to be saved. No window, no drawing.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use catoptra_scene::OnDisk;
 
@@ -71,6 +71,16 @@ impl Guard {
         }
     }
 
+    /// Whether a scene that was read may be shown now. Edits later than the revision at which it was wished for are
+    /// asked about first, unless something is asked already: that was wished for later.
+    pub(crate) fn lets_in(&mut self, file: &Path, wished_at: u64, document: &Document) -> bool {
+        let lets_in = document.is_saved() || document.scene().revision() == wished_at;
+        if !lets_in && self.question.is_none() {
+            self.question = Some(Question::Unsaved(Next::Open(file.to_owned())));
+        }
+        lets_in
+    }
+
     /// Saves the scene, or asks first what is to become of a file that someone else has changed. Returns what there is
     /// to tell.
     pub(crate) fn save(&mut self, document: &mut Document) -> Option<String> {
@@ -128,8 +138,6 @@ impl Guard {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-
     use catoptra_core::scene::Edit;
 
     use super::*;
@@ -196,6 +204,24 @@ mod tests {
         guard.leave(Next::Close, &document);
         guard.answer(Answer::Write, &mut document);
         assert_eq!(guard.take_due(), Some(Next::Close));
+    }
+
+    #[test]
+    fn edits_made_while_a_file_is_read_are_asked_about() {
+        let folder = tempfile::tempdir().unwrap();
+        let (_, mut document) = edited(folder.path());
+        let (mut guard, file) = (Guard::default(), Path::new("other.kdl"));
+        let wished_at = document.scene().revision();
+        assert!(guard.lets_in(file, wished_at, &document), "those edits were given up");
+        let globe = document.scene().entity_named("globe").unwrap();
+        document.edit(Edit::Remove(globe)).unwrap();
+        assert!(!guard.lets_in(file, wished_at, &document));
+        assert_eq!(guard.question(), Some(&Question::Unsaved(Next::Open(file.to_owned()))));
+        guard.leave(Next::Close, &document);
+        assert!(!guard.lets_in(file, wished_at, &document));
+        assert_eq!(guard.question(), Some(&Question::Unsaved(Next::Close)), "asked later");
+        document.save().unwrap();
+        assert!(guard.lets_in(file, wished_at, &document));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What does the viewer know, and what follows from what a person does? The open scene, the view on it, what is
 //! selected and shown; no window, no drawing.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -132,6 +133,12 @@ impl Viewer {
     pub(crate) fn leave(&mut self, next: Next) {
         self.guard.leave(next, &self.document);
         self.stale.panel = true;
+    }
+
+    /// Whether a scene that was wished for at that revision may be shown; else edits made since are asked about.
+    pub(crate) fn lets_in(&mut self, file: &Path, wished_at: u64) -> bool {
+        self.stale.panel = true;
+        self.guard.lets_in(file, wished_at, &self.document)
     }
 
     /// Saves the scene, unless its file was changed by someone else: then it is asked about.

@@ -1,9 +1,10 @@
 //! Where the viewer is put to be tried: a virtual screen of its own, a folder of its own, and a hand on mouse and keys.
 
 use std::fs::File;
-use std::io::{BufRead as _, BufReader};
+use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::{LazyLock, Once};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -49,10 +50,15 @@ impl Stage {
 
     /// As [`start`](Self::start), on a screen with that many pixels to a point.
     pub(crate) fn start_scaled(scene: Option<&str>, scale: u32) -> Option<Self> {
-        if let Some(missing) = missing() {
+        if let Some(missing) = *MISSING {
             let demanded = std::env::var_os(REQUIRE).is_some_and(|v| v == "1");
             assert!(!demanded, "{REQUIRE}=1, but {missing} is missing");
-            eprintln!("skipped: {missing} is missing; {REQUIRE}=1 makes this a failure");
+            // Past the test harness, which keeps back what passing tests print.
+            TOLD.call_once(|| {
+                let line =
+                    format!("window tests SKIPPED: {missing} is missing; {REQUIRE}=1 makes this a failure\n");
+                let _ = std::io::stderr().write_all(line.as_bytes());
+            });
             return None;
         }
         let folder = tempfile::tempdir().expect("a folder");
@@ -242,12 +248,16 @@ impl Drop for Stage {
     }
 }
 
-fn missing() -> Option<&'static str> {
+/// The first program that the tests need and the machine lacks.
+static MISSING: LazyLock<Option<&str>> = LazyLock::new(|| {
     let lacks = |program: &&str| {
         Command::new(program).arg("-help").stdout(Stdio::null()).stderr(Stdio::null()).status().is_err()
     };
     ["Xvfb", "xdotool"].into_iter().find(lacks)
-}
+});
+
+/// Skipping is told once.
+static TOLD: Once = Once::new();
 
 /// Starts a virtual screen under a free number that it chooses itself, and sees that it answers: another screen may
 /// have been faster with that number.

@@ -5,7 +5,7 @@ use egui::{Align2, Area, Frame, Id, Margin, Order, Rect, RichText, Ui, Window};
 
 use super::theme;
 use crate::input::Mode;
-use crate::keys::{BINDINGS, MOUSE};
+use crate::keys::{BINDINGS, OTHERS};
 use crate::viewer::Viewer;
 
 /// The line at the lower left of the picture: figures, and what there is to tell.
@@ -68,7 +68,7 @@ pub(super) fn help(ui: &Ui, viewer: &mut Viewer, room: Rect) {
 fn list_keys(ui: &mut Ui) {
     egui::Grid::new("keys").num_columns(2).spacing([18.0, 3.0]).show(ui, |ui| {
         let keys = BINDINGS.iter().map(|binding| (binding.label, binding.doc));
-        for (what, does) in MOUSE.iter().copied().chain(keys) {
+        for (what, does) in OTHERS.iter().copied().chain(keys) {
             ui.strong(what);
             ui.label(does);
             ui.end_row();

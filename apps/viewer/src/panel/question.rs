@@ -67,15 +67,15 @@ fn words(question: &Question, viewer: &Viewer) -> Words {
     match question {
         Question::Unsaved(next) => Words {
             title: match next {
-                Next::Close => format!("Save {name} before closing?"),
-                Next::Open(file) => format!("Save {name} before opening {}?", file.display()),
+                Next::Close => format!("Save “{name}” before closing?"),
+                Next::Open(file) => format!("Save “{name}” before opening {}?", file.display()),
             },
             text: format!("It has edits that are not saved. Saving writes {}.", place.display()),
             buttons: ["Save", "Discard"],
             usual: Answer::Write,
         },
         Question::Changed(_) => Words {
-            title: format!("{name} was changed elsewhere"),
+            title: format!("“{name}” was changed elsewhere"),
             text: format!(
                 "{} is no longer what was opened or saved here. Overwriting it loses what was changed there; \
                  reloading it loses the edits made here.",
