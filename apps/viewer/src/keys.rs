@@ -92,7 +92,7 @@ pub(crate) const BINDINGS: &[Binding] = &[
     letter("o", "O", Command::ToggleOverlays, "show or hide all overlays"),
     letter("p", "P", Command::Picture, "write the picture as PNG"),
     named(NamedKey::Delete, "Delete", Command::Delete, "take the selected thing out"),
-    named(NamedKey::Escape, "Esc", Command::Escape, "select nothing, close what is open, cancel a question"),
+    named(NamedKey::Escape, "Esc", Command::Escape, "select nothing, close or cancel what is open"),
     ctrl("s", "Ctrl+S", Command::Save, "save; asks if the file was changed elsewhere"),
     ctrl("z", "Ctrl+Z", Command::Undo, "undo"),
     ctrl_shift("z", "Ctrl+Shift+Z", Command::Redo, "redo"),

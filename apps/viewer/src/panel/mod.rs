@@ -71,6 +71,7 @@ mod tests {
     use catoptra_tracer::Pool;
 
     use super::*;
+    use crate::guard::{Next, Question};
     use crate::loader;
 
     fn viewer() -> Viewer {
@@ -97,6 +98,27 @@ mod tests {
             show_twice(&mut viewer);
             assert!(viewer.document.is_saved(), "{:?} was changed", viewer.document.scene().name(id));
         }
+    }
+
+    #[test]
+    fn a_name_that_is_being_typed_is_an_edit() {
+        let named = |viewer: &Viewer, name| viewer.document.scene().entity_named(name);
+        let typing = || {
+            let mut viewer = viewer();
+            let floor = named(&viewer, "floor").unwrap();
+            viewer.select(Some(floor));
+            viewer.typed_name = Some((floor, "ground".to_owned()));
+            (viewer, Some(floor))
+        };
+        let (mut closing, _) = typing();
+        closing.leave(Next::Close);
+        assert_eq!(closing.guard.question(), Some(&Question::Unsaved(Next::Close)));
+        let (mut elsewhere, floor) = typing();
+        elsewhere.select(None);
+        assert_eq!(named(&elsewhere, "ground"), floor);
+        let (mut unfocused, floor) = typing();
+        show_twice(&mut unfocused);
+        assert_eq!(named(&unfocused, "ground"), floor);
     }
 
     #[test]
