@@ -4,6 +4,7 @@
 mod desktop;
 mod guards;
 mod picture;
+mod programs;
 mod stage;
 
 use std::time::{Duration, Instant};
