@@ -8,6 +8,7 @@ use catoptra_raster::{Ring, RingGrip};
 use catoptra_tracer::pick;
 
 use crate::camera_control::{self, NOTCH, ORBIT_PER_PIXEL};
+use crate::guard::Next;
 use crate::input::{Drag, Gesture, Mode};
 use crate::keys::Command;
 use crate::tracing::Frame;
@@ -25,11 +26,11 @@ const NEAREST: f64 = 0.02;
 /// The step keys of drags; panels use keys with this bit clear.
 const DRAG_KEY: u64 = 1 << 63;
 
-/// Does what a key asks for; `true` when the window is to close.
-pub(crate) fn run(viewer: &mut Viewer, command: Command) -> bool {
+/// Does what a key asks for.
+pub(crate) fn run(viewer: &mut Viewer, command: Command) {
     viewer.stale.panel = true;
     match command {
-        Command::Quit => return true,
+        Command::Quit => viewer.leave(Next::Close),
         Command::Help => viewer.shown.help = !viewer.shown.help,
         Command::Panel => viewer.shown.panel = !viewer.shown.panel,
         Command::FrameAll => frame_all(viewer),
@@ -56,10 +57,9 @@ pub(crate) fn run(viewer: &mut Viewer, command: Command) -> bool {
         Command::Delete => delete(viewer),
         Command::Undo => undo(viewer),
         Command::Redo => redo(viewer),
-        Command::Save => save(viewer),
+        Command::Save => viewer.save(),
         Command::Picture => viewer.picture_wanted = true,
     }
-    false
 }
 
 fn dragging(mode: Mode) -> &'static str {
@@ -127,13 +127,6 @@ fn redo(viewer: &mut Viewer) {
         viewer.notify("redone");
     } else {
         viewer.notify("nothing to redo");
-    }
-}
-
-fn save(viewer: &mut Viewer) {
-    match viewer.document.save() {
-        Ok(path) => viewer.notify(format!("saved {}", path.display())),
-        Err(problem) => viewer.notify(problem),
     }
 }
 

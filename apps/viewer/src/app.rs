@@ -14,6 +14,7 @@ use winit::keyboard::ModifiersState;
 use winit::window::WindowId;
 
 use crate::frame_worker::{Finished, FrameWorker};
+use crate::guard::Next;
 use crate::loader::{self, Opened, Outcome};
 use crate::options::Options;
 use crate::screen::Screen;
@@ -50,13 +51,14 @@ pub(crate) struct App {
     pub(crate) exposed: bool,
     /// Whether the pointer was last seen over the picture.
     pub(crate) over_picture: bool,
-    pub(crate) closing: bool,
     /// Why the viewer had to stop.
     pub(crate) failure: Option<String>,
     /// The scene named at the start is being read; until it is there nothing is traced.
     starting: bool,
     proxy: EventLoopProxy<Wake>,
     ticket: u64,
+    /// The revision of the scene when a file was last asked for: edits up to there may go for it.
+    wished_at: u64,
 }
 
 impl App {
@@ -87,11 +89,11 @@ impl App {
             shown_title: String::new(),
             exposed: true,
             over_picture: false,
-            closing: false,
             failure: None,
             starting: options.file.is_some(),
             proxy,
             ticket: 0,
+            wished_at: 0,
             options,
         };
         if let Some(file) = app.options.file.clone() {
@@ -100,9 +102,10 @@ impl App {
         app
     }
 
-    /// Starts to read a file; the scene shown stays until it is there.
-    pub(crate) fn open(&mut self, file: PathBuf) {
+    /// Starts to read a file; the scene shown stays until it is there, and goes then with the edits made so far.
+    fn open(&mut self, file: PathBuf) {
         self.ticket += 1;
+        self.wished_at = self.viewer.document.scene().revision();
         self.viewer.notify(format!("opening {}", file.display()));
         let proxy = self.proxy.clone();
         loader::open(file, self.ticket, Arc::clone(&self.pool), move |outcome| {
@@ -118,8 +121,10 @@ impl App {
         self.starting = false;
         match outcome.result {
             Ok(opened) => {
-                self.viewer.show(*opened);
-                self.viewer.notify(format!("opened {}", outcome.path.display()));
+                if self.viewer.lets_in(&outcome.path, self.wished_at) {
+                    self.viewer.show(*opened);
+                    self.viewer.notify(format!("opened {}", outcome.path.display()));
+                }
             }
             Err(report) => {
                 self.viewer.notify(format!("{} was not opened", outcome.path.display()));
@@ -181,7 +186,7 @@ impl ApplicationHandler<Wake> for App {
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         match event {
-            WindowEvent::CloseRequested => self.closing = true,
+            WindowEvent::CloseRequested => self.viewer.leave(Next::Close),
             WindowEvent::RedrawRequested => {
                 if let Err(why) = self.redraw() {
                     self.fail(event_loop, why);
@@ -192,8 +197,10 @@ impl ApplicationHandler<Wake> for App {
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
-        if self.closing {
-            return event_loop.exit();
+        match self.viewer.guard.take_due() {
+            Some(Next::Close) => return event_loop.exit(),
+            Some(Next::Open(file)) => self.open(file),
+            None => {}
         }
         self.settle();
         self.write_picture_if_wanted();

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use catoptra_core::scene::{Edit, History, Scene, SceneError};
-use catoptra_scene::SceneFile;
+use catoptra_scene::{OnDisk, SceneFile};
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 
 /// The scene shown when none is named.
@@ -86,15 +86,22 @@ impl Document {
         self.history.redo(&mut self.scene)
     }
 
-    /// Writes the scene to where it is kept, or under a new name in the current folder. Returns where.
+    /// Where the scene is written: to where it is kept, or under a new name in the current folder.
+    pub(crate) fn place(&self) -> PathBuf {
+        self.path.clone().unwrap_or_else(|| free_name(Path::new(""), WELCOME_NAME, "kdl"))
+    }
+
+    /// Whether someone else has changed the file in which the scene is kept.
+    pub(crate) fn on_disk(&self) -> OnDisk {
+        self.file.on_disk()
+    }
+
+    /// Writes the scene to its [place](Self::place), whatever stands there. Returns where.
     ///
     /// # Errors
     /// Why it could not be written, for people.
     pub(crate) fn save(&mut self) -> Result<PathBuf, String> {
-        let path = match &self.path {
-            Some(path) => path.clone(),
-            None => free_name(Path::new(""), WELCOME_NAME, "kdl"),
-        };
+        let path = self.place();
         self.file.save(&self.scene, &path).map_err(|e| format!("{} was not saved: {e}", path.display()))?;
         self.history.mark_saved();
         self.path = Some(path.clone());

@@ -7,6 +7,7 @@ use winit::window::CursorIcon;
 
 use crate::actions;
 use crate::app::App;
+use crate::guard::{Answer, Next};
 use crate::input::{Button, Mode};
 use crate::keys::{self, Command};
 use crate::screen::Screen;
@@ -28,9 +29,12 @@ impl App {
                 self.pointer_moved(screen, event, (position.x, position.y));
             }
             WindowEvent::MouseInput { state, button, .. } => self.button(screen, event, *state, *button),
-            WindowEvent::MouseWheel { delta, .. } if self.over_picture => self.wheel(*delta),
+            WindowEvent::MouseWheel { delta, .. } if self.over_picture && !self.asks() => self.wheel(*delta),
+            WindowEvent::KeyboardInput { event: key, .. } if self.asks() => {
+                self.key_to_question(screen, event, key);
+            }
             WindowEvent::KeyboardInput { event: key, .. } => self.key(screen, event, key),
-            WindowEvent::DroppedFile(path) => self.open(path.clone()),
+            WindowEvent::DroppedFile(path) => self.viewer.leave(Next::Open(path.clone())),
             WindowEvent::ModifiersChanged(modifiers) => {
                 self.modifiers = modifiers.state();
                 self.forward(screen, event);
@@ -49,6 +53,11 @@ impl App {
             }
             _ => self.forward(screen, event),
         }
+    }
+
+    /// Whether a question stands in the window: then all keys and clicks are for it.
+    fn asks(&self) -> bool {
+        self.viewer.guard.question().is_some()
     }
 
     /// Gives an event to egui.
@@ -78,7 +87,7 @@ impl App {
         let scale = screen.pixels_per_point();
         let point = Pos2::new(at.0 as f32 / scale, at.1 as f32 / scale);
         let layer = screen.egui.layer_id_at(point);
-        inside && layer.is_none_or(|layer| layer.order == egui::Order::Background)
+        inside && !self.asks() && layer.is_none_or(|layer| layer.order == egui::Order::Background)
     }
 
     /// The pointer tells that a ring can be dragged.
@@ -97,7 +106,7 @@ impl App {
         if state == ElementState::Released {
             let gesture = self.viewer.pointer.release(button);
             actions::gesture(&mut self.viewer, gesture);
-        } else if self.over_picture {
+        } else if self.over_picture && !self.asks() {
             let (x, y) = self.viewer.pointer.at;
             let selection: Vec<_> = self.viewer.selection.into_iter().collect();
             let grip = self.viewer.overlay(&self.viewer.camera, &selection).ring_at(x, y);
@@ -123,18 +132,32 @@ impl App {
     /// A key goes to egui while something there is being typed, and is a command otherwise.
     fn key(&mut self, screen: &mut Screen, event: &WindowEvent, key: &KeyEvent) {
         let typing = screen.egui.egui_wants_keyboard_input();
-        let control = self.modifiers.control_key() || self.modifiers.super_key();
-        let command = keys::command(&key.logical_key, control, self.modifiers.shift_key());
+        let command = self.command(key);
         let everywhere = matches!(command, Some(Command::Save | Command::Quit | Command::Help));
         if key.state == ElementState::Pressed
             && let Some(command) = command
             && (!typing || everywhere)
         {
             if !key.repeat || matches!(command, Command::Step(..) | Command::Undo | Command::Redo) {
-                self.closing |= actions::run(&mut self.viewer, command);
+                actions::run(&mut self.viewer, command);
             }
         } else if typing || key.logical_key != Key::Named(NamedKey::Tab) {
             self.forward(screen, event);
         }
+    }
+
+    /// While something is asked, Esc cancels, Ctrl+Q asks anew, and all other keys go to the buttons.
+    fn key_to_question(&mut self, screen: &mut Screen, event: &WindowEvent, key: &KeyEvent) {
+        match self.command(key) {
+            Some(Command::Escape) if key.state == ElementState::Pressed => self.viewer.answer(Answer::Cancel),
+            Some(Command::Quit) if key.state == ElementState::Pressed => self.viewer.leave(Next::Close),
+            _ => self.forward(screen, event),
+        }
+    }
+
+    /// What that key asks for under the modifiers that are held.
+    fn command(&self, key: &KeyEvent) -> Option<Command> {
+        let control = self.modifiers.control_key() || self.modifiers.super_key();
+        keys::command(&key.logical_key, control, self.modifiers.shift_key())
     }
 }

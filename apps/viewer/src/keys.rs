@@ -88,26 +88,27 @@ pub(crate) const BINDINGS: &[Binding] = &[
     named(NamedKey::ArrowRight, "Right", Command::Step(1, 0), "move the camera right"),
     named(NamedKey::ArrowUp, "Up", Command::Step(0, 1), "move the camera up"),
     named(NamedKey::ArrowDown, "Down", Command::Step(0, -1), "move the camera down"),
-    letter("t", "T", Command::ToggleMode, "orbit the camera, or turn the objects"),
+    letter("t", "T", Command::ToggleMode, "orbit the camera, or turn the objects (an edit)"),
     letter("o", "O", Command::ToggleOverlays, "show or hide all overlays"),
     letter("p", "P", Command::Picture, "write the picture as PNG"),
     named(NamedKey::Delete, "Delete", Command::Delete, "take the selected thing out"),
-    named(NamedKey::Escape, "Esc", Command::Escape, "select nothing, close what is open"),
-    ctrl("s", "Ctrl+S", Command::Save, "save the scene"),
+    named(NamedKey::Escape, "Esc", Command::Escape, "select nothing, close or cancel what is open"),
+    ctrl("s", "Ctrl+S", Command::Save, "save; asks if the file was changed elsewhere"),
     ctrl("z", "Ctrl+Z", Command::Undo, "undo"),
     ctrl_shift("z", "Ctrl+Shift+Z", Command::Redo, "redo"),
-    ctrl("q", "Ctrl+Q", Command::Quit, "close the window"),
+    ctrl("q", "Ctrl+Q", Command::Quit, "close the window; asks about unsaved edits"),
 ];
 
-/// What the mouse does, for the help: what is done with it, and what follows.
-pub(crate) const MOUSE: &[(&str, &str)] = &[
+/// What the mouse does, and keys that go through buttons, for the help: what is done, and what follows.
+pub(crate) const OTHERS: &[(&str, &str)] = &[
     ("Click", "select what is under the pointer"),
     ("Left drag", "orbit the camera; turntable: turn the objects"),
     ("Right or Shift drag", "pan"),
     ("Left drag on a ring", "change a spot light's cone angle"),
     ("Wheel", "zoom to the pointer; turntable: along the view"),
     ("Ctrl wheel", "the other of the two"),
-    ("Drop a file", "open a scene"),
+    ("Drop a file", "open a scene; asks about unsaved edits"),
+    ("Tab, Enter", "go through a question's buttons, press one"),
 ];
 
 /// What that key asks for under those modifiers. Letters are compared without case.

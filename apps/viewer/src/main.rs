@@ -8,6 +8,7 @@ mod document;
 mod egui_paint;
 mod events;
 mod frame_worker;
+mod guard;
 mod input;
 mod keys;
 mod loader;

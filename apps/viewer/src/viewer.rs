@@ -1,6 +1,7 @@
 //! What does the viewer know, and what follows from what a person does? The open scene, the view on it, what is
 //! selected and shown; no window, no drawing.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -11,6 +12,7 @@ use catoptra_tracer::{Backend, Display, Size, Snapshot, View, backends, pick};
 
 use crate::camera_control;
 use crate::document::Document;
+use crate::guard::{Answer, Guard, Next};
 use crate::input::{Mode, Pointer};
 use crate::loader::Opened;
 use crate::tracing::Request;
@@ -62,6 +64,8 @@ pub(crate) struct Viewer {
     pub(crate) through: Option<EntityId>,
     pub(crate) settings: ViewSettings,
     pub(crate) selection: Option<EntityId>,
+    /// A name that is being typed, and whose it is to be.
+    pub(crate) typed_name: Option<(EntityId, String)>,
     pub(crate) shown: Shown,
     pub(crate) pointer: Pointer,
     /// The size of the picture in pixels.
@@ -70,6 +74,8 @@ pub(crate) struct Viewer {
     pub(crate) notice: Option<(String, Instant)>,
     /// A report of what is wrong with a file.
     pub(crate) error: Option<String>,
+    /// What is asked before work is lost.
+    pub(crate) guard: Guard,
     /// A picture is to be written as soon as it is finished.
     pub(crate) picture_wanted: bool,
     pub(crate) stale: Stale,
@@ -102,11 +108,13 @@ impl Viewer {
                 style,
             },
             selection: None,
+            typed_name: None,
             shown: Shown { panel: true, help: false, overlays: true },
             pointer: Pointer::default(),
             size: (0, 0),
             notice: None,
             error: None,
+            guard: Guard::default(),
             picture_wanted: false,
             stale: Stale { trace: true, overlay: true, panel: true },
             seen,
@@ -121,9 +129,45 @@ impl Viewer {
         self.snapshot = opened.snapshot;
         self.seen = self.document.scene().revision();
         self.selection = None;
+        self.typed_name = None;
         self.error = None;
+        self.guard.forget();
         self.adopt(self.document.scene().main_camera());
         self.stale = Stale { trace: true, overlay: true, panel: true };
+    }
+
+    /// Closes the window or opens another scene, once the edits are saved or given up.
+    pub(crate) fn leave(&mut self, next: Next) {
+        self.finish_name();
+        self.guard.leave(next, &self.document);
+        self.stale.panel = true;
+    }
+
+    /// Whether a scene that was wished for at that revision may be shown; else edits made since are asked about.
+    pub(crate) fn lets_in(&mut self, file: &Path, wished_at: u64) -> bool {
+        self.finish_name();
+        self.stale.panel = true;
+        self.guard.lets_in(file, wished_at, &self.document)
+    }
+
+    /// Saves the scene, unless its file was changed by someone else: then it is asked about.
+    pub(crate) fn save(&mut self) {
+        self.finish_name();
+        let told = self.guard.save(&mut self.document);
+        self.tell(told);
+    }
+
+    /// Answers what is asked.
+    pub(crate) fn answer(&mut self, answer: Answer) {
+        let told = self.guard.answer(answer, &mut self.document);
+        self.tell(told);
+    }
+
+    fn tell(&mut self, told: Option<String>) {
+        self.stale.panel = true;
+        if let Some(told) = told {
+            self.notify(told);
+        }
     }
 
     /// Tells the person something.
@@ -208,12 +252,22 @@ impl Viewer {
     /// Selects something or nothing. Cones are shown from the first spot light on that is selected.
     pub(crate) fn select(&mut self, id: Option<EntityId>) {
         if self.selection != id {
+            self.finish_name();
             self.selection = id;
             let light = id.and_then(|id| self.document.scene().light(id));
             let is_spot = light.is_some_and(|l| l.position().is_some() && l.direction().is_some());
             self.settings.style.cones |= is_spot;
             self.stale.overlay = true;
             self.stale.panel = true;
+        }
+    }
+
+    /// Gives the name that is being typed, if any, to whose it is to be.
+    pub(crate) fn finish_name(&mut self) {
+        if let Some((id, typed)) = self.typed_name.take()
+            && self.document.scene().name(id).is_some_and(|name| name != typed)
+        {
+            self.edit(Edit::Name(id, typed));
         }
     }
 

@@ -7,6 +7,7 @@ use catoptra_core::{Shape, Value};
 
 use crate::atomic;
 use crate::build::{self, Id};
+use crate::disk::{self, OnDisk};
 use crate::outline::Outline;
 use crate::read::{self, LONGEST, Meshes};
 use crate::report::{Complaints, SceneTextError};
@@ -18,6 +19,8 @@ use crate::write::{self, Splice};
 #[derive(Debug, Clone)]
 pub struct SceneFile {
     path: Option<PathBuf>,
+    /// What the file at `path` held when it was read or written last.
+    stored: String,
     text: String,
     outline: Outline,
     /// What every item of the outline stands for.
@@ -51,6 +54,7 @@ pub fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
     let text = String::from_utf8(bytes).map_err(|e| not_utf8(&e, &name))?;
     let (scene, mut file) = parse(&text, &name, Some(path.parent().unwrap_or(Path::new(""))))?;
     file.path = Some(path.to_owned());
+    file.stored = text;
     Ok((scene, file))
 }
 
@@ -66,7 +70,8 @@ pub fn parse(text: &str, name: &str, base: Option<&Path>) -> Result<(Scene, Scen
     if complaints.count() > 0 {
         return Err(complaints.into_error(name, text));
     }
-    Ok((scene, SceneFile { path: None, text: text.to_owned(), outline, ids, meshes }))
+    let file = SceneFile { path: None, stored: String::new(), text: text.to_owned(), outline, ids, meshes };
+    Ok((scene, file))
 }
 
 fn not_utf8(error: &std::string::FromUtf8Error, name: &str) -> SceneTextError {
@@ -84,6 +89,7 @@ impl SceneFile {
     pub fn new(scene: &Scene) -> Self {
         let mut file = Self {
             path: None,
+            stored: String::new(),
             text: String::new(),
             outline: Outline::default(),
             ids: Vec::new(),
@@ -97,6 +103,13 @@ impl SceneFile {
     #[must_use]
     pub fn path(&self) -> Option<&Path> {
         self.path.as_deref()
+    }
+
+    /// Whether that file still holds what was read from it or written to it last: to be asked before it is saved to
+    /// again, since [`Self::save`] replaces whatever stands there.
+    #[must_use]
+    pub fn on_disk(&self) -> OnDisk {
+        self.path.as_deref().map_or(OnDisk::Missing, |path| disk::compare(path, self.stored.as_bytes()))
     }
 
     /// The text, as of the last [`Self::update`].
@@ -129,6 +142,7 @@ impl SceneFile {
         atomic::write(path, |out| std::io::Write::write_all(out, self.text.as_bytes()))
             .map_err(|cause| SaveError { path: path.to_owned(), cause })?;
         self.path = Some(path.to_owned());
+        self.stored.clone_from(&self.text);
         Ok(())
     }
 

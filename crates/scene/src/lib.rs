@@ -13,6 +13,7 @@
 
 pub mod atomic;
 mod build;
+mod disk;
 mod file;
 pub mod image;
 pub mod mesh;
@@ -24,5 +25,6 @@ mod state;
 pub mod words;
 mod write;
 
+pub use disk::OnDisk;
 pub use file::{SaveError, SceneFile, load, parse};
 pub use report::{Complaint, SceneTextError};

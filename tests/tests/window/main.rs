@@ -1,11 +1,15 @@
 //! Does the window do what it promises? The viewer under Xvfb, driven by xdotool, judged by screenshots.
 #![cfg(target_os = "linux")]
 
+mod desktop;
+mod guards;
 mod picture;
+mod programs;
 mod stage;
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
+use picture::Picture;
 use stage::{PICTURE, SIZE, Stage};
 
 /// A red ball and a green one beside it before black, lit from everywhere alike: every pixel's colour is known.
@@ -32,10 +36,15 @@ const fn is_accent([r, g, b]: [u8; 3]) -> bool {
     r > 220 && g > 150 && g < 200 && b < 90
 }
 
-/// The picture without its lower rim, where the status line tells of things in that colour too.
+/// The picture without its lower rim, where the status line tells of things in that colour too, and of time.
 const UPPER: (usize, usize) = (PICTURE.0, PICTURE.1 - 60);
 
 const MIDDLE: (usize, usize) = (PICTURE.0 / 2, PICTURE.1 / 2);
+
+/// Whether two screenshots are the same in their left upper part of that size.
+fn same(a: &Picture, b: &Picture, (width, height): (usize, usize)) -> bool {
+    (0..height).all(|y| (0..width).all(|x| a.at(x, y) == b.at(x, y)))
+}
 
 fn stage() -> Option<Stage> {
     Stage::start(Some(SCENE))
@@ -44,8 +53,7 @@ fn stage() -> Option<Stage> {
 #[test]
 fn it_starts_with_the_built_in_scene() {
     let Some(stage) = Stage::start(None) else { return };
-    let picture = stage.picture();
-    assert!(picture.colors(PICTURE) > 1000, "a picture with {} colours", picture.colors(PICTURE));
+    stage.until("a picture of many colours", |picture| picture.colors(PICTURE) > 1000);
     assert!(stage.log().contains(&format!("{}x{} 1/1", PICTURE.0, PICTURE.1)), "{}", stage.log());
 }
 
@@ -67,24 +75,26 @@ fn the_wheel_comes_nearer_and_home_shows_all() {
     let Some(stage) = stage() else { return };
     let before = stage.picture().count(PICTURE, is_red);
     stage.wheel(MIDDLE.0, MIDDLE.1, "4", 3);
-    let nearer = stage.picture().count(PICTURE, is_red);
-    assert!(nearer > before * 5 / 4, "{before} red pixels became {nearer}");
-    stage.wheel(MIDDLE.0, MIDDLE.1, "4", 5);
+    stage.until("a larger ball", |picture| picture.count(PICTURE, is_red) > before * 5 / 4);
+    stage.wheel(MIDDLE.0, MIDDLE.1, "4", 9);
+    stage.until("the red ball alone", |picture| picture.count(PICTURE, is_green) == 0);
     stage.key("Home");
-    let picture = stage.picture();
-    assert!(picture.count(PICTURE, is_red) > 1000 && picture.count(PICTURE, is_green) > 300);
+    stage.until("both balls", |picture| {
+        picture.count(PICTURE, is_red) > 1000 && picture.count(PICTURE, is_green) > 300
+    });
 }
 
 #[test]
 fn a_drag_orbits_and_a_right_drag_pans() {
     let Some(stage) = stage() else { return };
-    let place = |stage: &Stage| stage.picture().middle(PICTURE, is_green).expect("a green ball");
-    let start = place(&stage);
+    let place = |picture: &Picture| picture.middle(PICTURE, is_green).unwrap_or_default();
+    let start = place(&stage.picture());
     stage.drag((60, 60), (100, 0), "1");
-    let orbited = place(&stage);
-    assert!((orbited.0 - start.0).abs() > 15.0, "{start:?} became {orbited:?}");
+    stage.until("another side", |picture| (place(picture).0 - start.0).abs() > 15.0);
+    let orbited = place(&stage.settle());
     stage.drag((60, 60), (-50, 80), "3");
-    let panned = place(&stage);
+    stage.until("the ball 80 pixels lower", |picture| (place(picture).1 - orbited.1 - 80.0).abs() < 12.0);
+    let panned = place(&stage.settle());
     assert!((panned.1 - orbited.1 - 80.0).abs() < 12.0, "{orbited:?} became {panned:?}");
 }
 
@@ -93,51 +103,51 @@ fn a_click_selects_and_outlines() {
     let Some(stage) = stage() else { return };
     assert_eq!(stage.picture().count(UPPER, is_accent), 0);
     stage.click(MIDDLE.0, MIDDLE.1);
-    assert!(stage.picture().count(UPPER, is_accent) > 300);
+    stage.until("an outline", |picture| picture.count(UPPER, is_accent) > 300);
     stage.key("Escape");
-    assert_eq!(stage.picture().count(UPPER, is_accent), 0);
+    stage.until("no outline", |picture| picture.count(UPPER, is_accent) == 0);
 }
 
 #[test]
 fn the_turntable_turns_is_undone_and_saved() {
     let Some(stage) = stage() else { return };
     let before = stage.picture();
+    let (start, _) = before.middle(PICTURE, is_green).expect("a green ball");
     let file = stage.folder.path().join("scene.kdl");
     stage.key("t");
     stage.drag((60, 60), (0, 100), "1");
     stage.drag((60, 60), (200, 0), "1");
-    let (x, _) = stage.picture().middle(PICTURE, is_green).expect("a green ball");
-    let (start, _) = before.middle(PICTURE, is_green).expect("a green ball");
-    assert!(x < start - 40.0, "a turn by 60 degrees brings it from {start} to {x}");
+    stage.until("a turn by 60 degrees", |picture| {
+        picture.middle(PICTURE, is_green).is_some_and(|(x, _)| x < start - 40.0)
+    });
     assert_eq!(std::fs::read_to_string(&file).expect("the scene"), SCENE, "nothing is saved unasked");
     stage.key("ctrl+s");
+    stage.wait("the saved scene", |_| std::fs::read_to_string(&file).is_ok_and(|text| text != SCENE));
     let saved = std::fs::read_to_string(&file).expect("the saved scene");
-    assert!(
-        saved != SCENE && saved.contains("// two balls") && saved.contains("// the large one"),
-        "{saved}"
-    );
+    assert!(saved.contains("// two balls") && saved.contains("// the large one"), "{saved}");
     stage.key("ctrl+z");
     stage.key("ctrl+z");
-    let after = stage.picture();
-    let differing = (0..500).filter(|y| (0..PICTURE.0).any(|x| before.at(x, *y) != after.at(x, *y))).count();
-    assert_eq!(differing, 0, "rows of the picture differ after undo");
+    stage.key("t");
+    stage.until("the picture as it was", |picture| same(&before, picture, UPPER));
     stage.key("ctrl+shift+z");
     stage.key("ctrl+shift+z");
-    assert!(stage.picture().at(start as usize, MIDDLE.1) != before.at(start as usize, MIDDLE.1));
+    let turned =
+        |picture: &Picture| picture.at(start as usize, MIDDLE.1) != before.at(start as usize, MIDDLE.1);
+    stage.until("the turn again", turned);
 }
 
 #[test]
 fn the_picture_follows_the_size_of_the_window() {
     let Some(mut stage) = stage() else { return };
-    for (width, height) in [(1200, 700), (500, 400), (1, 1), (300, 900), (900, 600)] {
+    for (width, height) in [(1200, 700), (500, 400), (1, 1), (300, 680), (900, 600)] {
         stage.resize(width, height);
-        assert!(stage.runs(), "at {width}x{height}");
         let room = if width > 408 { width - 272 } else { width };
+        let size = format!("{room}x{height} 1/1");
+        stage.wait(&size, |stage| stage.log().trim_end().ends_with(&size));
         if room > 1 {
-            let picture = stage.picture();
-            assert!(is_red(picture.rgb(room / 2, height / 2)), "at {width}x{height}");
-            assert!(stage.log().contains(&format!("{room}x{height} 1/1")), "at {width}x{height}");
+            stage.until(&format!("the ball at {size}"), |picture| is_red(picture.rgb(room / 2, height / 2)));
         }
+        assert!(stage.runs(), "at {width}x{height}");
     }
 }
 
@@ -146,10 +156,10 @@ fn a_window_that_was_away_is_shown_again() {
     let Some(mut stage) = stage() else { return };
     let before = stage.picture();
     stage.hide();
-    assert!(stage.picture() != before && stage.runs());
+    stage.until("no window", |picture| !is_red(picture.rgb(MIDDLE.0, MIDDLE.1)));
+    assert!(stage.runs());
     stage.show();
-    let after = stage.picture();
-    assert!((0..UPPER.1).all(|y| (0..UPPER.0).all(|x| before.at(x, y) == after.at(x, y))));
+    stage.until("the picture as it was", |picture| same(&before, picture, UPPER));
 }
 
 #[test]
@@ -158,12 +168,19 @@ fn it_fits_a_screen_with_two_pixels_to_a_point() {
     let room = SIZE.0 - 2 * 272;
     assert!(stage.log().contains(&format!("{room}x{} 1/1", SIZE.1)), "{}", stage.log());
     stage.click(room / 2, SIZE.1 / 2);
-    assert!(stage.picture().count((room, SIZE.1), is_accent) > 600, "the outline is twice as thick");
+    stage.until("an outline twice as thick", |picture| picture.count((room, SIZE.1), is_accent) > 600);
 }
 
 #[test]
 fn at_rest_nothing_is_traced_and_no_time_is_used() {
     let Some(stage) = stage() else { return };
+    let mut rest = (stage.ticks(), Instant::now());
+    stage.wait("half a second without work", |stage| {
+        if stage.ticks() != rest.0 {
+            rest = (stage.ticks(), Instant::now());
+        }
+        rest.1.elapsed() > Duration::from_millis(500)
+    });
     let (frames, ticks) = (stage.frames(), stage.ticks());
     std::thread::sleep(Duration::from_secs(2));
     assert_eq!(stage.frames(), frames, "frames traced at rest");
@@ -173,11 +190,11 @@ fn at_rest_nothing_is_traced_and_no_time_is_used() {
 #[test]
 fn p_writes_the_picture() {
     let Some(stage) = stage() else { return };
-    stage.key("p");
-    stage.key("p");
     for name in ["scene.png", "scene-2.png"] {
-        let bytes = std::fs::read(stage.folder.path().join(name)).expect("a picture");
-        assert!(bytes.starts_with(b"\x89PNG\r\n"), "{name}");
+        stage.key("p");
+        let file = stage.folder.path().join(name);
+        stage.wait(name, |_| file.exists());
+        assert!(std::fs::read(&file).expect("a picture").starts_with(b"\x89PNG\r\n"), "{name}");
     }
 }
 
@@ -185,13 +202,12 @@ fn p_writes_the_picture() {
 fn a_broken_scene_is_reported_and_the_last_one_stays() {
     let broken = SCENE.replace("radius 2", "radius -2");
     let Some(mut stage) = Stage::start(Some(&broken)) else { return };
-    assert!(stage.runs());
-    let report = stage.picture();
-    assert!(report.count(PICTURE, is_accent) > 20, "the report's title");
+    let report = stage.until("the report's title", |picture| picture.count(UPPER, is_accent) > 20);
     stage.key("Escape");
-    let shown = stage.picture();
-    assert!(shown.colors(PICTURE) > 1000, "the built-in scene");
-    assert!(shown.count(PICTURE, |_| true) > 0 && shown != report);
+    stage.until("the built-in scene", |picture| {
+        picture.colors(PICTURE) > 1000 && !same(&report, picture, UPPER)
+    });
+    assert!(stage.runs());
 }
 
 #[test]
@@ -199,15 +215,17 @@ fn keys_are_listed_and_the_panel_can_go() {
     let Some(stage) = stage() else { return };
     let before = stage.picture();
     stage.key("F1");
-    assert!(stage.picture() != before);
+    stage.until("the list", |picture| !same(&before, picture, UPPER));
     stage.key("F1");
+    stage.until("no list", |picture| same(&before, picture, UPPER));
     stage.key("Tab");
-    assert!(stage.log().contains(&format!("{}x{} 1/1", SIZE.0, SIZE.1)), "the picture fills the window");
+    let filled = format!("{}x{} 1/1", SIZE.0, SIZE.1);
+    stage.wait("a picture that fills the window", |stage| stage.log().contains(&filled));
 }
 
 #[test]
 fn ctrl_q_quits() {
     let Some(mut stage) = stage() else { return };
-    stage.xdotool(&["key", "ctrl+q"]);
+    stage.key("ctrl+q");
     assert_eq!(stage.exit_code(), Some(0));
 }

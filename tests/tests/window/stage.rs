@@ -1,32 +1,27 @@
 //! Where the viewer is put to be tried: a virtual screen of its own, a folder of its own, and a hand on mouse and keys.
 
 use std::fs::File;
-use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use crate::desktop;
 use crate::picture::Picture;
+use crate::programs::{self, LOOK};
 
 /// How long anything may take before the test fails.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// How long the window must stay the same to count as at rest.
-const REST: Duration = Duration::from_millis(900);
-
-/// Set to 1, a missing program fails the tests instead of skipping them.
-const REQUIRE: &str = "CATOPTRA_REQUIRE_WINDOW";
+/// How long the window must stay the same to count as settled. What a test awaits it names itself ([`Stage::until`]);
+/// this only tells apart a state in between from the one that stays.
+const SETTLED: Duration = Duration::from_millis(150);
 
 /// The viewer's size at the start, in pixels; its panel takes the right 272.
 pub(crate) const SIZE: (usize, usize) = (900, 600);
 
 /// The picture's part of that.
 pub(crate) const PICTURE: (usize, usize) = (SIZE.0 - 272, SIZE.1);
-
-/// One window at a time: the machine may have few cores.
-static ONE: Mutex<()> = Mutex::new(());
 
 /// A running viewer on a virtual screen.
 pub(crate) struct Stage {
@@ -37,7 +32,6 @@ pub(crate) struct Stage {
     /// The folder that the viewer runs in.
     pub(crate) folder: tempfile::TempDir,
     buffer: tempfile::TempDir,
-    _turn: MutexGuard<'static, ()>,
 }
 
 impl Stage {
@@ -49,17 +43,13 @@ impl Stage {
 
     /// As [`start`](Self::start), on a screen with that many pixels to a point.
     pub(crate) fn start_scaled(scene: Option<&str>, scale: u32) -> Option<Self> {
-        let turn = ONE.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(missing) = missing() {
-            let demanded = std::env::var_os(REQUIRE).is_some_and(|v| v == "1");
-            assert!(!demanded, "{REQUIRE}=1, but {missing} is missing");
-            eprintln!("skipped: {missing} is missing; {REQUIRE}=1 makes this a failure");
+        if !programs::are_there() {
             return None;
         }
         let folder = tempfile::tempdir().expect("a folder");
         let buffer = tempfile::tempdir().expect("a folder");
-        let (screen, display) = open_screen(buffer.path());
-        let mut command = Command::new(viewer());
+        let (screen, display) = programs::open_screen(buffer.path());
+        let mut command = Command::new(programs::viewer());
         command.args(["--log-frames", "--threads", "2", "--size", &format!("{}x{}", SIZE.0, SIZE.1)]);
         if let Some(text) = scene {
             std::fs::write(folder.path().join("scene.kdl"), text).expect("the scene is written");
@@ -69,11 +59,11 @@ impl Stage {
         command.env("WINIT_X11_SCALE_FACTOR", scale.to_string());
         command.stderr(File::create(folder.path().join("log")).expect("a log"));
         let viewer = command.spawn().expect("the viewer starts");
-        let mut stage = Self { viewer, screen, display, window: String::new(), folder, buffer, _turn: turn };
+        let mut stage = Self { viewer, screen, display, window: String::new(), folder, buffer };
         stage.window = stage.find_window();
         stage.xdotool(&["windowfocus", &stage.window.clone()]);
-        stage.wait("a first frame", |stage| stage.frames() > 0);
-        stage.rest();
+        stage.wait("a first picture in full", |stage| stage.log().contains(" 1/1"));
+        stage.settle();
         Some(stage)
     }
 
@@ -95,14 +85,12 @@ impl Stage {
     /// Presses a key.
     pub(crate) fn key(&self, key: &str) {
         self.xdotool(&["key", key]);
-        self.rest();
     }
 
     /// Clicks there with the left button.
     pub(crate) fn click(&self, x: usize, y: usize) {
         self.point(x, y);
         self.xdotool(&["click", "1"]);
-        self.rest();
     }
 
     /// Moves the pointer.
@@ -114,7 +102,6 @@ impl Stage {
     pub(crate) fn wheel(&self, x: usize, y: usize, button: &str, notches: u32) {
         self.point(x, y);
         self.xdotool(&["click", "--repeat", &notches.to_string(), "--delay", "30", button]);
-        self.rest();
     }
 
     /// Drags with a button, in ten steps.
@@ -123,49 +110,73 @@ impl Stage {
         self.xdotool(&["mousedown", button]);
         for _ in 0..10 {
             self.xdotool(&["mousemove_relative", "--", &(by.0 / 10).to_string(), &(by.1 / 10).to_string()]);
-            sleep(Duration::from_millis(15));
+            sleep(Duration::from_millis(10));
         }
         self.xdotool(&["mouseup", button]);
-        self.rest();
     }
 
     /// Makes the window another size.
     pub(crate) fn resize(&self, width: usize, height: usize) {
         self.xdotool(&["windowsize", &self.window, &width.to_string(), &height.to_string()]);
-        self.rest();
     }
 
     /// Takes the window off the screen, as minimising does.
     pub(crate) fn hide(&self) {
         self.xdotool(&["windowunmap", "--sync", &self.window]);
-        self.rest();
     }
 
     /// Puts the window back on the screen.
     pub(crate) fn show(&self) {
         self.xdotool(&["windowmap", "--sync", &self.window]);
-        self.rest();
     }
 
     /// What the screen shows.
     pub(crate) fn picture(&self) -> Picture {
-        Picture::read(&self.buffer.path().join("Xvfb_screen0")).expect("a screenshot")
+        Picture::read(&self.buffer_file()).expect("a screenshot")
     }
 
-    /// Waits until nothing is traced and nothing changes on the screen.
-    pub(crate) fn rest(&self) {
-        let begin = Instant::now();
-        let mut since = Instant::now();
-        let mut last = (self.frames(), None);
-        while since.elapsed() < REST {
-            assert!(begin.elapsed() < PATIENCE, "the window does not come to rest");
-            sleep(Duration::from_millis(60));
-            let now = (self.frames(), Picture::read(&self.buffer.path().join("Xvfb_screen0")));
-            if now != last {
+    fn buffer_file(&self) -> PathBuf {
+        self.buffer.path().join("Xvfb_screen0")
+    }
+
+    /// Presses the window's close button.
+    pub(crate) fn close(&self) {
+        desktop::close(&self.display, self.window_id()).expect("the button can be pressed");
+    }
+
+    /// Drops a file on the window.
+    pub(crate) fn drop_file(&self, file: &Path) {
+        desktop::drop_file(&self.display, self.window_id(), file).expect("the file can be dropped");
+    }
+
+    fn window_id(&self) -> u32 {
+        self.window.parse().expect("xdotool names windows by number")
+    }
+
+    /// Waits until the picture is traced in full and neither it nor anything else on the screen changes.
+    pub(crate) fn settle(&self) -> Picture {
+        let (begin, mut since, mut last) = (Instant::now(), Instant::now(), None);
+        while since.elapsed() < SETTLED {
+            assert!(begin.elapsed() < PATIENCE, "the window does not settle");
+            sleep(LOOK);
+            let log = self.log();
+            let now = (log.len(), std::fs::read(self.buffer_file()).ok());
+            if last.as_ref() != Some(&now) || !log.trim_end().ends_with(" 1/1") {
                 since = Instant::now();
-                last = now;
+                last = Some(now);
             }
         }
+        self.picture()
+    }
+
+    /// Waits until the screen shows something, and answers what it shows then.
+    pub(crate) fn until(&self, what: &str, mut shown: impl FnMut(&Picture) -> bool) -> Picture {
+        let mut found = None;
+        self.wait(what, |stage| {
+            found = Picture::read(&stage.buffer_file()).filter(&mut shown);
+            found.is_some()
+        });
+        found.unwrap_or_else(|| unreachable!("it was waited for"))
     }
 
     /// Waits for something to become true.
@@ -174,7 +185,7 @@ impl Stage {
         while !done(self) {
             let failed = begin.elapsed() > PATIENCE || self.log().contains("error:");
             assert!(!failed, "{what} did not come; the viewer said:\n{}", self.log());
-            sleep(Duration::from_millis(50));
+            sleep(LOOK);
         }
     }
 
@@ -210,80 +221,14 @@ impl Stage {
                 return status.code();
             }
             assert!(begin.elapsed() < PATIENCE, "the viewer does not end");
-            sleep(Duration::from_millis(30));
+            sleep(LOOK);
         }
     }
 }
 
 impl Drop for Stage {
     fn drop(&mut self) {
-        end(&mut self.viewer);
-        end(&mut self.screen);
+        programs::end(&mut self.viewer);
+        programs::end(&mut self.screen);
     }
-}
-
-fn missing() -> Option<&'static str> {
-    let lacks = |program: &&str| {
-        Command::new(program).arg("-help").stdout(Stdio::null()).stderr(Stdio::null()).status().is_err()
-    };
-    ["Xvfb", "xdotool"].into_iter().find(lacks)
-}
-
-/// Starts a virtual screen under a free number that it chooses itself, and sees that it answers: another screen may
-/// have been faster with that number.
-fn open_screen(buffer: &Path) -> (Child, String) {
-    for _ in 0..10 {
-        let mut screen = Command::new("Xvfb")
-            .args([
-                "-displayfd",
-                "1",
-                "-screen",
-                "0",
-                "1600x1000x24",
-                "-nolisten",
-                "tcp",
-                "-noreset",
-                "-fbdir",
-            ])
-            .arg(buffer)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("Xvfb starts");
-        let mut number = String::new();
-        let stdout = screen.stdout.as_mut().expect("it was piped");
-        BufReader::new(stdout).read_line(&mut number).expect("Xvfb names its display");
-        let display = format!(":{}", number.trim());
-        let probe = Command::new("xdotool").arg("getdisplaygeometry").env("DISPLAY", &display).output();
-        if probe.is_ok_and(|answer| answer.stdout.starts_with(b"1600 1000")) {
-            return (screen, display);
-        }
-        end(&mut screen);
-        sleep(Duration::from_millis(200));
-    }
-    panic!("Xvfb does not answer");
-}
-
-/// Ends a program, politely at first so that it can tidy up.
-fn end(child: &mut Child) {
-    let _ = Command::new("kill").arg(child.id().to_string()).stderr(Stdio::null()).status();
-    let begin = Instant::now();
-    while matches!(child.try_wait(), Ok(None)) && begin.elapsed() < Duration::from_secs(2) {
-        sleep(Duration::from_millis(20));
-    }
-    // It may have ended by itself.
-    let _ = child.kill();
-    let _ = child.wait();
-}
-
-/// The viewer that was built along with this test, or the one that the environment names.
-fn viewer() -> PathBuf {
-    if let Some(path) = std::env::var_os("CATOPTRA_VIEWER") {
-        return path.into();
-    }
-    let test = std::env::current_exe().expect("the test's own path");
-    let folder = test.parent().and_then(Path::parent).expect("a target folder");
-    let viewer = folder.join(format!("catoptra-viewer{}", std::env::consts::EXE_SUFFIX));
-    assert!(viewer.exists(), "{} is missing: build the workspace first", viewer.display());
-    viewer
 }

@@ -1,9 +1,11 @@
-//! What floats over the picture? The status line, the list of keys, and the report of an error.
+//! What floats over the picture? The status line, the sign of the turntable, the list of keys, and the report of an
+//! error.
 
 use egui::{Align2, Area, Frame, Id, Margin, Order, Rect, RichText, Ui, Window};
 
 use super::theme;
-use crate::keys::{BINDINGS, MOUSE};
+use crate::input::Mode;
+use crate::keys::{BINDINGS, OTHERS};
 use crate::viewer::Viewer;
 
 /// The line at the lower left of the picture: figures, and what there is to tell.
@@ -22,6 +24,27 @@ pub(super) fn status(ui: &Ui, viewer: &Viewer, figures: &str, room: Rect) {
                     ui.add(egui::Label::new(RichText::new(notice).color(theme::ACCENT)).wrap());
                 }
                 ui.add(egui::Label::new(figures).truncate());
+            });
+        });
+}
+
+/// A sign that stands while a drag changes the scene and not the view.
+pub(super) fn turntable(ui: &Ui, viewer: &Viewer, room: Rect) {
+    if viewer.settings.mode != Mode::Turntable {
+        return;
+    }
+    let frame = Frame::new().fill(theme::ACCENT).corner_radius(4).inner_margin(Margin::symmetric(10, 4));
+    Area::new(Id::new("turntable"))
+        .order(Order::Middle)
+        .interactable(false)
+        .pivot(Align2::CENTER_TOP)
+        .fixed_pos(room.center_top() + egui::vec2(0.0, 8.0))
+        .constrain_to(room)
+        .show(ui.ctx(), |ui| {
+            frame.show(ui, |ui| {
+                ui.set_max_width((room.width() - 40.0).max(40.0));
+                let text = "Turntable: dragging turns the objects and changes the scene. T goes back.";
+                ui.add(egui::Label::new(RichText::new(text).strong().color(theme::FLOATING)).wrap());
             });
         });
 }
@@ -45,7 +68,7 @@ pub(super) fn help(ui: &Ui, viewer: &mut Viewer, room: Rect) {
 fn list_keys(ui: &mut Ui) {
     egui::Grid::new("keys").num_columns(2).spacing([18.0, 3.0]).show(ui, |ui| {
         let keys = BINDINGS.iter().map(|binding| (binding.label, binding.doc));
-        for (what, does) in MOUSE.iter().copied().chain(keys) {
+        for (what, does) in OTHERS.iter().copied().chain(keys) {
             ui.strong(what);
             ui.label(does);
             ui.end_row();

@@ -26,20 +26,15 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
 /// The name, to be changed, and the word for what it is.
 fn heading(ui: &mut Ui, viewer: &mut Viewer, id: EntityId) {
     let name = viewer.document.scene().name(id).unwrap_or_default();
-    let draft = egui::Id::new(("name", id.index()));
-    let mut text: String = ui.data(|data| data.get_temp(draft)).unwrap_or_else(|| name.clone());
+    let typed = viewer.typed_name.as_ref().filter(|(owner, _)| *owner == id);
+    let mut text = typed.map_or(name, |(_, typed)| typed.clone());
     ui.horizontal(|ui| {
         let response = ui.add(TextEdit::singleline(&mut text).desired_width(140.0));
-        if response.has_focus() {
-            ui.data_mut(|data| data.insert_temp(draft, text.clone()));
-        } else if response.lost_focus() {
-            ui.data_mut(|data| data.remove::<String>(draft));
-            if text != name {
-                viewer.edit(Edit::Name(id, text.clone()));
-            }
-        } else {
-            // Left over where something else was selected while typing.
-            ui.data_mut(|data| data.remove::<String>(draft));
+        if response.has_focus() || response.lost_focus() {
+            viewer.typed_name = Some((id, text));
+        }
+        if !response.has_focus() {
+            viewer.finish_name();
         }
         ui.weak(tree::kind_name(viewer.document.scene(), id));
     });

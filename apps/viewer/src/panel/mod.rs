@@ -1,10 +1,11 @@
 //! What stands beside and over the picture? The panel with tree, inspector and switches, the status line, the list of
-//! keys and the report of an error.
+//! keys, the report of an error, and what is asked before work is lost.
 
 mod dialogs;
 mod fields;
 mod inspector;
 mod placement;
+mod question;
 mod switches;
 mod theme;
 mod tree;
@@ -34,8 +35,10 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, status: &str) -> Rect {
             .show_inside(ui, |ui| side(ui, viewer));
     }
     dialogs::status(ui, viewer, status, room);
+    dialogs::turntable(ui, viewer, room);
     dialogs::help(ui, viewer, room);
     dialogs::error(ui, viewer, room);
+    question::show(ui, viewer, whole);
     if ui.input(|input| input.pointer.any_released()) {
         viewer.document.end_step();
     }
@@ -68,6 +71,7 @@ mod tests {
     use catoptra_tracer::Pool;
 
     use super::*;
+    use crate::guard::{Next, Question};
     use crate::loader;
 
     fn viewer() -> Viewer {
@@ -94,6 +98,27 @@ mod tests {
             show_twice(&mut viewer);
             assert!(viewer.document.is_saved(), "{:?} was changed", viewer.document.scene().name(id));
         }
+    }
+
+    #[test]
+    fn a_name_that_is_being_typed_is_an_edit() {
+        let named = |viewer: &Viewer, name| viewer.document.scene().entity_named(name);
+        let typing = || {
+            let mut viewer = viewer();
+            let floor = named(&viewer, "floor").unwrap();
+            viewer.select(Some(floor));
+            viewer.typed_name = Some((floor, "ground".to_owned()));
+            (viewer, Some(floor))
+        };
+        let (mut closing, _) = typing();
+        closing.leave(Next::Close);
+        assert_eq!(closing.guard.question(), Some(&Question::Unsaved(Next::Close)));
+        let (mut elsewhere, floor) = typing();
+        elsewhere.select(None);
+        assert_eq!(named(&elsewhere, "ground"), floor);
+        let (mut unfocused, floor) = typing();
+        show_twice(&mut unfocused);
+        assert_eq!(named(&unfocused, "ground"), floor);
     }
 
     #[test]
