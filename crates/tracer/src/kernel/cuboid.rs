@@ -7,9 +7,11 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane, LaneMask};
 use fearless_simd::Simd;
 
-use super::{PlaneRow, Proposal, Rays, bound};
+use super::contract::off_planes;
+use super::faces::{facing_normals32, planes_met};
+use super::{Crossing, Kernel, NearHit, Obstacle, PlaneRow, Proposal, Rays, Target, Tried, bound};
 use crate::film::NOTHING;
-use crate::lanes::{F, M, U, splat3};
+use crate::lanes::{D3, F, F3, M, U, splat3};
 use crate::numeric::{DIRECTION_ERROR, POINT_ERROR, WORLD_DRIFT, magnitude_of};
 
 /// A box, placed.
@@ -91,6 +93,58 @@ impl CuboidRow {
             undecided: !misses & !hit,
         };
         (proposal, facet)
+    }
+}
+
+impl Kernel for CuboidRow {
+    type Face = PlaneRow;
+
+    #[inline(always)]
+    fn faces(&self) -> &[PlaneRow] {
+        &self.faces
+    }
+
+    #[inline(always)]
+    fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, tried: &Tried<S>, mut found: impl FnMut(Crossing<S>)) {
+        let (proposal, facet) = self.propose(s, rays, tried.entered);
+        found(Crossing { proposal, facet, lanes: tried.lanes });
+    }
+
+    #[inline(always)]
+    fn block<S: Simd>(
+        &self,
+        s: S,
+        rays: &Rays<S>,
+        target: &Target<S>,
+        tried: &Tried<S>,
+        mut found: impl FnMut(Obstacle<S>),
+    ) {
+        let blocking = self.propose(s, rays, tried.entered).0.blocking(target);
+        found(Obstacle { blocking, facet: None, lanes: tried.lanes });
+    }
+
+    #[inline(always)]
+    fn surface<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F3<S>, F3<S>) {
+        (hit.point(), facing_normals32(s, &self.faces, hit))
+    }
+
+    #[inline(always)]
+    fn off<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F<S>, F<S>) {
+        let (normal, distance) = planes_met(s, &self.faces, hit);
+        off_planes(normal, distance, hit)
+    }
+
+    #[inline(always)]
+    fn normal<S: Simd>(&self, s: S, hit: &impl NearHit<S>, _point: D3<S>) -> D3<S> {
+        planes_met(s, &self.faces, hit).0
+    }
+
+    fn all_normals(&self, _center: DVec3, _half: DVec3, test: impl Fn(DVec3, DVec3) -> bool) -> bool {
+        self.faces.iter().all(|face| test(face.normal, DVec3::ZERO))
+    }
+
+    fn is_outside(&self, point: DVec3) -> bool {
+        self.faces.iter().any(|face| face.is_before(point))
     }
 }
 

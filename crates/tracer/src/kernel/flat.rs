@@ -4,8 +4,11 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, LaneMask};
 use fearless_simd::Simd;
 
-use super::{DiskOutline, PlaneRow, Proposal, Rays, RectangleOutline, bound};
-use crate::lanes::{F, F3, M, splat3};
+use super::{
+    Crossing, DiskOutline, Kernel, NearHit, Obstacle, PlaneRow, Proposal, Rays, RectangleOutline, Target,
+    Tried, bound,
+};
+use crate::lanes::{D3, F, F3, M, U, splat3};
 use crate::numeric::{POINT_ERROR, rounded};
 
 /// A flat shape with an end.
@@ -62,5 +65,51 @@ impl Outline {
             Self::Rectangle(outline) => outline.sides(s, point, error),
             Self::Disk(outline) => outline.sides(s, point, error),
         }
+    }
+}
+
+impl Kernel for FlatRow {
+    type Face = PlaneRow;
+
+    #[inline(always)]
+    fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, tried: &Tried<S>, mut found: impl FnMut(Crossing<S>)) {
+        let (proposal, facet) = (self.propose(s, rays), U::splat(s, 0));
+        found(Crossing { proposal, facet, lanes: tried.but_leaving(s, 0) });
+    }
+
+    #[inline(always)]
+    fn block<S: Simd>(
+        &self,
+        s: S,
+        rays: &Rays<S>,
+        target: &Target<S>,
+        tried: &Tried<S>,
+        mut found: impl FnMut(Obstacle<S>),
+    ) {
+        let blocking = self.propose(s, rays).blocking(target);
+        found(Obstacle { blocking, facet: Some(0), lanes: tried.but_leaving(s, 0) });
+    }
+
+    #[inline(always)]
+    fn surface<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F3<S>, F3<S>) {
+        self.plane.surface(s, hit)
+    }
+
+    #[inline(always)]
+    fn off<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F<S>, F<S>) {
+        self.plane.off(s, hit)
+    }
+
+    #[inline(always)]
+    fn normal<S: Simd>(&self, s: S, hit: &impl NearHit<S>, point: D3<S>) -> D3<S> {
+        self.plane.normal(s, hit, point)
+    }
+
+    fn all_normals(&self, center: DVec3, half: DVec3, test: impl Fn(DVec3, DVec3) -> bool) -> bool {
+        self.plane.all_normals(center, half, test)
+    }
+
+    fn is_outside(&self, _point: DVec3) -> bool {
+        true
     }
 }

@@ -3,10 +3,12 @@
 //! A kernel may leave a lane undecided, never decide it wrongly: undecided lanes go to `f64`, one ray at a time.
 //! A shape without a kernel leaves every lane undecided: slower, the same answer.
 
+mod contract;
 mod cuboid;
 mod disk;
 #[cfg(test)]
 mod error_bounds_tests;
+mod faces;
 mod flat;
 pub(crate) mod mesh;
 mod plane;
@@ -21,8 +23,10 @@ use fearless_simd::Simd;
 use crate::lanes::{F, F3, M};
 use crate::numeric::CERTAIN;
 
+pub(crate) use contract::{Crossing, Kernel, Leaving, NearHit, Obstacle, Tried};
 pub(crate) use cuboid::CuboidRow;
 use disk::DiskOutline;
+pub(crate) use faces::Faces;
 pub(crate) use flat::FlatRow;
 pub(crate) use plane::PlaneRow;
 use rectangle::RectangleOutline;

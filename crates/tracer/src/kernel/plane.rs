@@ -4,9 +4,10 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::Simd;
 
-use super::{Blocking, Proposal, Rays, bound};
-use crate::lanes::{F, splat3};
-use crate::numeric::{DIRECTION_ERROR, POINT_ERROR, WIDE_SHARE, magnitude_of, rounded};
+use super::contract::off_planes;
+use super::{Blocking, Crossing, Kernel, NearHit, Obstacle, Proposal, Rays, Target, Tried, bound};
+use crate::lanes::{D, D3, F, F3, U, splat_wide, splat3};
+use crate::numeric::{DIRECTION_ERROR, PLAN_MARGIN, POINT_ERROR, WIDE_SHARE, magnitude_of, rounded};
 
 /// A plane `normal · p = distance`.
 #[derive(Debug, Clone, Copy)]
@@ -51,6 +52,13 @@ impl PlaneRow {
         (behind, bound(s, error))
     }
 
+    /// Whether a point certainly lies on the side that the normal points to.
+    pub(crate) fn is_before(&self, point: DVec3) -> bool {
+        let size = self.distance.abs() + point.abs().element_sum();
+        self.normal.dot(point) - self.distance > PLAN_MARGIN * size
+    }
+
+    /// The crossing ahead.
     #[inline(always)]
     pub(crate) fn propose<S: Simd>(&self, s: S, rays: &Rays<S>) -> Proposal<S> {
         let slope = splat3(s, self.normal32).dot(rays.direction);
@@ -79,5 +87,51 @@ impl PlaneRow {
             zero.less(zero)
         };
         Blocking { blocked: other, undecided: !error.less(behind.abs()) }
+    }
+}
+
+impl Kernel for PlaneRow {
+    type Face = Self;
+
+    #[inline(always)]
+    fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, tried: &Tried<S>, mut found: impl FnMut(Crossing<S>)) {
+        let (proposal, facet) = (self.propose(s, rays), U::splat(s, 0));
+        found(Crossing { proposal, facet, lanes: tried.but_leaving(s, 0) });
+    }
+
+    #[inline(always)]
+    fn block<S: Simd>(
+        &self,
+        s: S,
+        rays: &Rays<S>,
+        target: &Target<S>,
+        tried: &Tried<S>,
+        mut found: impl FnMut(Obstacle<S>),
+    ) {
+        let blocking = self.propose(s, rays).blocking(target);
+        found(Obstacle { blocking, facet: Some(0), lanes: tried.but_leaving(s, 0) });
+    }
+
+    #[inline(always)]
+    fn surface<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F3<S>, F3<S>) {
+        (hit.point(), splat3(s, self.normal32))
+    }
+
+    #[inline(always)]
+    fn off<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F<S>, F<S>) {
+        off_planes(splat_wide(s, self.normal), D::splat(s, self.distance), hit)
+    }
+
+    #[inline(always)]
+    fn normal<S: Simd>(&self, s: S, _hit: &impl NearHit<S>, _point: D3<S>) -> D3<S> {
+        splat_wide(s, self.normal)
+    }
+
+    fn all_normals(&self, _center: DVec3, _half: DVec3, test: impl Fn(DVec3, DVec3) -> bool) -> bool {
+        test(self.normal, DVec3::ZERO)
+    }
+
+    fn is_outside(&self, _point: DVec3) -> bool {
+        true
     }
 }

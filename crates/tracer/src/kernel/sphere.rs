@@ -4,8 +4,10 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
 
-use super::{Blocking, End, Proposal, Rays, Target, bound};
-use crate::lanes::{F, F3, M, splat3};
+use super::{
+    Blocking, Crossing, End, Kernel, NearHit, Obstacle, PlaneRow, Proposal, Rays, Target, Tried, bound,
+};
+use crate::lanes::{D, D3, F, F3, M, U, narrow3, splat_wide, splat3};
 use crate::numeric::{PLAN_MARGIN, POINT_ERROR, magnitude_of, rounded};
 
 /// A sphere.
@@ -14,7 +16,7 @@ pub(crate) struct SphereRow {
     pub(crate) center: DVec3,
     pub(crate) radius: f64,
     center32: [f32; 3],
-    pub(crate) inverse_radius: f32,
+    inverse_radius: f32,
     radius32: f32,
     reach: f32,
 }
@@ -127,5 +129,67 @@ impl SphereRow {
             blocked: crosses & between & is_outside,
             undecided: !(misses | (beyond & is_outside) | (crosses & between & is_outside)),
         }
+    }
+}
+
+impl Kernel for SphereRow {
+    type Face = PlaneRow;
+
+    /// A sphere may be met again by a ray that leaves it, on its far side.
+    #[inline(always)]
+    fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, tried: &Tried<S>, mut found: impl FnMut(Crossing<S>)) {
+        let leaving = tried.leaving.from(s, tried.prim, 0);
+        let proposal = self.propose(s, rays, leaving);
+        found(Crossing { proposal, facet: U::splat(s, 0), lanes: tried.lanes });
+    }
+
+    #[inline(always)]
+    fn block<S: Simd>(
+        &self,
+        s: S,
+        rays: &Rays<S>,
+        target: &Target<S>,
+        tried: &Tried<S>,
+        mut found: impl FnMut(Obstacle<S>),
+    ) {
+        let own = tried.leaving.from(s, tried.prim, 0) & tried.lanes;
+        // Seen from outside, what faces the light is not shadowed by its own sphere.
+        let (lanes, leaving) =
+            if tried.outside { (tried.lanes & !own, M::splat(s, false)) } else { (tried.lanes, own) };
+        let blocking = self.block(s, rays, target, leaving, tried.outside);
+        found(Obstacle { blocking, facet: Some(0), lanes });
+    }
+
+    /// Relative to the centre, where `f32` is fine enough for sharp highlights; one Newton step brings it there.
+    #[inline(always)]
+    fn surface<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F3<S>, F3<S>) {
+        let (direction, near) = (hit.direction(), hit.near());
+        let from_center = narrow3(near - splat_wide(s, self.center));
+        let radius2 = F::splat(s, (self.radius * self.radius) as f32);
+        let slope = from_center.dot(direction);
+        let metres = (radius2 - from_center.dot(from_center)) / (slope + slope);
+        let normal = direction.scale_add(metres, from_center).scale(F::splat(s, self.inverse_radius));
+        (direction.scale_add(metres, narrow3(near)), normal)
+    }
+
+    #[inline(always)]
+    fn off<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F<S>, F<S>) {
+        let from = hit.near() - splat_wide(s, self.center);
+        let off = from.dot(from) - D::splat(s, self.radius * self.radius);
+        let slope = narrow3(from).dot(hit.direction());
+        (off.narrow(), slope + slope)
+    }
+
+    #[inline(always)]
+    fn normal<S: Simd>(&self, s: S, _hit: &impl NearHit<S>, point: D3<S>) -> D3<S> {
+        (point - splat_wide(s, self.center)).scale(D::splat(s, 1.0 / self.radius))
+    }
+
+    fn all_normals(&self, center: DVec3, half: DVec3, test: impl Fn(DVec3, DVec3) -> bool) -> bool {
+        test((center - self.center) / self.radius, half / self.radius)
+    }
+
+    fn is_outside(&self, point: DVec3) -> bool {
+        self.center.distance(point) > self.radius * (1.0 + PLAN_MARGIN)
     }
 }

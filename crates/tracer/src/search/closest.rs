@@ -9,10 +9,10 @@ use super::packet::{Packet, PreciseRays};
 use crate::SurfaceId;
 use crate::cull::Candidates;
 use crate::film::NOTHING;
-use crate::kernel::Proposal;
+use crate::kernel::{Kernel, Proposal, Tried};
 use crate::lanes::{Bits, F, M, U, outlined};
 use crate::numeric::{CERTAIN, SETTLED_ERROR};
-use crate::snapshot::{RaySegment, Row};
+use crate::snapshot::{Instance, KernelVisitor, RaySegment};
 
 /// A shape that may be the nearest, as far as `f32` can tell.
 #[derive(Clone, Copy)]
@@ -98,78 +98,8 @@ impl<S: Simd> Searcher<'_, S> {
         best: &mut Hits<S>,
         prim: u32,
     ) {
-        let columns = self.snapshot.columns();
-        if let Row::Sphere(row) = columns.rows[prim as usize] {
-            let leaving = packet.leaving.from(self.s, prim, 0);
-            let proposal = columns.spheres[row as usize].propose(self.s, &packet.rays, leaving);
-            // A sphere may be met again by a ray that leaves it, on its far side.
-            self.accept(packet, best, packet.live, (prim, U::splat(self.s, 0)), proposal);
-        } else {
-            *best = self.try_facets(packet, *best, prim);
-        }
-    }
-
-    /// Tests every ray against one bounded shape that is no sphere. See [`outlined`].
-    #[inline(always)]
-    fn try_facets<P: PreciseRays<S>>(
-        &mut self,
-        packet: &Packet<'_, S, P>,
-        best: Hits<S>,
-        prim: u32,
-    ) -> Hits<S> {
-        let (packet, mut best) = (*packet, best);
-        outlined(
-            self.s,
-            #[inline(always)]
-            || self.try_each_facet(&packet, &mut best, prim),
-        );
-        best
-    }
-
-    #[inline(always)]
-    fn try_each_facet<P: PreciseRays<S>>(
-        &mut self,
-        packet: &Packet<'_, S, P>,
-        best: &mut Hits<S>,
-        prim: u32,
-    ) {
-        let columns = self.snapshot.columns();
-        match columns.rows[prim as usize] {
-            Row::Flat(row) => {
-                let proposal = columns.flats[row as usize].propose(self.s, &packet.rays);
-                self.consider(packet, best, packet.live, (prim, 0), proposal);
-            }
-            Row::Cuboid(row) => {
-                let cuboid = &columns.cuboids[row as usize];
-                let self_hits = self.self_hits(packet, &cuboid.faces);
-                if self_hits.undecided.any() {
-                    self.decide_all(packet, best, self_hits.undecided, prim);
-                }
-                if self_hits.possible.any() {
-                    let entered = self_hits.entered(self.s, &packet.leaving);
-                    let (proposal, facet) = cuboid.propose(self.s, &packet.rays, entered);
-                    self.accept(packet, best, self_hits.possible, (prim, facet), proposal);
-                }
-            }
-            Row::Triangles(first, count) => {
-                let triangles = &columns.triangles[first as usize..(first + count) as usize];
-                let self_hits = self.self_hits(packet, triangles);
-                if self_hits.undecided.any() {
-                    self.decide_all(packet, best, self_hits.undecided, prim);
-                }
-                if !self_hits.possible.any() {
-                    return;
-                }
-                for triangle in triangles {
-                    let proposal = triangle.propose(self.s, &packet.rays);
-                    self.consider(packet, best, self_hits.possible, (prim, triangle.facet), proposal);
-                }
-            }
-            Row::Instance(row) => self.walk_mesh(packet, best, &columns.instances[row as usize]),
-            Row::General | Row::Plane(_) | Row::Sphere(_) => {
-                self.decide_all(packet, best, packet.live, prim);
-            }
-        }
+        let (s, columns) = (self.s, self.snapshot.columns());
+        *best = columns.visit(s, prim, TryShape { search: self, packet: *packet, best: *best, prim });
     }
 
     /// Takes over a proposal where it is nearer, leaving out rays that leave that very facet.
@@ -303,5 +233,60 @@ impl<S: Simd> Searcher<'_, S> {
             best.prim.set(lane, prim);
             best.facet.set(lane, facet);
         }
+    }
+}
+
+/// Tests every ray of a packet against one shape, on copies; answers the nearest crossings after it.
+struct TryShape<'t, 'a, 'b, S: Simd, P> {
+    search: &'t mut Searcher<'a, S>,
+    packet: Packet<'b, S, P>,
+    best: Hits<S>,
+    prim: u32,
+}
+
+impl<S: Simd, P: PreciseRays<S>> KernelVisitor for TryShape<'_, '_, '_, S, P> {
+    type Output = Hits<S>;
+
+    #[inline(always)]
+    fn visit(self, kernel: &impl Kernel) -> Hits<S> {
+        let Self { search, packet, mut best, prim } = self;
+        let (s, leaving) = (search.s, packet.leaving);
+        let nothing = U::splat(s, NOTHING);
+        let mut tried =
+            Tried { prim, lanes: packet.live, leaving, entered: nothing, outside: search.outside };
+        if !kernel.faces().is_empty() {
+            let hits = search.self_hits(&packet, kernel.faces());
+            if hits.undecided.any() {
+                search.decide_all(&packet, &mut best, hits.undecided, prim);
+            }
+            if !hits.possible.any() {
+                return best;
+            }
+            (tried.lanes, tried.entered) = (hits.possible, hits.entered(s, &leaving));
+        }
+        kernel.propose(
+            s,
+            &packet.rays,
+            &tried,
+            #[inline(always)]
+            |crossing| {
+                search.accept(&packet, &mut best, crossing.lanes, (prim, crossing.facet), crossing.proposal);
+            },
+        );
+        best
+    }
+
+    #[inline(always)]
+    fn visit_mesh(self, instance: &Instance) -> Hits<S> {
+        let Self { search, packet, mut best, .. } = self;
+        search.walk_mesh(&packet, &mut best, instance);
+        best
+    }
+
+    #[inline(always)]
+    fn visit_none(self) -> Hits<S> {
+        let Self { search, packet, mut best, prim } = self;
+        search.decide_all(&packet, &mut best, packet.live, prim);
+        best
     }
 }

@@ -5,14 +5,14 @@ use catoptra_core::{LaneMask, Ray, Span};
 use fearless_simd::Simd;
 
 use super::Searcher;
-use super::packet::Leaving;
 use crate::Snapshot;
 use crate::cull::Candidates;
+use crate::film::NOTHING;
 use crate::kernel::mesh::{Fan, FanRays, RaySetup};
-use crate::kernel::{Blocking, PlaneRow, Rays, Target};
-use crate::lanes::{Bits, F, M, outlined};
+use crate::kernel::{Blocking, Kernel, Leaving, Obstacle, PlaneRow, Rays, Target, Tried};
+use crate::lanes::{Bits, F, M, U};
 use crate::numeric::CERTAIN;
-use crate::snapshot::{Instance, Row};
+use crate::snapshot::{Instance, KernelVisitor, Row};
 
 /// Segments that are tested for anything in their way, one in every lane.
 #[derive(Clone, Copy)]
@@ -150,75 +150,8 @@ impl<S: Simd> Searcher<'_, S> {
         open: M<S>,
         prim: u32,
     ) -> M<S> {
-        let columns = self.snapshot.columns();
-        if let Row::Sphere(row) = columns.rows[prim as usize] {
-            let own = rays.leaving.from(self.s, prim, 0) & open;
-            // Seen from outside, what faces the light is not shadowed by its own sphere.
-            let (tested, leaving) =
-                if self.outside { (open & !own, M::splat(self.s, false)) } else { (open, own) };
-            let sphere = &columns.spheres[row as usize];
-            let blocking = sphere.block(self.s, &rays.rays, &rays.target, leaving, self.outside);
-            self.close(segments, rays, open, tested, (prim, Some(0)), blocking)
-        } else {
-            let rays = *rays;
-            outlined(
-                self.s,
-                #[inline(always)]
-                || self.occlude_by_facets(segments, &rays, open, prim),
-            )
-        }
-    }
-
-    /// As [`occlude_by`](Self::occlude_by) for a shape that is no sphere.
-    #[inline(always)]
-    fn occlude_by_facets(
-        &mut self,
-        segments: &impl Segments<S>,
-        rays: &ShadowRays<'_, S>,
-        open: M<S>,
-        prim: u32,
-    ) -> M<S> {
-        let columns = self.snapshot.columns();
-        match columns.rows[prim as usize] {
-            Row::Flat(row) => {
-                let flat = &columns.flats[row as usize];
-                let blocking = flat.propose(self.s, &rays.rays).blocking(&rays.target);
-                let allowed = open & !rays.leaving.from(self.s, prim, 0);
-                self.close(segments, rays, open, allowed, (prim, Some(0)), blocking)
-            }
-            Row::Cuboid(row) => {
-                let cuboid = &columns.cuboids[row as usize];
-                let hits = self.self_hits_of_segments(rays, &cuboid.faces);
-                let open = self.close_exactly(segments, rays, open, hits.undecided, (prim, None));
-                if !(open & hits.possible).any() {
-                    return open;
-                }
-                let entered = hits.entered(self.s, &rays.leaving);
-                let (proposal, _) = cuboid.propose(self.s, &rays.rays, entered);
-                let blocking = proposal.blocking(&rays.target);
-                self.close(segments, rays, open, open & hits.possible, (prim, None), blocking)
-            }
-            Row::Triangles(first, count) => {
-                let triangles = &columns.triangles[first as usize..(first + count) as usize];
-                let hits = self.self_hits_of_segments(rays, triangles);
-                let mut open = self.close_exactly(segments, rays, open, hits.undecided, (prim, None));
-                if !(open & hits.possible).any() {
-                    return open;
-                }
-                for triangle in triangles {
-                    let blocking = triangle.propose(self.s, &rays.rays).blocking(&rays.target);
-                    let allowed = open & hits.possible & !rays.leaving.from(self.s, prim, triangle.facet);
-                    open = self.close(segments, rays, open, allowed, (prim, Some(triangle.facet)), blocking);
-                }
-                open
-            }
-            Row::Instance(row) => {
-                self.occlude_by_mesh(segments, rays, open, &columns.instances[row as usize])
-            }
-            Row::General | Row::Plane(_) | Row::Sphere(_) => {
-                self.close_exactly(segments, rays, open, open, (prim, None))
-            }
-        }
+        let (s, columns) = (self.s, self.snapshot.columns());
+        columns.visit(s, prim, OccludeBy { search: self, segments, rays: *rays, open, prim })
     }
 
     /// The segments still open after what a kernel found; what it could not decide is decided in `f64`.
@@ -276,5 +209,58 @@ impl<S: Simd> Searcher<'_, S> {
             }
         }
         closed
+    }
+}
+
+/// Tests segments for one shape in their way, on copies; answers those still open.
+struct OccludeBy<'t, 'a, 'b, S: Simd, G> {
+    search: &'t mut Searcher<'a, S>,
+    segments: &'t G,
+    rays: ShadowRays<'b, S>,
+    open: M<S>,
+    prim: u32,
+}
+
+impl<S: Simd, G: Segments<S>> KernelVisitor for OccludeBy<'_, '_, '_, S, G> {
+    type Output = M<S>;
+
+    #[inline(always)]
+    fn visit(self, kernel: &impl Kernel) -> M<S> {
+        let Self { search, segments, rays, mut open, prim } = self;
+        let (s, leaving) = (search.s, rays.leaving);
+        let mut tried =
+            Tried { prim, lanes: open, leaving, entered: U::splat(s, NOTHING), outside: search.outside };
+        if !kernel.faces().is_empty() {
+            let hits = search.self_hits_of_segments(&rays, kernel.faces());
+            open = search.close_exactly(segments, &rays, open, hits.undecided, (prim, None));
+            tried.lanes = open & hits.possible;
+            if !tried.lanes.any() {
+                return open;
+            }
+            tried.entered = hits.entered(s, &leaving);
+        }
+        kernel.block(
+            s,
+            &rays.rays,
+            &rays.target,
+            &tried,
+            #[inline(always)]
+            |obstacle: Obstacle<S>| {
+                let lanes = open & obstacle.lanes;
+                open = search.close(segments, &rays, open, lanes, (prim, obstacle.facet), obstacle.blocking);
+            },
+        );
+        open
+    }
+
+    #[inline(always)]
+    fn visit_mesh(self, instance: &Instance) -> M<S> {
+        self.search.occlude_by_mesh(self.segments, &self.rays, self.open, instance)
+    }
+
+    #[inline(always)]
+    fn visit_none(self) -> M<S> {
+        let Self { search, segments, rays, open, prim } = self;
+        search.close_exactly(segments, &rays, open, open, (prim, None))
     }
 }

@@ -6,8 +6,8 @@ use fearless_simd::Simd;
 
 use crate::SurfaceId;
 use crate::film::NOTHING;
-use crate::kernel::Rays;
-use crate::lanes::{D3, F, F3, M, U, magnitude};
+use crate::kernel::{Leaving, Rays};
+use crate::lanes::{D3, F, F3, M, magnitude};
 use crate::numeric::WORLD_DRIFT;
 
 /// Rays in `f64`, one after another, as those who make packets keep them. They are read anew where they are needed, so
@@ -108,40 +108,11 @@ impl<S: Simd, P: PreciseRays<S>> Packet<'_, S, P> {
     }
 }
 
-/// The surfaces that the rays of a packet leave.
-#[derive(Clone, Copy)]
-pub(crate) struct Leaving<S: Simd> {
-    /// Shape that each ray leaves, [`NOTHING`] for rays that leave none.
-    pub(crate) prim: U<S>,
-    /// Facet that each ray leaves.
-    pub(crate) facet: U<S>,
-    /// Whether any ray leaves a surface.
-    pub(crate) any: bool,
-}
-
 impl<S: Simd> Leaving<S> {
-    /// Rays that leave no surface.
-    #[inline(always)]
-    pub(crate) fn nothing(s: S) -> Self {
-        Self { prim: U::splat(s, NOTHING), facet: U::splat(s, 0), any: false }
-    }
-
     /// The surface that the ray of a lane leaves.
     pub(crate) fn lane(&self, lane: usize) -> Option<SurfaceId> {
         let prim = self.prim.lane(lane);
         (prim != NOTHING).then(|| SurfaceId { prim, facet: self.facet.lane(lane) })
-    }
-
-    /// The facet of a shape that each ray leaves; [`NOTHING`] where it leaves none of them.
-    #[inline(always)]
-    pub(crate) fn facets_of(&self, s: S, prim: u32) -> U<S> {
-        U::pick(self.prim.is(prim), self.facet, U::splat(s, NOTHING))
-    }
-
-    /// Lanes whose rays leave a facet of a shape.
-    #[inline(always)]
-    pub(crate) fn from(&self, s: S, prim: u32, facet: u32) -> M<S> {
-        if self.any { self.prim.is(prim) & self.facet.is(facet) } else { M::splat(s, false) }
     }
 }
 

@@ -3,16 +3,15 @@
 //! One Newton step from the `f32` distance, evaluated in `f64`, leaves an error of second order: about 2⁻⁴⁵ relative
 //! where the ray is not grazing, and grazing rays have been decided before.
 
-use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane, Span};
 use fearless_simd::Simd;
 
 use super::Searcher;
 use super::hits::Hits;
 use super::packet::{Packet, PreciseRays};
-use crate::kernel::PlaneRow;
-use crate::lanes::{D, D3, F, LaneVectors, M, cross, narrow3, outlined, pick3, splat_wide};
-use crate::snapshot::{Instance, Row};
+use crate::kernel::{Kernel, NearHit};
+use crate::lanes::{D, D3, F, F3, LaneVectors, M, U, cross, narrow3, outlined, pick3};
+use crate::snapshot::{Instance, KernelVisitor};
 
 /// Points and normals of the lanes that meet something, in `f64`.
 #[derive(Clone, Copy)]
@@ -75,23 +74,14 @@ impl<S: Simd> Searcher<'_, S> {
         mask: M<S>,
         prim: u32,
     ) -> Refined<S> {
-        let columns = self.snapshot.columns();
-        match columns.rows[prim as usize] {
-            Row::Plane(row) => {
-                let plane = &columns.planes[row as usize];
-                self.refine_on_plane(packet, best, plane)
-            }
-            Row::Sphere(row) => {
-                let sphere = &columns.spheres[row as usize];
-                self.refine_on_sphere(packet, best, sphere.center, sphere.radius)
-            }
-            _ => self.refine_uncommon(packet, best, mask, prim),
-        }
+        let (s, columns) = (self.s, self.snapshot.columns());
+        let (packet, best) = (*packet, *best);
+        columns.visit(s, prim, Refine { search: self, packet, best, mask, prim })
     }
 
-    /// As [`refine`](Self::refine), of shapes that are less common. See [`outlined`].
+    /// As [`refine`](Self::refine), apart; see [`outlined`].
     #[inline(always)]
-    pub(crate) fn refine_uncommon<P: PreciseRays<S>>(
+    pub(super) fn refine_apart<P: PreciseRays<S>>(
         &mut self,
         packet: &Packet<'_, S, P>,
         best: &Hits<S>,
@@ -102,89 +92,8 @@ impl<S: Simd> Searcher<'_, S> {
         outlined(
             self.s,
             #[inline(always)]
-            || self.refine_facets(&packet, &best, mask, prim),
+            || self.refine(&packet, &best, mask, prim),
         )
-    }
-
-    #[inline(always)]
-    fn refine_facets<P: PreciseRays<S>>(
-        &mut self,
-        packet: &Packet<'_, S, P>,
-        best: &Hits<S>,
-        mask: M<S>,
-        prim: u32,
-    ) -> Refined<S> {
-        let columns = self.snapshot.columns();
-        match columns.rows[prim as usize] {
-            Row::Flat(row) => {
-                let plane = &columns.flats[row as usize].plane;
-                self.refine_on_plane(packet, best, plane)
-            }
-            row @ (Row::Cuboid(_) | Row::Triangles(..)) => {
-                let none = D::splat(self.s, 0.0);
-                let (mut normal, mut distance) = (D3::splat(none), none);
-                for (facet, lanes) in best.facet.groups(mask) {
-                    let Some(plane) = columns.plane_of(row, facet) else { continue };
-                    normal = pick3(lanes, splat_wide(self.s, plane.normal), normal);
-                    distance = D::pick(lanes, D::splat(self.s, plane.distance), distance);
-                }
-                self.refine_on_planes(packet, best, normal, distance)
-            }
-            Row::Instance(row) => self.refine_on_mesh(packet, best, mask, &columns.instances[row as usize]),
-            Row::General | Row::Plane(_) | Row::Sphere(_) => self.refine_general(packet, mask, prim),
-        }
-    }
-
-    #[inline(always)]
-    fn refine_on_plane<P: PreciseRays<S>>(
-        &mut self,
-        packet: &Packet<'_, S, P>,
-        best: &Hits<S>,
-        plane: &PlaneRow,
-    ) -> Refined<S> {
-        let (normal, distance) = (splat_wide(self.s, plane.normal), D::splat(self.s, plane.distance));
-        self.refine_on_planes(packet, best, normal, distance)
-    }
-
-    /// Lanes on planes of their own, `normal · p = distance`.
-    #[inline(always)]
-    fn refine_on_planes<P: PreciseRays<S>>(
-        &mut self,
-        packet: &Packet<'_, S, P>,
-        best: &Hits<S>,
-        normal: D3<S>,
-        distance: D<S>,
-    ) -> Refined<S> {
-        let near = self.near(packet, best);
-        let off = normal.dot(near) - distance;
-        let slope = narrow3(normal).dot(packet.rays.direction);
-        let point = self.step(packet, near, off.narrow(), slope);
-        Refined { point, normal, shading: normal }
-    }
-
-    #[inline(always)]
-    fn refine_on_sphere<P: PreciseRays<S>>(
-        &mut self,
-        packet: &Packet<'_, S, P>,
-        best: &Hits<S>,
-        center: DVec3,
-        radius: f64,
-    ) -> Refined<S> {
-        let center = splat_wide(self.s, center);
-        let near = self.near(packet, best);
-        let from = near - center;
-        let off = from.dot(from) - D::splat(self.s, radius * radius);
-        let slope = narrow3(from).dot(packet.rays.direction);
-        let point = self.step(packet, near, off.narrow(), slope + slope);
-        let normal = (point - center).scale(D::splat(self.s, 1.0 / radius));
-        Refined { point, normal, shading: normal }
-    }
-
-    /// The points at the distances that `f32` has found.
-    #[inline(always)]
-    pub(crate) fn near<P: PreciseRays<S>>(&self, packet: &Packet<'_, S, P>, best: &Hits<S>) -> D3<S> {
-        let (origin, direction) = packet.precise(self.s);
-        direction.scale_add((best.t * packet.inverse_length).widen(), origin)
     }
 
     /// One Newton step along the rays from where a value is `off` and changes by `slope` a metre to where it is 0.
@@ -216,7 +125,7 @@ impl<S: Simd> Searcher<'_, S> {
         let (e, f) = (b - a, c - a);
         let across = cross(e, f);
         let own_normal = unit(self.s, across);
-        let near = self.near(packet, best);
+        let near = near(self.s, packet, best);
         let off = own_normal.dot(instance.own_points(self.s, near) - a).narrow();
         let off = off * F::splat(self.s, 1.0 / instance.scale());
         let normal = instance.world_normals(self.s, own_normal);
@@ -257,6 +166,13 @@ impl<S: Simd> Searcher<'_, S> {
     }
 }
 
+/// The points at the distances that `f32` has found.
+#[inline(always)]
+fn near<S: Simd, P: PreciseRays<S>>(s: S, packet: &Packet<'_, S, P>, best: &Hits<S>) -> D3<S> {
+    let (origin, direction) = packet.precise(s);
+    direction.scale_add((best.t * packet.inverse_length).widen(), origin)
+}
+
 /// The vector over its length: an `f32` estimate and one Newton step in `f64`.
 #[inline(always)]
 fn unit<S: Simd>(s: S, v: D3<S>) -> D3<S> {
@@ -279,5 +195,68 @@ impl<S: Simd> Refined<S> {
             normal: pick3(mask, self.normal, other.normal),
             shading: pick3(mask, self.shading, other.shading),
         }
+    }
+}
+
+/// What the lanes of a packet have met.
+pub(super) struct PacketHit<'a, 'b, S: Simd, P> {
+    pub(super) s: S,
+    pub(super) packet: &'a Packet<'b, S, P>,
+    pub(super) best: &'a Hits<S>,
+    pub(super) mask: M<S>,
+}
+
+impl<S: Simd, P: PreciseRays<S>> NearHit<S> for PacketHit<'_, '_, S, P> {
+    #[inline(always)]
+    fn point(&self) -> F3<S> {
+        self.packet.point(self.best.t)
+    }
+
+    #[inline(always)]
+    fn near(&self) -> D3<S> {
+        near(self.s, self.packet, self.best)
+    }
+
+    #[inline(always)]
+    fn direction(&self) -> F3<S> {
+        self.packet.rays.direction
+    }
+
+    #[inline(always)]
+    fn facets(&self) -> (U<S>, M<S>) {
+        (self.best.facet, self.mask)
+    }
+}
+
+struct Refine<'t, 'a, 'b, S: Simd, P> {
+    search: &'t mut Searcher<'a, S>,
+    packet: Packet<'b, S, P>,
+    best: Hits<S>,
+    mask: M<S>,
+    prim: u32,
+}
+
+impl<S: Simd, P: PreciseRays<S>> KernelVisitor for Refine<'_, '_, '_, S, P> {
+    type Output = Refined<S>;
+
+    #[inline(always)]
+    fn visit(self, kernel: &impl Kernel) -> Refined<S> {
+        let Self { search, packet, best, mask, .. } = self;
+        let s = search.s;
+        let hit = PacketHit { s, packet: &packet, best: &best, mask };
+        let (off, slope) = kernel.off(s, &hit);
+        let point = search.step(&packet, hit.near(), off, slope);
+        let normal = kernel.normal(s, &hit, point);
+        Refined { point, normal, shading: normal }
+    }
+
+    #[inline(always)]
+    fn visit_mesh(self, instance: &Instance) -> Refined<S> {
+        self.search.refine_on_mesh(&self.packet, &self.best, self.mask, instance)
+    }
+
+    #[inline(always)]
+    fn visit_none(self) -> Refined<S> {
+        self.search.refine_general(&self.packet, self.mask, self.prim)
     }
 }

@@ -5,9 +5,9 @@ use fearless_simd::Simd;
 
 use super::Searcher;
 use super::occluded::ShadowRays;
-use super::packet::{Leaving, Packet};
+use super::packet::Packet;
 use crate::film::NOTHING;
-use crate::kernel::{End, PlaneRow, Rays};
+use crate::kernel::{End, Leaving, PlaneRow, Rays};
 use crate::lanes::{F, M, U, splat3};
 use crate::numeric::{DIRECTION_ERROR, PLAN_MARGIN};
 

@@ -7,9 +7,10 @@ use fearless_simd::Simd;
 use super::Searcher;
 use super::hits::Hits;
 use super::packet::{Packet, PreciseRays};
-use crate::kernel::SphereRow;
-use crate::lanes::{F, F3, M, narrow3, outlined, splat_wide, splat3};
-use crate::snapshot::Row;
+use super::refine::PacketHit;
+use crate::kernel::Kernel;
+use crate::lanes::{F3, M, narrow3, outlined};
+use crate::snapshot::{Instance, KernelVisitor};
 
 /// Points and normals of the lanes that meet something.
 #[derive(Clone, Copy)]
@@ -50,48 +51,20 @@ impl<S: Simd> Searcher<'_, S> {
         prim: u32,
     ) -> Surface<S> {
         let columns = self.snapshot.columns();
-        let point = packet.point(best.t);
-        match columns.rows[prim as usize] {
-            Row::Plane(row) => Surface::flat(point, splat3(self.s, columns.planes[row as usize].normal32)),
-            Row::Flat(row) => {
-                Surface::flat(point, splat3(self.s, columns.flats[row as usize].plane.normal32))
-            }
-            Row::Sphere(row) => self.surface_of_sphere(packet, best, &columns.spheres[row as usize]),
-            row @ (Row::Cuboid(_) | Row::Triangles(..)) => {
-                let mut normal = point;
-                for (facet, lanes) in best.facet.groups(mask) {
-                    let Some(plane) = columns.plane_of(row, facet) else { continue };
-                    normal = F3::select(lanes, splat3(self.s, plane.normal32), normal);
-                }
-                Surface::flat(point, normal)
-            }
-            Row::Instance(_) | Row::General => {
-                let refined = self.refine_uncommon(packet, best, mask, prim);
-                Surface {
-                    point: narrow3(refined.point),
-                    normal: narrow3(refined.normal),
-                    shading: narrow3(refined.shading),
-                }
-            }
-        }
+        columns.visit_here(prim, SurfaceOf { search: self, packet, best, mask, prim })
     }
 
-    /// Relative to the centre, where `f32` is fine enough for sharp highlights; one Newton step brings it there.
+    /// The surface that all lanes of a packet meet, of a shape with that kernel.
     #[inline(always)]
-    pub(crate) fn surface_of_sphere<P: PreciseRays<S>>(
+    pub(crate) fn surface_of<P: PreciseRays<S>>(
         &self,
         packet: &Packet<'_, S, P>,
         best: &Hits<S>,
-        sphere: &SphereRow,
+        kernel: &impl Kernel,
     ) -> Surface<S> {
-        let direction = packet.rays.direction;
-        let near = self.near(packet, best);
-        let from_center = narrow3(near - splat_wide(self.s, sphere.center));
-        let radius2 = F::splat(self.s, (sphere.radius * sphere.radius) as f32);
-        let slope = from_center.dot(direction);
-        let metres = (radius2 - from_center.dot(from_center)) / (slope + slope);
-        let normal = direction.scale_add(metres, from_center).scale(F::splat(self.s, sphere.inverse_radius));
-        Surface::flat(direction.scale_add(metres, narrow3(near)), normal)
+        let hit = PacketHit { s: self.s, packet, best, mask: packet.live };
+        let (point, normal) = kernel.surface(self.s, &hit);
+        Surface::flat(point, normal)
     }
 
     /// Adds the lanes of another shape. Most packets meet one shape; see [`outlined`].
@@ -110,5 +83,47 @@ impl<S: Simd> Searcher<'_, S> {
             #[inline(always)]
             || self.surface(&packet, &best, mask, prim).over(mask, before),
         )
+    }
+}
+
+struct SurfaceOf<'t, 'a, 'b, S: Simd, P> {
+    search: &'t mut Searcher<'a, S>,
+    packet: &'t Packet<'b, S, P>,
+    best: &'t Hits<S>,
+    mask: M<S>,
+    prim: u32,
+}
+
+impl<S: Simd, P: PreciseRays<S>> SurfaceOf<'_, '_, '_, S, P> {
+    /// From where the lanes meet the shape in `f64`.
+    #[inline(always)]
+    fn from_refined(self) -> Surface<S> {
+        let refined = self.search.refine_apart(self.packet, self.best, self.mask, self.prim);
+        Surface {
+            point: narrow3(refined.point),
+            normal: narrow3(refined.normal),
+            shading: narrow3(refined.shading),
+        }
+    }
+}
+
+impl<S: Simd, P: PreciseRays<S>> KernelVisitor for SurfaceOf<'_, '_, '_, S, P> {
+    type Output = Surface<S>;
+
+    #[inline(always)]
+    fn visit(self, kernel: &impl Kernel) -> Surface<S> {
+        let (s, packet, best, mask) = (self.search.s, self.packet, self.best, self.mask);
+        let (point, normal) = kernel.surface(s, &PacketHit { s, packet, best, mask });
+        Surface::flat(point, normal)
+    }
+
+    #[inline(always)]
+    fn visit_mesh(self, _: &Instance) -> Surface<S> {
+        self.from_refined()
+    }
+
+    #[inline(always)]
+    fn visit_none(self) -> Surface<S> {
+        self.from_refined()
     }
 }

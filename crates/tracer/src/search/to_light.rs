@@ -6,8 +6,9 @@ use fearless_simd::Simd;
 
 use super::Searcher;
 use super::occluded::{Segments, ShadowRays};
-use super::packet::{Leaving, Packet, PreciseRays};
+use super::packet::{Packet, PreciseRays};
 use crate::Snapshot;
+use crate::kernel::Leaving;
 use crate::kernel::mesh::{Bundle, Fan, FanRays, Lines, RaySetup};
 use crate::lanes::{D3, F, M, pick3, splat_wide, widen3};
 use crate::numeric::{END_ERROR, FAN_STEEP, POINT_ERROR, START_ERROR};

@@ -6,10 +6,10 @@ use fearless_simd::Simd;
 
 use super::Shader;
 use super::chunk::{CHUNK, Chunk};
-use crate::kernel::{Rays, Target};
+use crate::kernel::{Leaving, Rays, Target};
 use crate::lanes::{F, F3, M, magnitude, outlined};
 use crate::numeric::POINT_ERROR;
-use crate::search::{Leaving, ShadowRays, ToLight, drift};
+use crate::search::{ShadowRays, ToLight, drift};
 use crate::stream::Batch;
 
 /// Adds to the first packets of the chunk what a light makes of them.

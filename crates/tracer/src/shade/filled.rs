@@ -7,7 +7,7 @@ use super::hits::Finder;
 use crate::Tile;
 use crate::cull::Candidates;
 use crate::kernel::{PlaneRow, Proposal, SphereRow};
-use crate::lanes::{F, M, U, outlined, splat3};
+use crate::lanes::{F, M, U, outlined};
 use crate::search::{Hits, Packet, PreciseRays, Searcher, Surface};
 use crate::snapshot::Row;
 use crate::stream::{Batch, Part};
@@ -39,7 +39,7 @@ impl<S: Simd> Filler<S> for &PlaneRow {
         packet: &Packet<'_, S, P>,
         best: &Hits<S>,
     ) -> Surface<S> {
-        Surface::flat(packet.point(best.t), splat3(search.s, self.normal32))
+        search.surface_of(packet, best, *self)
     }
 }
 
@@ -56,7 +56,7 @@ impl<S: Simd> Filler<S> for &SphereRow {
         packet: &Packet<'_, S, P>,
         best: &Hits<S>,
     ) -> Surface<S> {
-        search.surface_of_sphere(packet, best, self)
+        search.surface_of(packet, best, *self)
     }
 }
 

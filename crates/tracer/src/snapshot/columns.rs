@@ -1,15 +1,19 @@
 //! Shapes as the SIMD kernels read them: constants in `f32` to propose with and in `f64` to settle with.
 
+use std::ops::Deref;
 use std::sync::Arc;
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Aabb, Placement, Shape};
+use fearless_simd::Simd;
 
 use super::Prim;
 use super::origin::relative;
+use super::rows::{KernelVisitor, Row, Rows};
 use crate::accel::MeshTree;
-use crate::kernel::{CuboidRow, FlatRow, PlaneRow, SphereRow, TriangleRow};
-use crate::numeric::{ORDINARY, PLAN_MARGIN};
+use crate::kernel::{CuboidRow, FlatRow, Kernel, PlaneRow, SphereRow, TriangleRow};
+use crate::lanes::outlined;
+use crate::numeric::ORDINARY;
 
 /// Where a mesh stands.
 #[derive(Debug, Clone)]
@@ -34,20 +38,6 @@ impl Affine {
         let matrix = [0, 1, 2].map(|row| DVec3::from(columns.map(|column| column[row])));
         (*placement != Placement::IDENTITY).then(|| Self { matrix, shift: placement.point(DVec3::ZERO) })
     }
-}
-
-/// What stands behind a shape of the snapshot.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Row {
-    Plane(u32),
-    Sphere(u32),
-    Flat(u32),
-    Cuboid(u32),
-    /// The first of so many triangles, the faces of one shape in order of their facets.
-    Triangles(u32, u32),
-    Instance(u32),
-    /// No kernel: crossed in `f64`, one ray at a time.
-    General,
 }
 
 /// A ball round a shape.
@@ -77,15 +67,10 @@ impl Ball {
     }
 }
 
-/// The rows of all kernels.
+/// All shapes as kernels read them.
 #[derive(Debug, Default)]
 pub(crate) struct Columns {
-    pub(crate) planes: Vec<PlaneRow>,
-    pub(crate) spheres: Vec<SphereRow>,
-    pub(crate) flats: Vec<FlatRow>,
-    pub(crate) cuboids: Vec<CuboidRow>,
-    pub(crate) triangles: Vec<TriangleRow>,
-    pub(crate) instances: Vec<Instance>,
+    kernels: Rows,
     /// What stands behind each shape.
     pub(crate) rows: Vec<Row>,
     /// Shapes that have an end, in the order of the tree's items.
@@ -96,6 +81,15 @@ pub(crate) struct Columns {
     pub(crate) smooth: bool,
     /// Shapes without an end that have no kernel.
     pub(crate) general_unbounded: Vec<u32>,
+}
+
+impl Deref for Columns {
+    type Target = Rows;
+
+    #[inline(always)]
+    fn deref(&self) -> &Rows {
+        &self.kernels
+    }
 }
 
 impl Columns {
@@ -136,29 +130,34 @@ impl Columns {
         }
     }
 
-    /// The plane that a facet of a flat shape or of a solid with flat faces lies in.
+    /// Shows a visitor what a shape is to kernels. Kernels of common shapes are compiled into the caller, the others apart;
+    /// see [`outlined`].
     #[inline(always)]
-    pub(crate) fn plane_of(&self, row: Row, facet: u32) -> Option<&PlaneRow> {
-        match row {
-            Row::Plane(row) => Some(&self.planes[row as usize]),
-            Row::Flat(row) => Some(&self.flats[row as usize].plane),
-            Row::Cuboid(row) => self.cuboids[row as usize].faces.get(facet as usize),
-            Row::Triangles(first, _) => self.triangles.get((first + facet) as usize).map(|face| &face.plane),
-            Row::Sphere(_) | Row::Instance(_) | Row::General => None,
+    pub(crate) fn visit<S: Simd, V: KernelVisitor>(&self, s: S, prim: u32, visitor: V) -> V::Output {
+        let row = self.rows[prim as usize];
+        match self.kernels.visit_common(row, visitor) {
+            Ok(output) => output,
+            Err(visitor) => outlined(
+                s,
+                #[inline(always)]
+                || self.kernels.visit_other(row, visitor),
+            ),
+        }
+    }
+
+    /// As [`visit`](Self::visit), with all kernels compiled into the caller.
+    #[inline(always)]
+    pub(crate) fn visit_here<V: KernelVisitor>(&self, prim: u32, visitor: V) -> V::Output {
+        let row = self.rows[prim as usize];
+        match self.kernels.visit_common(row, visitor) {
+            Ok(output) => output,
+            Err(visitor) => self.kernels.visit_other(row, visitor),
         }
     }
 
     /// Whether a point lies outside all convex solids that have a kernel.
     pub(crate) fn is_outside(&self, point: DVec3) -> bool {
-        let off_sphere = |row: &SphereRow| row.center.distance(point) > row.radius * (1.0 + PLAN_MARGIN);
-        let before = |face: &PlaneRow| {
-            let PlaneRow { normal, distance, .. } = *face;
-            normal.dot(point) - distance > PLAN_MARGIN * (distance.abs() + point.abs().element_sum())
-        };
-        let mut shapes = self.triangles.chunk_by(|a, b| a.plane.prim == b.plane.prim);
-        self.spheres.iter().all(off_sphere)
-            && self.cuboids.iter().all(|cuboid| cuboid.faces.iter().any(before))
-            && shapes.all(|faces| faces.len() == 1 || faces.iter().any(|face| before(&face.plane)))
+        (0..self.rows.len() as u32).all(|prim| self.visit_here(prim, IsOutside(point)))
     }
 
     /// How many shapes have no kernel.
@@ -172,20 +171,21 @@ impl Columns {
         }
         match shape {
             Shape::Plane(plane) => {
-                Row::Plane(push(&mut self.planes, PlaneRow::new(plane.point(), plane.normal(), id)))
+                Row::Plane(push(&mut self.kernels.planes, PlaneRow::new(plane.point(), plane.normal(), id)))
             }
             Shape::Sphere(sphere) => {
-                Row::Sphere(push(&mut self.spheres, SphereRow::new(sphere.center(), sphere.radius())))
+                Row::Sphere(push(&mut self.kernels.spheres, SphereRow::new(sphere.center(), sphere.radius())))
             }
             Shape::Rectangle(r) => {
-                Row::Flat(push(&mut self.flats, FlatRow::rectangle(r.corner(), r.edges(), id)))
+                Row::Flat(push(&mut self.kernels.flats, FlatRow::rectangle(r.corner(), r.edges(), id)))
             }
-            Shape::Disk(d) => {
-                Row::Flat(push(&mut self.flats, FlatRow::disk(d.center(), d.normal(), d.radius(), id)))
-            }
+            Shape::Disk(d) => Row::Flat(push(
+                &mut self.kernels.flats,
+                FlatRow::disk(d.center(), d.normal(), d.radius(), id),
+            )),
             Shape::Cuboid(cuboid) => {
                 let Shape::Cuboid(in_frame) = &prim.shape else { return Row::General };
-                Row::Cuboid(push(&mut self.cuboids, CuboidRow::new(cuboid, in_frame, id)))
+                Row::Cuboid(push(&mut self.kernels.cuboids, CuboidRow::new(cuboid, in_frame, id)))
             }
             Shape::Triangle(t) => self.add_facets(id, &[t.corners()]),
             Shape::Tetrahedron(t) => self.add_facets(id, &[0, 1, 2, 3].map(|face| t.face(face))),
@@ -193,7 +193,7 @@ impl Columns {
                 Some(tree) => {
                     let tree = Arc::clone(&meshes[tree as usize]);
                     let instance = Instance { prim: id, tree, to_object: Affine::of(mesh.to_object()) };
-                    Row::Instance(push(&mut self.instances, instance))
+                    Row::Instance(push(&mut self.kernels.instances, instance))
                 }
                 None => Row::General,
             },
@@ -207,9 +207,28 @@ impl Columns {
         let rows: Option<Vec<_>> =
             numbered.map(|(facet, corners)| TriangleRow::new(*corners, id, facet)).collect();
         let Some(rows) = rows else { return Row::General };
-        let first = self.triangles.len() as u32;
-        self.triangles.extend(rows);
+        let first = self.kernels.triangles.len() as u32;
+        self.kernels.triangles.extend(rows);
         Row::Triangles(first, facets.len() as u32)
+    }
+}
+
+/// Whether a point lies outside a shape that has an inside.
+struct IsOutside(DVec3);
+
+impl KernelVisitor for IsOutside {
+    type Output = bool;
+
+    fn visit(self, kernel: &impl Kernel) -> bool {
+        kernel.is_outside(self.0)
+    }
+
+    fn visit_mesh(self, _: &Instance) -> bool {
+        true
+    }
+
+    fn visit_none(self) -> bool {
+        true
     }
 }
 

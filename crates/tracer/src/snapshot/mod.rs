@@ -5,6 +5,7 @@ mod extract;
 mod lighting;
 mod needs;
 mod origin;
+mod rows;
 mod search;
 
 use std::sync::Arc;
@@ -12,9 +13,10 @@ use std::sync::Arc;
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Constant3, EntityId, Light, Material, Ray, Rgb, Shape};
 
-pub(crate) use columns::{Affine, Ball, Columns, Instance, Row};
+pub(crate) use columns::{Affine, Ball, Columns, Instance};
 pub(crate) use lighting::{LightRow, MaterialRow};
 pub use needs::Needs;
+pub(crate) use rows::{KernelVisitor, Row};
 pub(crate) use search::RaySegment;
 pub use search::{Hit, SurfaceId};
 

@@ -5,9 +5,9 @@ use fearless_simd::Simd;
 
 use crate::film::{BLOCK, BLOCK_PIXELS};
 use crate::frame::Frame;
-use crate::kernel::Rays;
+use crate::kernel::{Leaving, Rays};
 use crate::lanes::{Column, D, D3, F, F3, M, U, Word, load3, magnitude, narrow3, splat_wide, store3};
-use crate::search::{Leaving, Packet, PreciseRays, drift, kernel_rays};
+use crate::search::{Packet, PreciseRays, drift, kernel_rays};
 use crate::{Region, Size, Tile};
 
 /// The camera's rays through a tile, column by column, in the order of the tile's pixels.

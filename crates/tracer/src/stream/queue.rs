@@ -4,12 +4,12 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Span};
 use fearless_simd::Simd;
 
-use crate::kernel::{Rays, Target};
+use crate::kernel::{Leaving, Rays, Target};
 use crate::lanes::{
     Column, D, D3, F, F3, M, U, compress_wide3, compress3, load_wide3, load3, narrow3, store_wide3, store3,
 };
 use crate::numeric::{END_ERROR, POINT_ERROR};
-use crate::search::{Leaving, Packet, PreciseRays, ShadowRays, drift, nearly_unit_rays};
+use crate::search::{Packet, PreciseRays, ShadowRays, drift, nearly_unit_rays};
 
 /// Columns of rays; each has room for one more packet than there are rays.
 #[derive(Default)]

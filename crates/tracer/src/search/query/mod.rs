@@ -9,11 +9,11 @@ use fearless_simd::{Level, Simd};
 
 use single_mesh::single_mesh;
 
-use super::{Hits, Leaving, OwnSegments, Packet, PreciseRays, Searcher, ShadowRays, drift, kernel_rays};
+use super::{Hits, OwnSegments, Packet, PreciseRays, Searcher, ShadowRays, drift, kernel_rays};
 use crate::cull::Candidates;
 use crate::film::NOTHING;
-use crate::kernel::Target;
 use crate::kernel::mesh::Visits;
+use crate::kernel::{Leaving, Target};
 use crate::lanes::{Bits, D, D3, F, F3, M, U, Work, at_level, load_wide3, narrow3, splat_wide};
 use crate::numeric::{END_ERROR, ORDINARY, POINT_ERROR};
 use crate::rays::{HitSlice, RaySlice};

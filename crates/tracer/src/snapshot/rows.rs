@@ -1,0 +1,74 @@
+//! Which kernels there are, and which of them stands behind a shape.
+
+use super::Instance;
+use crate::kernel::{CuboidRow, Faces, FlatRow, Kernel, PlaneRow, SphereRow, TriangleRow};
+
+/// What wants to know which kernel stands behind a shape.
+pub(crate) trait KernelVisitor: Sized {
+    /// What the work comes to.
+    type Output;
+
+    /// Works with a kernel.
+    fn visit(self, kernel: &impl Kernel) -> Self::Output;
+
+    /// Works with a mesh.
+    fn visit_mesh(self, instance: &Instance) -> Self::Output;
+
+    /// Works without a kernel: the shape is crossed in `f64`, one ray at a time.
+    fn visit_none(self) -> Self::Output;
+}
+
+/// Declares the kernels: a column of rows, and the name of what stands behind a shape. Those of common shapes come first.
+macro_rules! rows {
+    (common: $($common:ident: $Common:ident($CommonRow:ident)),+; other: $($other:ident: $Other:ident($OtherRow:ident)),+;) => {
+        /// What stands behind a shape of the snapshot, by its place in a column.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub(crate) enum Row {
+            $($Common(u32),)+
+            $($Other(u32),)+
+            /// The first of a number of triangles, the faces of one shape in order of their facets.
+            Triangles(u32, u32),
+            Instance(u32),
+            /// No kernel.
+            General,
+        }
+
+        /// The rows of all kernels.
+        #[derive(Debug, Default)]
+        pub(crate) struct Rows {
+            $(pub(crate) $common: Vec<$CommonRow>,)+
+            $(pub(crate) $other: Vec<$OtherRow>,)+
+            pub(crate) triangles: Vec<TriangleRow>,
+            pub(crate) instances: Vec<Instance>,
+        }
+
+        impl Rows {
+            /// Shows a visitor a kernel of a common shape; gives the visitor back where there is none.
+            #[inline(always)]
+            pub(super) fn visit_common<V: KernelVisitor>(&self, row: Row, visitor: V) -> Result<V::Output, V> {
+                match row {
+                    $(Row::$Common(at) => Ok(visitor.visit(&self.$common[at as usize])),)+
+                    _ => Err(visitor),
+                }
+            }
+
+            /// Shows a visitor what else stands behind a shape.
+            #[inline(always)]
+            pub(super) fn visit_other<V: KernelVisitor>(&self, row: Row, visitor: V) -> V::Output {
+                match row {
+                    $(Row::$Other(at) => visitor.visit(&self.$other[at as usize]),)+
+                    Row::Triangles(first, count) => {
+                        visitor.visit(&Faces(&self.triangles[first as usize..(first + count) as usize]))
+                    }
+                    Row::Instance(at) => visitor.visit_mesh(&self.instances[at as usize]),
+                    Row::General $(| Row::$Common(_))+ => visitor.visit_none(),
+                }
+            }
+        }
+    };
+}
+
+rows! {
+    common: planes: Plane(PlaneRow), spheres: Sphere(SphereRow);
+    other: flats: Flat(FlatRow), cuboids: Cuboid(CuboidRow);
+}
