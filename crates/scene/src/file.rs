@@ -10,6 +10,7 @@ use crate::build::{self, Id};
 use crate::outline::Outline;
 use crate::read::{self, LONGEST, Meshes};
 use crate::report::{Complaints, SceneTextError};
+use crate::slip;
 use crate::write::{self, Splice};
 
 /// The text of a scene, kept so that saving changes only what has changed.
@@ -62,11 +63,22 @@ pub fn parse(text: &str, name: &str, base: Option<&Path>) -> Result<(Scene, Scen
     let mut complaints = Complaints::new();
     let mut meshes = Meshes::new(base);
     let outline = read::read(text, &mut meshes, &mut complaints);
-    let (scene, ids) = build::build(&outline, text, &mut complaints);
+    let (scene, ids) = build::build(&outline, &mut complaints);
     if complaints.count() > 0 {
-        return Err(complaints.into_error(name, text));
+        return Err(look_again(text, &mut meshes, complaints).into_error(name, text));
     }
     Ok((scene, SceneFile { path: None, text: text.to_owned(), outline, ids, meshes }))
+}
+
+/// All that is wrong with a text that was refused: slips hide what is behind them, so it is read once more without them.
+fn look_again(text: &str, meshes: &mut Meshes, found: Complaints) -> Complaints {
+    let Some(mended) = slip::mend(text) else { return found };
+    let (mut slips, mut behind) = (Complaints::new(), Complaints::new());
+    mended.tell(&mut slips);
+    let outline = read::read(&mended.text, meshes, &mut behind);
+    build::build(&outline, &mut behind);
+    slips.take_over(behind, |at| mended.place(at));
+    slips
 }
 
 fn not_utf8(error: &std::string::FromUtf8Error, name: &str) -> SceneTextError {

@@ -13,16 +13,20 @@
 
 pub mod atomic;
 mod build;
+mod excerpt;
 mod file;
 pub mod image;
 pub mod mesh;
 mod outline;
+mod printable;
 mod read;
 mod report;
 mod scan;
+mod slip;
 mod state;
 pub mod words;
 mod write;
 
 pub use file::{SaveError, SceneFile, load, parse};
+pub use printable::printable;
 pub use report::{Complaint, SceneTextError};

@@ -21,8 +21,6 @@ pub(crate) enum Mark {
     Comment {
         /// How deep comments lie inside it, itself included.
         depth: usize,
-        /// Whether it ends before the text does.
-        closed: bool,
     },
 }
 
@@ -80,7 +78,7 @@ impl<'a> Marks<'a> {
                 self.at += 1;
             }
         }
-        Mark::Comment { depth: deepest, closed: depth == 0 }
+        Mark::Comment { depth: deepest }
     }
 
     /// Goes past a string, given that a quote stands here; one that is not closed ends with its line.
@@ -150,7 +148,7 @@ pub(crate) fn too_deep(text: &str) -> Option<usize> {
         match mark {
             Mark::Open => depth += 1,
             Mark::Close => depth = depth.saturating_sub(1),
-            Mark::Comment { depth, .. } if depth > DEEPEST => return Some(at),
+            Mark::Comment { depth } if depth > DEEPEST => return Some(at),
             Mark::Comment { .. } | Mark::Slashdash => {}
         }
         if depth > DEEPEST {
@@ -158,12 +156,6 @@ pub(crate) fn too_deep(text: &str) -> Option<usize> {
         }
     }
     None
-}
-
-/// Where a comment begins that is never closed, if there is one.
-pub(crate) fn unclosed_comment(text: &str) -> Option<usize> {
-    Marks::from(text, 0)
-        .find_map(|(at, mark)| matches!(mark, Mark::Comment { closed: false, .. }).then_some(at))
 }
 
 /// The block of a node whose text is `node` in `text`: from its `{` to past its `}`. Blocks that are commented out
@@ -202,8 +194,7 @@ mod tests {
     #[test]
     fn braces_in_strings_and_comments_are_no_blocks() {
         let text = "a \"{\\\"{\" #\"{\"{\"# /* { /* { */ { */ // {\n\"\"\"{\n\"{\"\n\"\"\" b { c }";
-        let marks: Vec<_> =
-            Marks::from(text, 0).filter(|(_, m)| *m != Mark::Comment { depth: 2, closed: true }).collect();
+        let marks: Vec<_> = Marks::from(text, 0).filter(|(_, m)| *m != Mark::Comment { depth: 2 }).collect();
         assert_eq!(marks, [(text.len() - 5, Mark::Open), (text.len() - 1, Mark::Close)]);
     }
 

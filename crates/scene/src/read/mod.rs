@@ -14,6 +14,8 @@ use crate::report::Complaints;
 use crate::scan;
 pub(crate) use meshes::Meshes;
 pub(crate) use node::MATERIAL;
+pub(crate) use placement::{ABOUT, STEPS};
+pub(crate) use value::arity;
 
 /// Longer scene text is refused: the parser needs about a second for each megabyte.
 pub(crate) const LONGEST: usize = 16 << 20;
@@ -55,29 +57,17 @@ fn span_of(span: miette::SourceSpan) -> Span {
     span.offset()..span.offset() + span.len()
 }
 
-/// Passes on what the KDL library complains about, with hints for slips that it does not know.
+/// Passes on the first thing that the KDL library complains about: the others follow from it.
 fn syntax(text: &str, error: &kdl::KdlError, complaints: &mut Complaints) {
-    if let Some(at) = scan::unclosed_comment(text) {
-        complaints.add_with(at..at + 2, "this comment is never closed", "close it with */");
-        return;
-    }
-    for found in &error.diagnostics {
-        let span = span_of(found.span);
-        let message = found.message.clone().unwrap_or_else(|| "this is no valid KDL".to_owned());
-        let word = text.get(span.clone()).unwrap_or_default().trim();
-        let help = match word {
-            "true" | "false" | "null" | "inf" | "-inf" | "nan" => Some(format!("write #{word}")),
-            "}" if message.contains("end of document") => Some("there is no block to close here".to_owned()),
-            _ => found.help.clone(),
-        };
-        match help {
-            Some(help) => complaints.add_with(span, message, help),
-            None => complaints.add(span, message),
-        }
-    }
-    if error.diagnostics.is_empty() {
-        complaints.add(0..0, "this is no valid KDL");
-    }
+    let form = "a node is written: word \"name\" { field value; field value }";
+    let Some(found) = error.diagnostics.first() else {
+        return complaints.add_with(0..0, "this is no scene text", form);
+    };
+    let span = span_of(found.span);
+    let line = text.get(span.clone()).unwrap_or_default().split('\n').next().unwrap_or_default();
+    let end = span.start + line.len();
+    let what = found.message.as_deref().unwrap_or("no valid KDL");
+    complaints.add_with(span.start..end, format!("this cannot be read as scene text ({what})"), form);
 }
 
 /// The words that can stand as nodes at the top or, with `in_group`, in a group.

@@ -1,0 +1,201 @@
+//! What did somebody mean who wrote scene text as another language has it? Slips with one complaint each, and a copy of
+//! the text without them, so that what is wrong behind them can be found in the same look.
+//!
+//! Only text that has been refused is looked at. The kinds of slips that are known, file by file:
+//!
+//! * `quote`: quotes that are missing or of another sort, `\` in paths;
+//! * `lex`: comments and controls that KDL has not;
+//! * `structure`: braces and `;` that are missing or too many;
+//! * `statement`: `=`, `:` and calls between a word and its values, commas, brackets, words of other languages;
+//! * `number`: `.5`, `5.`, `1e5f`, `50%`.
+
+mod lex;
+mod number;
+mod quote;
+mod statement;
+mod structure;
+mod value;
+
+use crate::outline::Span;
+use crate::report::Complaints;
+use crate::scan;
+pub(crate) use quote::is_odd as is_odd_quote;
+use structure::Statement;
+
+/// One thing to be put right, and how.
+#[derive(Debug, Clone)]
+struct Touch {
+    /// What is complained about.
+    at: Span,
+    /// What of the text is to be replaced, and with what: as many line ends as it has.
+    edit: (Span, String),
+    /// Empty where another complaint tells it.
+    message: String,
+    help: Help,
+}
+
+/// What the hint of a slip says.
+#[derive(Debug, Clone)]
+enum Help {
+    /// This, and nothing of the statement that it stands in: it is a slip of its own.
+    Alone(String),
+    /// This, if nothing else in the statement is wrong, else the statement as it should be.
+    Says(String),
+    /// The statement as it should be, after these words.
+    Statement(&'static str),
+    /// This, whatever else is wrong: nobody can tell what the statement should be.
+    Unknown(String),
+}
+
+/// A text without its slips.
+#[derive(Debug)]
+pub(crate) struct Mended {
+    /// The text with every slip put right.
+    pub(crate) text: String,
+    /// What was replaced: where in the text as it was, and where in `text`; in order.
+    edits: Vec<(Span, Span)>,
+    slips: Vec<(Span, String, String)>,
+}
+
+/// Longer corrections are not shown whole.
+const LONGEST_HELP: usize = 160;
+
+/// Looks for slips; `None` if there are none, or if the text is too deep to be read whatever is done.
+pub(crate) fn mend(text: &str) -> Option<Mended> {
+    if scan::too_deep(text).is_some() {
+        return None;
+    }
+    if let Some(language) = foreign(text) {
+        let start = text.len() - text.trim_start_matches(['\u{feff}', ' ', '\t', '\r', '\n']).len();
+        let help = "scene text is written: sphere \"ball\" material=\"white\" { center 0 1 0; radius 1 }";
+        let slip = (start..start + 1, format!("this is {language}, not scene text"), help.to_owned());
+        return Some(Mended { text: String::new(), edits: Vec::new(), slips: vec![slip] });
+    }
+    let lexed = lex::lex(text);
+    let built = structure::build(text, &lexed);
+    let mut touches = lexed.touches;
+    touches.extend(built.touches);
+    for statement in &built.statements {
+        touches.extend(statement::touch(text, statement, &built.statements));
+    }
+    touches.sort_by_key(|touch| (touch.edit.0.start, touch.edit.0.end));
+    keep_apart(&mut touches);
+    if touches.is_empty() {
+        return None;
+    }
+    let slips = told(text, &touches, &built.statements);
+    let (mended, edits) = apply(text, &touches);
+    Some(Mended { text: mended, edits, slips })
+}
+
+impl Mended {
+    /// Where a byte of the mended text stands in the text as it was; `None` within what was put there instead.
+    pub(crate) fn place(&self, at: usize) -> Option<usize> {
+        let after = self.edits.partition_point(|(_, new)| new.end <= at);
+        match (self.edits.get(after), after.checked_sub(1).map(|last| &self.edits[last])) {
+            (Some((_, new)), _) if new.start <= at => None,
+            (_, Some((old, new))) => Some(old.end + (at - new.end)),
+            (_, None) => Some(at),
+        }
+    }
+
+    /// Notes the slips.
+    pub(crate) fn tell(&self, complaints: &mut Complaints) {
+        for (at, message, help) in &self.slips {
+            complaints.add_with(at.clone(), message.as_str(), help.as_str());
+        }
+    }
+}
+
+/// The language of a text that is no scene text from its first word on.
+fn foreign(text: &str) -> Option<&'static str> {
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    let inner = text.strip_prefix(['{', '[']).map(str::trim_start);
+    if inner.is_some_and(|inner| inner.starts_with(['"', '{', '[', '}', ']'])) {
+        return Some("JSON");
+    }
+    let tag = text.strip_prefix('<')?;
+    (tag.starts_with(|c: char| c == '?' || c.is_ascii_alphabetic()) || tag.starts_with("!DOCTYPE"))
+        .then_some("XML")
+}
+
+/// Of changes that overlap the first stands.
+fn keep_apart(touches: &mut Vec<Touch>) {
+    let mut end = 0;
+    touches.retain(|touch| {
+        let apart = touch.edit.0.start >= end;
+        if apart {
+            end = touch.edit.0.end;
+        }
+        apart
+    });
+}
+
+fn apply(text: &str, touches: &[Touch]) -> (String, Vec<(Span, Span)>) {
+    let mut out = String::with_capacity(text.len() + 64);
+    let mut edits = Vec::with_capacity(touches.len());
+    let mut at = 0;
+    for Touch { edit: (span, new), .. } in touches {
+        out.push_str(&text[at..span.start]);
+        edits.push((span.clone(), out.len()..out.len() + new.len()));
+        out.push_str(new);
+        at = span.end;
+    }
+    out.push_str(&text[at..]);
+    (out, edits)
+}
+
+/// What is told: one complaint for all that is wrong between the words of one statement, and one for each slip of its
+/// own.
+fn told(text: &str, touches: &[Touch], statements: &[Statement]) -> Vec<(Span, String, String)> {
+    let mut slips = Vec::new();
+    let mut groups: Vec<(Option<usize>, Vec<&Touch>)> = Vec::new();
+    for touch in touches.iter().filter(|touch| !touch.message.is_empty()) {
+        if let Help::Alone(help) = &touch.help {
+            slips.push((touch.at.clone(), touch.message.clone(), help.clone()));
+            continue;
+        }
+        let statement = statements.partition_point(|statement| statement.span.start <= touch.at.start);
+        let statement = statement.checked_sub(1).filter(|&i| statements[i].span.end >= touch.at.start);
+        match groups.last_mut() {
+            Some((last, group)) if *last == statement && statement.is_some() => group.push(touch),
+            _ => groups.push((statement, vec![touch])),
+        }
+    }
+    for (statement, group) in groups {
+        let first = group.iter().copied().min_by_key(|touch| touch.at.start);
+        let Some(first) = first else { continue };
+        let end = group.iter().map(|touch| touch.at.end).max().unwrap_or(first.at.end);
+        let span = statement.map_or(first.at.clone(), |i| statements[i].span.clone());
+        slips.push((first.at.start..end, first.message.clone(), help_for(text, &group, first, span)));
+    }
+    slips
+}
+
+fn help_for(text: &str, group: &[&Touch], first: &Touch, statement: Span) -> String {
+    if let Some(Help::Unknown(help)) =
+        group.iter().map(|touch| &touch.help).find(|h| matches!(h, Help::Unknown(_)))
+    {
+        return help.clone();
+    }
+    let before = match &first.help {
+        Help::Says(help) if group.len() == 1 => return help.clone(),
+        Help::Statement(before) => before,
+        _ => "",
+    };
+    let start = statement.start.min(first.edit.0.start);
+    let mut corrected = String::new();
+    let mut at = start;
+    for Touch { edit: (span, new), .. } in group.iter().copied().filter(|touch| touch.edit.0.start >= start) {
+        corrected.push_str(text.get(at..span.start).unwrap_or_default());
+        corrected.push_str(new);
+        at = span.end;
+    }
+    corrected.push_str(text.get(at..statement.end).unwrap_or_default());
+    let corrected = corrected.split_whitespace().filter(|word| *word != "\\").collect::<Vec<_>>().join(" ");
+    if corrected.len() > LONGEST_HELP {
+        let end = corrected.floor_char_boundary(LONGEST_HELP);
+        return format!("{before}write {} …", &corrected[..end]);
+    }
+    format!("{before}write {corrected}")
+}
