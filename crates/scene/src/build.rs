@@ -141,7 +141,7 @@ impl<'a> Builder<'a> {
         let word = item.material.as_ref()?;
         let found = self.materials.get(word.value.as_str()).copied();
         if found.is_none() && !word.value.is_empty() && !self.names.contains(&word.value.as_str()) {
-            let help = words::hint(&word.value, &self.names, "materials");
+            let help = self.complaints.hint(|| words::hint(&word.value, &self.names, "materials"));
             let message = format!("there is no material \"{}\"", word.value);
             self.complaints.add_with(word.span.clone(), message, help);
         }

@@ -16,6 +16,18 @@ pub fn printable(text: &str) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
+/// The same, and of a long text only so many characters from both ends.
+pub(crate) fn brief(text: &str, most: usize) -> String {
+    let length = text.chars().count();
+    if length <= most {
+        return printable(text).into_owned();
+    }
+    let tail = most / 4;
+    let head: String = text.chars().take(most - tail).collect();
+    let tail: String = text.chars().skip(length - tail).collect();
+    format!("{}…{}", printable(&head), printable(&tail))
+}
+
 /// Adds a character, or its escape.
 pub(crate) fn push_shown(out: &mut String, c: char) {
     if is_hidden(c) {
@@ -36,6 +48,16 @@ pub(crate) fn is_hidden(c: char) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn of_a_long_text_both_ends_are_shown() {
+        let text = format!("begins{}ends", "x".repeat(1_000_000));
+        let brief = brief(&text, 80);
+        assert!(
+            brief.chars().count() <= 81 && brief.starts_with("begins") && brief.ends_with("ends"),
+            "{brief}"
+        );
+    }
 
     #[test]
     fn what_steers_a_terminal_is_spelled_out() {

@@ -8,10 +8,13 @@ use std::sync::Arc;
 use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
 
 use crate::excerpt::Excerpt;
-use crate::printable::printable;
+use crate::printable::{brief, printable};
 
 /// More complaints about one text than this are counted, not told.
 const MOST: usize = 50;
+
+/// Of longer messages and hints the middle is left out, in characters.
+const LONGEST: usize = 400;
 
 /// One thing that is wrong in scene text.
 #[derive(Debug, Clone)]
@@ -239,6 +242,11 @@ impl Complaints {
         self.found.push(Found { span, message: message.into(), help: Some(Help::FirstAt(first)) });
     }
 
+    /// A hint that takes time to find; none is sought for what will not be told anyway.
+    pub(crate) fn hint(&self, find: impl FnOnce() -> String) -> String {
+        if self.found.len() < 20 * MOST { find() } else { String::new() }
+    }
+
     pub(crate) fn count(&self) -> usize {
         self.found.len()
     }
@@ -267,13 +275,13 @@ impl Complaints {
             let span = start..floor(text, found.span.end.max(start));
             let (line, column) = line_and_column(text, start);
             let help = found.help.map(|help| match help {
-                Help::Says(help) => printable(&help).into_owned(),
+                Help::Says(help) => brief(&help, LONGEST),
                 Help::FirstAt(first) => {
                     format!("the first stands in line {}", line_and_column(text, first).0)
                 }
             });
             Complaint {
-                message: printable(&found.message).into_owned(),
+                message: brief(&found.message, LONGEST),
                 help,
                 excerpt: Excerpt::new(&place, text, span.clone(), line, column),
                 span,

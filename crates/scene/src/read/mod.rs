@@ -32,7 +32,7 @@ pub(crate) fn read(text: &str, meshes: &mut Meshes, complaints: &mut Complaints)
         complaints.add(at..at + 1, message);
         return outline;
     }
-    match KdlDocument::parse_v2(text) {
+    match KdlDocument::parse_v2(&scan::without_comments(text)) {
         Ok(document) => {
             let mut reader = Reader { text, meshes, complaints, outline: &mut outline };
             for node in document.nodes() {

@@ -27,7 +27,7 @@ impl Reader<'_> {
                 return;
             }
             None => {
-                let help = hint_for_word(word, in_group);
+                let help = self.complaints.hint(|| hint_for_word(word, in_group));
                 self.complaints.add_with(word_span, format!("unknown word \"{word}\""), help);
                 return;
             }
@@ -205,7 +205,10 @@ impl Reader<'_> {
                 let written = item.fields.iter().find(|f| f.field.name == invalid.field());
                 let span = written.map_or(item.word.clone(), |f| f.span.clone());
                 if written.is_some() || !missing(item, invalid.field()) {
-                    self.complaints.add(span, invalid.to_string());
+                    match invalid.hint() {
+                        Some(hint) => self.complaints.add_with(span, invalid.to_string(), hint),
+                        None => self.complaints.add(span, invalid.to_string()),
+                    }
                 } else {
                     let (word, field) = (item.sort.word(), invalid.field());
                     self.complaints.add_with(
@@ -227,7 +230,8 @@ impl Reader<'_> {
             known.extend(STEPS.iter().map(|(step, ..)| *step));
         }
         let message = format!("{} has no \"{name}\"", one(sort.word()));
-        self.complaints.add_with(span, message, words::hint(name, &known, "what it has"));
+        let help = self.complaints.hint(|| words::hint(name, &known, "what it has"));
+        self.complaints.add_with(span, message, help);
     }
 
     fn refuse_block(&mut self, node: &KdlNode) {

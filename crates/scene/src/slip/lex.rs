@@ -107,7 +107,7 @@ impl<'a> Lexer<'a> {
             '#' => self.hash(),
             _ if rest.starts_with("//") => self.at += self.line().len(),
             _ if rest.starts_with("/*") => self.comment(),
-            _ if rest.starts_with("/-") => self.at += 2,
+            _ if rest.starts_with("/-") => self.slashdash(),
             _ if rest.starts_with("*/") => {
                 let message = "there is no comment to close here".to_owned();
                 let span = self.at..self.at + 2;
@@ -149,6 +149,22 @@ impl<'a> Lexer<'a> {
         let first = self.rest().chars().next().map_or(0, u32::from);
         quote::tell_controls(self, start..end, first, count);
         self.at = end;
+    }
+
+    /// `/-` leaves out what follows it, if anything does.
+    fn slashdash(&mut self) {
+        let after = self.rest()[2..].trim_start();
+        if after.is_empty() || after.starts_with("/-") || after.starts_with(['}', ';']) {
+            let span = self.at..self.at + 2;
+            let message = "this /- leaves nothing out".to_owned();
+            self.touch(
+                span.clone(),
+                (span, "  ".to_owned()),
+                message,
+                Help::Alone("leave it away".to_owned()),
+            );
+        }
+        self.at += 2;
     }
 
     fn comment(&mut self) {

@@ -1,7 +1,7 @@
 //! What did somebody mean who wrote scene text as another language has it? Slips with one complaint each, and a copy of
 //! the text without them, so that what is wrong behind them can be found in the same look.
 //!
-//! Only text that has been refused is looked at. The kinds of slips that are known, file by file:
+//! What is none to the reader is none at all: text that can be read as it stands is left alone. The kinds of slips that are known, file by file:
 //!
 //! * `quote`: quotes that are missing or of another sort, `\` in paths;
 //! * `lex`: comments and controls that KDL has not;
@@ -55,7 +55,11 @@ pub(crate) struct Mended {
     /// What was replaced: where in the text as it was, and where in `text`; in order.
     edits: Vec<(Span, Span)>,
     slips: Vec<(Span, String, String)>,
+    is_scene_text: bool,
 }
+
+/// A text of which more bytes are slips is no scene text by any reading. The parser calls itself for each of them.
+const DOUBTFUL: usize = 1000;
 
 /// Longer corrections are not shown whole.
 const LONGEST_HELP: usize = 160;
@@ -65,11 +69,13 @@ pub(crate) fn mend(text: &str) -> Option<Mended> {
     if scan::too_deep(text).is_some() {
         return None;
     }
-    if let Some(language) = foreign(text) {
-        let start = text.len() - text.trim_start_matches(['\u{feff}', ' ', '\t', '\r', '\n']).len();
-        let help = "scene text is written: sphere \"ball\" material=\"white\" { center 0 1 0; radius 1 }";
-        let slip = (start..start + 1, format!("this is {language}, not scene text"), help.to_owned());
-        return Some(Mended { text: String::new(), edits: Vec::new(), slips: vec![slip] });
+    if let Some(slip) = foreign(text) {
+        return Some(Mended {
+            text: String::new(),
+            edits: Vec::new(),
+            slips: vec![slip],
+            is_scene_text: false,
+        });
     }
     let lexed = lex::lex(text);
     let built = structure::build(text, &lexed);
@@ -85,7 +91,7 @@ pub(crate) fn mend(text: &str) -> Option<Mended> {
     }
     let slips = told(text, &touches, &built.statements);
     let (mended, edits) = apply(text, &touches);
-    Some(Mended { text: mended, edits, slips })
+    Some(Mended { text: mended, edits, slips, is_scene_text: true })
 }
 
 impl Mended {
@@ -99,6 +105,12 @@ impl Mended {
         }
     }
 
+    /// Whether there are so few that the text may be tried as it is.
+    pub(crate) fn is_doubtful(&self) -> bool {
+        let changed: usize = self.edits.iter().map(|(old, new)| old.len().max(new.len())).sum();
+        self.is_scene_text && changed <= DOUBTFUL
+    }
+
     /// Notes the slips.
     pub(crate) fn tell(&self, complaints: &mut Complaints) {
         for (at, message, help) in &self.slips {
@@ -107,16 +119,29 @@ impl Mended {
     }
 }
 
-/// The language of a text that is no scene text from its first word on.
-fn foreign(text: &str) -> Option<&'static str> {
-    let text = text.trim_start_matches('\u{feff}').trim_start();
-    let inner = text.strip_prefix(['{', '[']).map(str::trim_start);
-    if inner.is_some_and(|inner| inner.starts_with(['"', '{', '[', '}', ']'])) {
-        return Some("JSON");
+/// The only complaint about a text that is no scene text from its first word on.
+fn foreign(text: &str) -> Option<(Span, String, String)> {
+    let nul = text.bytes().filter(|b| *b == 0).count();
+    if nul > 8 && nul > text.len() / 4 {
+        let at = text.find('\0').unwrap_or(0);
+        let message = "every other byte is 0: this looks like UTF-16 text".to_owned();
+        return Some((at..at + 1, message, "save the file as UTF-8".to_owned()));
     }
-    let tag = text.strip_prefix('<')?;
-    (tag.starts_with(|c: char| c == '?' || c.is_ascii_alphabetic()) || tag.starts_with("!DOCTYPE"))
-        .then_some("XML")
+    let rest = text.trim_start_matches('\u{feff}').trim_start();
+    let inner = rest.strip_prefix(['{', '[']).map(str::trim_start);
+    let is_tag = |tag: &str| {
+        tag.starts_with(|c: char| c == '?' || c.is_ascii_alphabetic()) || tag.starts_with("!DOCTYPE")
+    };
+    let language = if inner.is_some_and(|inner| inner.starts_with(['"', '{', '[', '}', ']'])) {
+        "JSON"
+    } else if rest.strip_prefix('<').is_some_and(is_tag) {
+        "XML"
+    } else {
+        return None;
+    };
+    let at = text.len() - rest.len();
+    let help = "scene text is written: sphere \"ball\" material=\"white\" { center 0 1 0; radius 1 }";
+    Some((at..at + 1, format!("this is {language}, not scene text"), help.to_owned()))
 }
 
 /// Of changes that overlap the first stands.

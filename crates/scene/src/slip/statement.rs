@@ -5,7 +5,7 @@ use super::number::{is_number, meant};
 use super::structure::Statement;
 use super::value::Values;
 use super::{Help, Touch};
-use crate::outline::{Sort, Span};
+use crate::outline::Sort;
 use crate::read::{ABOUT, STEPS, arity};
 use catoptra_core::FieldKind;
 
@@ -54,6 +54,7 @@ pub(super) fn touch(text: &str, statement: &Statement, all: &[Statement]) -> Vec
         let edit = (statement.span.clone(), format!("{word} #null"));
         return vec![Touch { at, edit, message, help: Help::Unknown(help) }];
     }
+    values.refuse_the_rest(&statement.tokens);
     values.touches
 }
 

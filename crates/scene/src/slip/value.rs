@@ -76,6 +76,32 @@ impl<'a> Values<'a> {
         }
     }
 
+    /// Whatever KDL could not read and nothing has been said of: nothing else reaches its parser, which does not mind one
+    /// error but calls itself for each.
+    pub(super) fn refuse_the_rest(&mut self, tokens: &[Token]) {
+        let covered: Vec<Span> = self.touches.iter().map(|touch| touch.edit.0.clone()).collect();
+        for (i, token) in tokens.iter().enumerate().filter(|(_, token)| token.kind == Kind::Word) {
+            let (written, span) = (&self.text[token.span.clone()], &token.span);
+            let apart = |edit: &Span| edit.end < span.start || edit.start > span.end;
+            let legal = is_identifier(written)
+                || is_annotation(written)
+                || i > 0
+                    && (is_number(written)
+                        || is_keyword(written)
+                        || is_valid_property(written)
+                        || is_value_of_property(written));
+            if !legal && covered.iter().all(apart) {
+                let message = format!("{} cannot stand here", shown(written));
+                let (new, help) = if i == 0 {
+                    ("something ", "begin with a word")
+                } else {
+                    ("#null ", "leave it away, or write it in quotes")
+                };
+                self.push(span.clone(), new, message, Help::Unknown(help.to_owned()));
+            }
+        }
+    }
+
     fn push(&mut self, at: Span, new: &str, message: String, help: Help) {
         self.touches.push(Touch { at: at.clone(), edit: (at, new.to_owned()), message, help });
     }
@@ -87,7 +113,11 @@ impl<'a> Values<'a> {
 
     fn comma(&mut self, at: Span) {
         let message = "values stand without commas between them".to_owned();
-        self.push(at, " ", message, Help::Statement("separate numbers by blanks: "));
+        let help = match self.takes {
+            Takes::Numbers(_) => "separate numbers by blanks: ",
+            _ => "separate them by blanks: ",
+        };
+        self.push(at, " ", message, Help::Statement(help));
     }
 
     /// Looks at numbers; answers with how many tokens more than one were looked at.
@@ -346,6 +376,11 @@ impl<'a> Values<'a> {
         {
             return self.property(tokens, start..end, at, sort);
         }
+        if !bare.is_empty() && bare.bytes().all(|b| b == b':') {
+            let message = "a block stands between { and }".to_owned();
+            self.push(start..end, " ", message, Help::Statement(""));
+            return 0;
+        }
         if is_identifier(written) || is_annotation(written) || bare.is_empty() && written.is_empty() {
             return 0;
         }
@@ -437,6 +472,13 @@ fn is_valid_property(word: &str) -> bool {
     word.split_once('=').is_some_and(|(key, value)| {
         is_identifier(key)
             && (value.is_empty() || is_number(value) || is_identifier(value) || is_keyword(value))
+    })
+}
+
+/// `=value` behind a blank.
+fn is_value_of_property(word: &str) -> bool {
+    word.strip_prefix('=').is_some_and(|value| {
+        value.is_empty() || is_number(value) || is_identifier(value) || is_keyword(value)
     })
 }
 
