@@ -81,9 +81,11 @@ pub fn parse(text: &str, name: &str, base: Option<&Path>) -> Result<(Scene, Scen
 fn without_slips(mended: &Mended, meshes: &mut Meshes) -> Complaints {
     let (mut slips, mut behind) = (Complaints::new(), Complaints::new());
     mended.tell(&mut slips);
-    let outline = read::read(&mended.text, meshes, &mut behind);
-    build::build(&outline, &mut behind);
-    slips.take_over(behind, |at| mended.place(at));
+    if mended.is_to_be_read() {
+        let outline = read::read(&mended.text, meshes, &mut behind);
+        build::build(&outline, &mut behind);
+        slips.take_over(behind, |at| mended.place(at));
+    }
     slips
 }
 

@@ -20,6 +20,9 @@ pub(crate) use value::arity;
 /// Longer scene text is refused: the parser needs about a second for each megabyte.
 pub(crate) const LONGEST: usize = 16 << 20;
 
+/// Bytes of stack for the parser; the system gives memory for what is used of it.
+const DEEP_STACK: usize = 256 << 20;
+
 /// What the text says; what is wrong with it goes to `complaints`.
 pub(crate) fn read(text: &str, meshes: &mut Meshes, complaints: &mut Complaints) -> Outline {
     let mut outline = Outline::default();
@@ -32,7 +35,7 @@ pub(crate) fn read(text: &str, meshes: &mut Meshes, complaints: &mut Complaints)
         complaints.add(at..at + 1, message);
         return outline;
     }
-    match KdlDocument::parse_v2(&scan::without_comments(text)) {
+    match parse_kdl(&scan::without_comments(text)) {
         Ok(document) => {
             let mut reader = Reader { text, meshes, complaints, outline: &mut outline };
             for node in document.nodes() {
@@ -42,6 +45,17 @@ pub(crate) fn read(text: &str, meshes: &mut Meshes, complaints: &mut Complaints)
         Err(error) => syntax(text, &error, complaints),
     }
     outline
+}
+
+/// Parses on a stack of its own where there is room for one: the parser calls itself for every error that it meets.
+fn parse_kdl(text: &str) -> Result<KdlDocument, kdl::KdlError> {
+    std::thread::scope(|scope| {
+        let deep = std::thread::Builder::new().stack_size(DEEP_STACK);
+        match deep.spawn_scoped(scope, || KdlDocument::parse_v2(text)) {
+            Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            Err(_) => KdlDocument::parse_v2(text),
+        }
+    })
 }
 
 /// What reading needs at hand.

@@ -120,7 +120,7 @@ impl<'a> Lexer<'a> {
                 self.at += 2;
             }
             _ if self.begins() && COMMENTS.iter().any(|mark| rest.starts_with(mark)) => {
-                self.foreign_comment()
+                self.foreign_comment();
             }
             c if quote::is_odd(c) && quote::odd(self) => {}
             _ => self.word(),
@@ -275,8 +275,9 @@ impl<'a> Lexer<'a> {
 }
 
 /// Whether a `\` here leads on to the next line.
-fn continues(rest: &str) -> bool {
-    let after = rest[1..].trim_start_matches(is_space);
+pub(super) fn continues(rest: &str) -> bool {
+    let Some(after) = rest.strip_prefix('\\') else { return false };
+    let after = after.trim_start_matches(is_space);
     after.is_empty() || after.starts_with(is_newline) || after.starts_with("//")
 }
 

@@ -5,16 +5,21 @@
 //!
 //! * `quote`: quotes that are missing or of another sort, `\` in paths;
 //! * `lex`: comments and controls that KDL has not;
-//! * `structure`: braces and `;` that are missing or too many;
-//! * `statement`: `=`, `:` and calls between a word and its values, commas, brackets, words of other languages;
+//! * `structure`, `brace`, `indent`: braces and `;` that are missing or too many;
+//! * `statement`: `=`, `:` and calls between a word and its values;
+//! * `value`, `property`: commas, brackets, quotes, words of other languages;
 //! * `number`: `.5`, `5.`, `1e5f`, `50%`.
 
+mod brace;
+mod indent;
 mod lex;
 mod number;
+mod property;
 mod quote;
 mod statement;
 mod structure;
 mod value;
+mod word;
 
 use crate::outline::Span;
 use crate::report::Complaints;
@@ -58,6 +63,9 @@ pub(crate) struct Mended {
     is_scene_text: bool,
 }
 
+/// With more slips nothing else is looked for.
+const MANY: usize = 300;
+
 /// A text of which more bytes are slips is no scene text by any reading. The parser calls itself for each of them.
 const DOUBTFUL: usize = 1000;
 
@@ -84,8 +92,11 @@ pub(crate) fn mend(text: &str) -> Option<Mended> {
     for statement in &built.statements {
         touches.extend(statement::touch(text, statement, &built.statements));
     }
-    touches.sort_by_key(|touch| (touch.edit.0.start, touch.edit.0.end));
-    keep_apart(&mut touches);
+    // What is put before something comes before what is done to it, and changes come before those within them.
+    touches.sort_by_key(|touch| {
+        let span = &touch.edit.0;
+        (span.start, !span.is_empty(), std::cmp::Reverse(span.end))
+    });
     if touches.is_empty() {
         return None;
     }
@@ -109,6 +120,11 @@ impl Mended {
     pub(crate) fn is_doubtful(&self) -> bool {
         let changed: usize = self.edits.iter().map(|(old, new)| old.len().max(new.len())).sum();
         self.is_scene_text && changed <= DOUBTFUL
+    }
+
+    /// Whether it is worth while to look for what is wrong behind the slips: there are not more of them than can be told.
+    pub(crate) fn is_to_be_read(&self) -> bool {
+        self.is_scene_text && self.slips.len() <= MANY
     }
 
     /// Notes the slips.
@@ -144,23 +160,15 @@ fn foreign(text: &str) -> Option<(Span, String, String)> {
     Some((at..at + 1, format!("this is {language}, not scene text"), help.to_owned()))
 }
 
-/// Of changes that overlap the first stands.
-fn keep_apart(touches: &mut Vec<Touch>) {
-    let mut end = 0;
-    touches.retain(|touch| {
-        let apart = touch.edit.0.start >= end;
-        if apart {
-            end = touch.edit.0.end;
-        }
-        apart
-    });
-}
-
+/// The text with every change made, but for those within others.
 fn apply(text: &str, touches: &[Touch]) -> (String, Vec<(Span, Span)>) {
     let mut out = String::with_capacity(text.len() + 64);
     let mut edits = Vec::with_capacity(touches.len());
     let mut at = 0;
     for Touch { edit: (span, new), .. } in touches {
+        if span.start < at {
+            continue;
+        }
         out.push_str(&text[at..span.start]);
         edits.push((span.clone(), out.len()..out.len() + new.len()));
         out.push_str(new);
@@ -211,7 +219,10 @@ fn help_for(text: &str, group: &[&Touch], first: &Touch, statement: Span) -> Str
     let start = statement.start.min(first.edit.0.start);
     let mut corrected = String::new();
     let mut at = start;
-    for Touch { edit: (span, new), .. } in group.iter().copied().filter(|touch| touch.edit.0.start >= start) {
+    for Touch { edit: (span, new), .. } in group.iter().copied() {
+        if span.start < at {
+            continue;
+        }
         corrected.push_str(text.get(at..span.start).unwrap_or_default());
         corrected.push_str(new);
         at = span.end;

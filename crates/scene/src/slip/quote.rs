@@ -1,6 +1,6 @@
 //! Where was a string meant to begin and end, and what was meant by a `\` in it?
 
-use super::lex::{Kind, Lexer, is_forbidden, is_newline, is_space};
+use super::lex::{Kind, Lexer, continues, is_forbidden, is_newline, is_space};
 use super::{Help, Touch};
 use crate::outline::Span;
 
@@ -25,9 +25,11 @@ pub(crate) fn is_odd(c: char) -> bool {
     ODD.iter().any(|(mark, _)| *mark == c)
 }
 
-/// Whether something may follow a string at once.
-fn may_follow(c: Option<char>) -> bool {
-    c.is_none_or(|c| is_newline(c) || is_space(c) || is_forbidden(c) || ";{}=,:)]>/\\#".contains(c))
+/// Whether something may follow a string at once, or is a mark that is looked at later.
+fn may_follow(rest: &str) -> bool {
+    let next = rest.chars().next();
+    let is_mark = |c| is_newline(c) || is_space(c) || is_forbidden(c) || ";{}=,:)]>".contains(c);
+    next.is_none_or(is_mark) || rest.starts_with("//") || rest.starts_with("/*") || continues(rest)
 }
 
 /// A string in quotes that begins here.
@@ -48,7 +50,7 @@ pub(super) fn string(lexer: &mut Lexer<'_>) {
     }
     let line = &lexer.line()[1..];
     match end_of(line) {
-        Some(end) if may_follow(line[end + 1..].chars().next()) => {
+        Some(end) if may_follow(&line[end + 1..]) => {
             escapes(lexer, lexer.at..lexer.at + end + 2, end);
             lexer.push(Kind::Text, end + 2);
         }
@@ -95,7 +97,7 @@ fn unclosed(lexer: &mut Lexer<'_>, line: &str, found: Option<usize>) {
     let (start, region) = (lexer.at + 1, &line[..found.unwrap_or(line.len())]);
     if found.is_none()
         && let Some(at) = region.find("\\\"")
-        && may_follow(region[at + 2..].chars().next())
+        && may_follow(&region[at + 2..])
     {
         // A path ends with a \, which takes the quote for itself.
         let span = start - 1..start + at + 2;
@@ -151,9 +153,9 @@ pub(super) fn odd(lexer: &mut Lexer<'_>) -> bool {
     let body = &line[open.len_utf8()..];
     let body = &body[..body.floor_char_boundary(LONGEST_ODD)];
     let body = &body[..body.find('"').unwrap_or(body.len())];
-    let found = body.char_indices().find(|(i, c)| {
-        closers.contains(*c) && may_follow(line[open.len_utf8() + i + c.len_utf8()..].chars().next())
-    });
+    let found = body
+        .char_indices()
+        .find(|(i, c)| closers.contains(*c) && may_follow(&line[open.len_utf8() + i + c.len_utf8()..]));
     let Some((end, close)) = found else { return false };
     let right = format!("\"{}\"", body[..end].replace('\\', "/"));
     let length = open.len_utf8() + end + close.len_utf8();

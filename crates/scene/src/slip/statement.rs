@@ -4,6 +4,7 @@ use super::lex::{Kind, Token};
 use super::number::{is_number, meant};
 use super::structure::Statement;
 use super::value::Values;
+use super::word::{is_annotation, is_identifier, shown};
 use super::{Help, Touch};
 use crate::outline::Sort;
 use crate::read::{ABOUT, STEPS, arity};
@@ -34,6 +35,12 @@ pub(super) fn touch(text: &str, statement: &Statement, all: &[Statement]) -> Vec
         let help = Help::Unknown("write that word before it, as in center 0 1 0".to_owned());
         let edit = (statement.span.clone(), "something".to_owned());
         return vec![Touch { at: statement.span.clone(), edit, message, help }];
+    }
+    if first.kind == Kind::Word && !is_annotation(written) && !is_identifier(statement.word(text)) {
+        let message = format!("{} begins no statement", shown(written));
+        let help = Help::Unknown("begin with a word, as in radius 1".to_owned());
+        let edit = (statement.span.clone(), "something".to_owned());
+        return vec![Touch { at: first.span.clone(), edit, message, help }];
     }
     let owner = statement.parent.map(|parent| &all[parent]);
     let sort = owner.and_then(|owner| owner.sort(text));

@@ -43,9 +43,6 @@ pub(super) struct Built {
 /// Stands where a word is missing.
 const SOMETHING: &str = "something";
 
-/// No line is indented by more bytes.
-const WIDEST_INDENT: usize = 1000;
-
 pub(super) fn build(text: &str, lexed: &Lexed) -> Built {
     let count = |kind: Kind| lexed.tokens.iter().filter(|token| token.kind == kind).count();
     let mut builder = Builder {
@@ -67,22 +64,22 @@ pub(super) fn build(text: &str, lexed: &Lexed) -> Built {
     builder.end()
 }
 
-struct Builder<'a> {
-    text: &'a str,
-    tokens: &'a [Token],
+pub(super) struct Builder<'a> {
+    pub(super) text: &'a str,
+    pub(super) tokens: &'a [Token],
     /// How many more blocks are opened than closed.
-    missing: usize,
-    current: Vec<Token>,
+    pub(super) missing: usize,
+    pub(super) current: Vec<Token>,
     braced: bool,
     /// The statements whose blocks are open.
-    stack: Vec<usize>,
+    pub(super) stack: Vec<usize>,
     /// The statement before, if no block of it was opened and nothing else came since.
     last: Option<usize>,
     /// How far the statements are indented whose blocks are told by nothing else, and how many blocks each lies in.
-    indented: Vec<(usize, usize)>,
+    pub(super) indented: Vec<(usize, usize)>,
     /// Whether a block was closed and neither line nor `;` has come since.
     after_close: bool,
-    out: Built,
+    pub(super) out: Built,
 }
 
 impl Builder<'_> {
@@ -219,139 +216,10 @@ impl Builder<'_> {
         self.after_close = true;
     }
 
-    /// `camera:` opens a block where the next line is indented further.
-    fn open_indented(&mut self, statement: usize, line: usize) {
-        let own = &self.out.statements[statement];
-        let next = self.tokens[line..].iter().find(|token| token.kind != Kind::Line);
-        let colon = own.tokens.last().is_some_and(|last| self.text[last.span.clone()].ends_with(':'));
-        let (Some(next), true, Some(_)) = (next, colon, own.sort(self.text)) else { return };
-        let (Some(here), Some(there)) =
-            (indent(self.text, own.span.start), indent(self.text, next.span.start))
-        else {
-            return;
-        };
-        if here < there && matches!(next.kind, Kind::Word | Kind::Text) {
-            let end = own.span.end;
-            let message = "a block stands between { and }".to_owned();
-            let edit = (end..end, " {".to_owned());
-            self.out.touches.push(Touch { at: end - 1..end, edit, message, help: Help::Statement("") });
-            self.out.statements[statement].open = Some(end);
-            self.indented.push((here, self.stack.len()));
-            self.stack.push(statement);
-        }
-    }
-
-    /// Such a block ends where a line is indented no further than the statement that opened it.
-    fn close_indented(&mut self, at: usize) {
-        while let Some(&(there, depth)) = self.indented.last()
-            && indent(self.text, at).is_some_and(|here| here <= there)
-        {
-            self.indented.pop();
-            self.stack.truncate(depth);
-            self.silent(at, "};");
-        }
-    }
-
     /// A change that goes with another one.
-    fn silent(&mut self, at: usize, new: &str) {
+    pub(super) fn silent(&mut self, at: usize, new: &str) {
         let edit = (at..at, new.to_owned());
         self.out.touches.push(Touch { at: at..at, edit, message: String::new(), help: Help::Statement("") });
-    }
-
-    /// A node cannot stand in a block that has no members: the block was meant to end before it. So was one that lies
-    /// deeper than the node, if more blocks are open than are closed.
-    fn close_what_was_left_open(&mut self, at: usize) {
-        while self.missing > 0
-            && let Some(&owner) = self.stack.last()
-        {
-            let statement = &self.out.statements[owner];
-            let begins = self
-                .current
-                .first()
-                .and_then(|token| Sort::named(self.text[token.span.clone()].split([':', '=', '(']).next()?));
-            let ends = match (begins, statement.sort(self.text), statement.open) {
-                (Some(_), Some(sort), Some(open)) => {
-                    !matches!(sort, Sort::Group) || is_left_of(self.text, at, statement.span.start, open)
-                }
-                _ => false,
-            };
-            if !ends {
-                return;
-            }
-            self.missing -= 1;
-            self.stack.pop();
-            self.never_closed(owner, at, "};");
-        }
-    }
-
-    fn never_closed(&mut self, owner: usize, at: usize, new: &str) {
-        let statement = &self.out.statements[owner];
-        let Some(open) = statement.open else { return };
-        let message = format!("the block of this {} is never closed", statement.word(self.text));
-        self.alone(
-            open..open + 1,
-            (at..at, new.to_owned()),
-            message,
-            "close it with } behind its last field",
-        );
-    }
-
-    /// A brace closes what a node has not opened: its fields stand behind it.
-    fn open_what_was_not_opened(&mut self) -> bool {
-        let statements = &self.out.statements;
-        let is_field = |sort: Sort, word: &str| sort.fields().iter().any(|field| field.name == word);
-        let tail = statements
-            .iter()
-            .rposition(|s| s.parent.is_none() && s.open.is_none() && s.sort(self.text).is_some());
-        let Some((owner, sort)) = tail.and_then(|i| Some((i, statements[i].sort(self.text)?))) else {
-            return false;
-        };
-        let inner = statements[owner]
-            .tokens
-            .iter()
-            .skip(1)
-            .find(|token| is_field(sort, &self.text[token.span.clone()]));
-        let follow = &statements[owner + 1..];
-        let at = match inner {
-            Some(token) => token.span.start,
-            None if !follow.is_empty()
-                && follow.iter().all(|s| is_field(sort, s.word(self.text)) || s.parent.is_some()) =>
-            {
-                statements[owner].span.end
-            }
-            None => return false,
-        };
-        let within = inner.is_some();
-        for statement in &mut self.out.statements[owner + 1..] {
-            statement.parent = statement.parent.or(Some(owner));
-        }
-        if within {
-            self.split(owner, at);
-        }
-        let message =
-            format!("the block of this {} is never opened", self.out.statements[owner].word(self.text));
-        self.alone(at..at, (at..at, " { ".to_owned()), message, "write { before its first field");
-        self.out.statements[owner].open = Some(at);
-        true
-    }
-
-    /// Makes two statements of one.
-    fn split(&mut self, i: usize, at: usize) {
-        let statement = &mut self.out.statements[i];
-        let place = statement
-            .tokens
-            .iter()
-            .position(|token| token.span.start >= at)
-            .unwrap_or(statement.tokens.len());
-        let tokens = statement.tokens.split_off(place);
-        let span = at..statement.span.end;
-        statement.span.end = statement.tokens.last().map_or(at, |token| token.span.end);
-        for later in &mut self.out.statements[i + 1..] {
-            later.parent = later.parent.map(|parent| parent + usize::from(parent > i));
-        }
-        self.out
-            .statements
-            .insert(i + 1, Statement { tokens, span, parent: Some(i), open: None, braced: false });
     }
 
     /// Whether an open bracket leads on to the next line, where more numbers stand.
@@ -382,7 +250,7 @@ impl Builder<'_> {
         (end > 0 && rest[..end].iter().all(numeric)).then_some(i + 1 + end)
     }
 
-    fn alone(&mut self, at: Span, edit: (Span, String), message: String, help: &str) {
+    pub(super) fn alone(&mut self, at: Span, edit: (Span, String), message: String, help: &str) {
         self.out.touches.push(Touch { at, edit, message, help: Help::Alone(help.to_owned()) });
     }
 
@@ -399,23 +267,6 @@ impl Builder<'_> {
         }
         self.out
     }
-}
-
-/// Whether what begins a line at `at` stands no further to the right than the node at `owner`, whose block opens on an
-/// earlier line.
-fn is_left_of(text: &str, at: usize, owner: usize, open: usize) -> bool {
-    match (indent(text, at), indent(text, owner)) {
-        (Some(here), Some(there)) => here <= there && text[open..at].contains('\n'),
-        _ => false,
-    }
-}
-
-/// How far the line is indented that begins with what stands at `at`; `None` if something stands before it.
-fn indent(text: &str, at: usize) -> Option<usize> {
-    let from = text.floor_char_boundary(at.saturating_sub(WIDEST_INDENT));
-    let before = &text[from..at];
-    let before = &before[before.rfind('\n').map_or(0, |newline| newline + 1)..];
-    before.trim().is_empty().then(|| before.chars().count())
 }
 
 /// A statement, as far as it fits into a hint.

@@ -3,20 +3,19 @@
 use super::lex::{Kind, Token};
 use super::number::{is_number, meant};
 use super::statement::{Takes, takes};
+use super::word::{
+    KEYWORDS, color, is_annotation, is_identifier, is_keyword, is_valid_property, is_value_of_property, shown,
+};
 use super::{Help, Touch};
 use crate::outline::{Sort, Span};
-use crate::read::{MATERIAL, STEPS};
-use catoptra_core::FieldKind;
+use crate::read::STEPS;
 
 /// Marks that stand round numbers elsewhere.
-const BRACKETS: &str = "[](){}<>";
+pub(super) const BRACKETS: &str = "[](){}<>";
 
 /// What makes a vector, a colour or a number of numbers elsewhere, as part of its name.
 const MAKERS: &[&str] =
     &["vec", "rgb", "color", "colour", "array", "float", "double", "int", "tuple", "list", "point", "xyz"];
-
-/// Words that need a `#` in KDL.
-const KEYWORDS: &[&str] = &["true", "false", "null", "nan", "inf", "-inf"];
 
 /// The values of a statement and what is wrong with them.
 pub(super) struct Values<'a> {
@@ -80,29 +79,41 @@ impl<'a> Values<'a> {
     /// error but calls itself for each.
     pub(super) fn refuse_the_rest(&mut self, tokens: &[Token]) {
         let covered: Vec<Span> = self.touches.iter().map(|touch| touch.edit.0.clone()).collect();
-        for (i, token) in tokens.iter().enumerate().filter(|(_, token)| token.kind == Kind::Word) {
-            let (written, span) = (&self.text[token.span.clone()], &token.span);
+        for (i, token) in tokens.iter().enumerate() {
+            let span = &token.span;
             let apart = |edit: &Span| edit.end < span.start || edit.start > span.end;
-            let legal = is_identifier(written)
-                || is_annotation(written)
-                || i > 0
-                    && (is_number(written)
-                        || is_keyword(written)
-                        || is_valid_property(written)
-                        || is_value_of_property(written));
-            if !legal && covered.iter().all(apart) {
-                let message = format!("{} cannot stand here", shown(written));
-                let (new, help) = if i == 0 {
-                    ("something ", "begin with a word")
-                } else {
-                    ("#null ", "leave it away, or write it in quotes")
-                };
+            if !self.is_legal(tokens, i) && covered.iter().all(apart) {
+                let message = format!("{} cannot stand here", shown(&self.text[span.clone()]));
+                let help = "leave it away, or write it in quotes with a blank before it";
+                let new = if i == 0 { "something " } else { " #null " };
                 self.push(span.clone(), new, message, Help::Unknown(help.to_owned()));
             }
         }
     }
 
-    fn push(&mut self, at: Span, new: &str, message: String, help: Help) {
+    /// Whether KDL can read a token between its neighbours.
+    fn is_legal(&self, tokens: &[Token], i: usize) -> bool {
+        let written = |token: &Token| &self.text[token.span.clone()];
+        let (token, before) = (&tokens[i], i.checked_sub(1).map(|before| &tokens[before]));
+        let word = written(token);
+        let opens = |token: &Token| token.kind == Kind::Word && written(token).ends_with('=');
+        let key = before.is_some_and(|before| before.kind == Kind::Text || is_identifier(written(before)));
+        let touches = before.is_some_and(|before| before.span.end == token.span.start);
+        let apart = !touches
+            || before.is_some_and(|b| opens(b) || is_annotation(written(b)))
+            || word.starts_with('=');
+        let has_value =
+            !opens(token) || tokens.get(i + 1).is_some_and(|next| !written(next).starts_with('='));
+        apart
+            && has_value
+            && (token.kind == Kind::Text
+                || is_identifier(word)
+                || is_annotation(word)
+                || i > 0 && (is_number(word) || is_keyword(word) || is_valid_property(word))
+                || i > 1 && key && is_value_of_property(word))
+    }
+
+    pub(super) fn push(&mut self, at: Span, new: &str, message: String, help: Help) {
         self.touches.push(Touch { at: at.clone(), edit: (at, new.to_owned()), message, help });
     }
 
@@ -111,7 +122,7 @@ impl<'a> Values<'a> {
         self.push(at, " ", message, Help::Statement(""));
     }
 
-    fn comma(&mut self, at: Span) {
+    pub(super) fn comma(&mut self, at: Span) {
         let message = "values stand without commas between them".to_owned();
         let help = match self.takes {
             Takes::Numbers(_) => "separate numbers by blanks: ",
@@ -121,7 +132,7 @@ impl<'a> Values<'a> {
     }
 
     /// Looks at numbers; answers with how many tokens more than one were looked at.
-    fn numbers(&mut self, tokens: &[Token]) -> usize {
+    pub(super) fn numbers(&mut self, tokens: &[Token]) -> usize {
         let written = &self.text[tokens[0].span.clone()];
         if self.begins_field(&tokens[0]) || is_annotation(written) || is_valid_property(written) {
             return 0;
@@ -331,7 +342,7 @@ impl<'a> Values<'a> {
         let written = &self.text[span.clone()];
         let bare = written.trim_matches(',');
         let start = span.start + (written.len() - written.trim_start_matches(',').len());
-        if is_identifier(written) || is_number(bare) || is_keyword(bare) {
+        if !bare.is_empty() && (is_identifier(written) || is_number(bare) || is_keyword(bare)) {
             return 0;
         }
         if bare.is_empty() || !is_identifier(bare) {
@@ -351,177 +362,12 @@ impl<'a> Values<'a> {
         }
     }
 
-    fn quote(&mut self, at: Span) {
+    pub(super) fn quote(&mut self, at: Span) {
         let written = &self.text[at.clone()];
         let right = format!("\"{}\"", written.replace('\\', "/"));
         let message = format!("{} needs quotes", shown(written));
-        self.push(at, &format!("{right} "), message, Help::Says(format!("write {right}")));
+        let blank =
+            if self.text[..at.start].ends_with(|c: char| c.is_whitespace() || c == '=') { "" } else { " " };
+        self.push(at, &format!("{blank}{right} "), message, Help::Says(format!("write {right}")));
     }
-
-    /// A name or a property before a block; answers with how many tokens more than one were looked at.
-    fn property_or_name(&mut self, tokens: &[Token], sort: Option<Sort>) -> usize {
-        let span = tokens[0].span.clone();
-        let text = self.text;
-        let written = text[span.clone()].trim_start_matches(',');
-        let start = span.end - written.len();
-        let ends_call = |bare: &&str| bare.ends_with(',') || (self.called && bare.ends_with(')'));
-        let bare = if ends_call(&written) { written.trim_end_matches([',', ')']) } else { written };
-        let end = start + bare.len();
-        if start > span.start {
-            self.comma(span.start..start);
-        }
-        if let Some(at) = bare
-            .find(['=', ':'])
-            .filter(|&at| at > 0 && is_property(&bare[..at], sort) || bare[at..].starts_with('='))
-        {
-            return self.property(tokens, start..end, at, sort);
-        }
-        if !bare.is_empty() && bare.bytes().all(|b| b == b':') {
-            let message = "a block stands between { and }".to_owned();
-            self.push(start..end, " ", message, Help::Statement(""));
-            return 0;
-        }
-        if is_identifier(written) || is_annotation(written) || bare.is_empty() && written.is_empty() {
-            return 0;
-        }
-        if end < span.end && self.text[end..span.end].contains(',') {
-            self.comma(end..span.end);
-        }
-        if !(bare.is_empty() || bare == "=" || is_number(bare) || is_identifier(bare) || is_keyword(bare)) {
-            self.quote(start..end);
-        }
-        0
-    }
-
-    /// `key=value` with the mark at `mark` bytes behind its start.
-    fn property(&mut self, tokens: &[Token], span: Span, mark: usize, sort: Option<Sort>) -> usize {
-        let text = self.text;
-        let written = &text[span.clone()];
-        let key = &written[..mark];
-        let length = written[mark..].bytes().take_while(|b| b"=:>".contains(b)).count();
-        let sign = span.start + mark..span.start + mark + length;
-        if &text[sign.clone()] != "=" && !key.is_empty() {
-            let message = format!("a property is written {key}=");
-            self.push(sign.clone(), "=", message, Help::Statement(""));
-        }
-        let value = sign.end..span.end;
-        if value.end < tokens[0].span.end {
-            self.comma(value.end..tokens[0].span.end);
-        }
-        let opens = |text: &str| text.contains(['[', '(', '<', '{']);
-        if opens(&text[value.clone()]) && !is_annotation(&text[value.clone()]) {
-            return self.vector(tokens, span.start, key);
-        }
-        let field = sort.and_then(|sort| sort.fields().iter().find(|field| field.name == key));
-        let inner = &text[value.clone()];
-        let takes_words = key == MATERIAL
-            || field.is_some_and(|f| matches!(f.kind, FieldKind::Mesh | FieldKind::Choice(_)));
-        if inner.is_empty() || is_number(inner) || (is_identifier(inner) && !inner.contains(',')) {
-            return 0;
-        }
-        if takes_words || field.is_none() {
-            if !is_keyword(inner) {
-                self.quote(value);
-            }
-            return 0;
-        }
-        let before = std::mem::replace(
-            &mut self.takes,
-            field.map_or(Takes::Flag, |f| takes(f.name, sort, None, false)),
-        );
-        self.numbers(&[Token { kind: Kind::Word, span: value }]);
-        self.takes = before;
-        if let Some((at, message, help)) = self.unknown.take() {
-            self.push(at, "#null", message, Help::Unknown(help));
-        }
-        0
-    }
-
-    /// `center=[0, 1, 0]` before a block: numbers in brackets, which end some tokens later.
-    fn vector(&mut self, tokens: &[Token], start: usize, key: &str) -> usize {
-        let depth = |token: &Token| {
-            let count = |marks: &[char]| self.text[token.span.clone()].matches(marks).count() as i64;
-            count(&['[', '(', '<']) - count(&[']', ')', '>'])
-        };
-        let mut open = 0;
-        let last = tokens.iter().position(|token| {
-            open += depth(token);
-            open <= 0
-        });
-        let last = last.unwrap_or(tokens.len() - 1);
-        let at = start..tokens[last].span.end;
-        let written = self.text[at.start + key.len() + 1..at.end]
-            .replace(|c: char| BRACKETS.contains(c) || c == ',', " ");
-        let numbers: Vec<String> = written
-            .split_whitespace()
-            .filter_map(|w| meant(w).map(|m| m.number).or_else(|| is_number(w).then(|| w.to_owned())))
-            .collect();
-        let help = format!("write it in the block: {} {{ {key} {} }}", self.word, numbers.join(" "));
-        let message = format!("{key} takes several numbers, which stand in the block");
-        self.push(at, &format!("{key}=#null "), message, Help::Unknown(help));
-        last
-    }
-}
-
-fn is_property(key: &str, sort: Option<Sort>) -> bool {
-    key == MATERIAL || sort.is_some_and(|sort| sort.fields().iter().any(|field| field.name == key))
-}
-
-/// Whether KDL takes the word for a property, or for the beginning of one.
-fn is_valid_property(word: &str) -> bool {
-    word.split_once('=').is_some_and(|(key, value)| {
-        is_identifier(key)
-            && (value.is_empty() || is_number(value) || is_identifier(value) || is_keyword(value))
-    })
-}
-
-/// `=value` behind a blank.
-fn is_value_of_property(word: &str) -> bool {
-    word.strip_prefix('=').is_some_and(|value| {
-        value.is_empty() || is_number(value) || is_identifier(value) || is_keyword(value)
-    })
-}
-
-fn is_keyword(word: &str) -> bool {
-    word.strip_prefix('#').is_some_and(|name| KEYWORDS.contains(&name))
-}
-
-/// `(type)` or `(type)value`, which KDL has.
-fn is_annotation(word: &str) -> bool {
-    word.strip_prefix('(').and_then(|rest| rest.split_once(')')).is_some_and(|(name, rest)| {
-        is_identifier(name) && (rest.is_empty() || is_number(rest) || is_identifier(rest) || is_keyword(rest))
-    })
-}
-
-/// Whether KDL takes the word for a string without quotes.
-fn is_identifier(word: &str) -> bool {
-    let unsigned = word.strip_prefix(['+', '-']).unwrap_or(word);
-    let digit = |word: &str| word.starts_with(|c: char| c.is_ascii_digit());
-    !word.is_empty()
-        && !digit(unsigned)
-        && !unsigned.strip_prefix('.').is_some_and(digit)
-        && !word.contains(['\\', '/', '(', ')', '{', '}', '[', ']', ';', '"', '#', '='])
-        && !KEYWORDS.contains(&word)
-}
-
-/// `#ff8000` or `#f80` as three numbers of linear light (IEC 61966-2-1).
-fn color(word: &str) -> Option<String> {
-    let digits = word.strip_prefix('#').filter(|digits| digits.bytes().all(|b| b.is_ascii_hexdigit()))?;
-    let width = match digits.len() {
-        3 => 1,
-        6 | 8 => 2,
-        _ => return None,
-    };
-    let channel = |i: usize| {
-        let value = u8::from_str_radix(&digits[i * width..(i + 1) * width], 16).ok()?;
-        let encoded = f64::from(value) / if width == 1 { 15.0 } else { 255.0 };
-        let linear = if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) };
-        Some(crate::write::number((linear * 1000.0).round() / 1000.0))
-    };
-    Some([channel(0)?, channel(1)?, channel(2)?].join(" "))
-}
-
-/// As much of a word as fits into a message.
-fn shown(word: &str) -> &str {
-    word.char_indices().nth(40).map_or(word, |(at, _)| &word[..at])
 }
