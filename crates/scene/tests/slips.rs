@@ -66,6 +66,11 @@ const IN_A_SPHERE: &[Slip] = &[
     Slip("radius 1; center np.array([1, .5, 3.])", (2, 44), "write center 1 0.5 3.0"),
     Slip("radius 1; center [\n  1,\n  2,\n  3,\n]", (2, 44), "write center 1 2 3"),
     Slip("radius 1; center .5 .5 .5", (2, 44), "write center 0.5 0.5 0.5"),
+    Slip("radius 1; center x=1 y=.5 z=2", (2, 44), "write center 1 0.5 2"),
+    Slip("radius 1; look_at 0 0 0", (2, 37), "what it has"),
+    Slip("radius 1; rotate 30 0 1 0", (2, 37), "did you mean \"turn\"?"),
+    Slip("radius 1; material \"w\"", (2, 37), "before the block"),
+    Slip("radius 1 # big", (2, 36), "write /* big */"),
     // The end of a field
     Slip("center 0 1 0, radius 1", (2, 39), "write center 0 1 0; radius 1"),
     Slip("center 0 1 0 radius 1", (2, 40), "write center 0 1 0 ; radius 1"),
@@ -109,6 +114,7 @@ const AFTER_A_MATERIAL: &[Slip] = &[
     Slip("sphere \"s\" material=\"w\"; { radius 1 }", (2, 26), "put the { behind sphere"),
     Slip("sphere \"s\" material=\"w\" { radius 1 }}", (2, 37), "leave the } away"),
     Slip("plane \"p\" material=\"w\" { point 0 1 0 } plane \"q\" material=\"w\"", (2, 40), "write ;"),
+    Slip("plane \"p\" material=\"w\" plane \"q\" material=\"w\"", (2, 24), "; plane \"q\""),
     Slip("sphere \"s\" material=\"w\" { radius 1 },", (2, 37), "leave it away"),
     // Comments
     Slip("# it's a comment {", (2, 1), "write // it's a comment {"),

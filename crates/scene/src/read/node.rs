@@ -229,8 +229,17 @@ impl Reader<'_> {
         if sort.is_entity() {
             known.extend(STEPS.iter().map(|(step, ..)| *step));
         }
-        let message = format!("{} has no \"{name}\"", one(sort.word()));
-        let help = self.complaints.hint(|| words::hint(name, &known, "what it has"));
+        let message = format!(
+            "{} has no \"{name}\"{}",
+            one(sort.word()),
+            if name == MATERIAL { " in its block" } else { "" }
+        );
+        let help = match name {
+            MATERIAL if matches!(sort, Sort::Shape(_)) => {
+                format!("it stands before the block: {} … {MATERIAL}=\"name of a material\" {{", sort.word())
+            }
+            _ => self.complaints.hint(|| words::hint(name, &known, "what it has")),
+        };
         self.complaints.add_with(span, message, help);
     }
 

@@ -227,6 +227,16 @@ impl<'a> Lexer<'a> {
     /// What is left of the line is a comment as other languages have them.
     fn foreign_comment(&mut self) {
         let line = self.line();
+        // What closes a block of this line is no part of the comment.
+        let before = self.out.tokens.iter().rev().take_while(|token| token.kind != Kind::Line);
+        let open = before.fold(0, |open, token| {
+            open + i32::from(token.kind == Kind::Open) - i32::from(token.kind == Kind::Close)
+        });
+        let line = match line.trim_end().strip_suffix('}') {
+            Some(said) if open > 0 && !said.contains('{') => said.trim_end_matches([' ', '}']),
+            _ => line,
+        };
+        let new = if line.len() < self.line().len() { "/**/" } else { "//" };
         let mark = ["<!--", "--", "##", "#", "%", "/"]
             .into_iter()
             .find(|mark| line.starts_with(mark))
@@ -236,8 +246,11 @@ impl<'a> Lexer<'a> {
         let short: String = said.chars().take(40).collect();
         let more = if short.len() < said.len() { " …" } else { "" };
         let message = format!("{mark} begins no comment");
-        let help = Help::Alone(format!("write // {short}{more}"));
-        self.touch(span, (self.at..self.at + line.len(), "//".to_owned()), message, help);
+        let help = Help::Alone(match new {
+            "//" => format!("write // {short}{more}"),
+            _ => format!("write /* {short}{more} */"),
+        });
+        self.touch(span, (self.at..self.at + line.len(), new.to_owned()), message, help);
         self.at += line.len();
     }
 

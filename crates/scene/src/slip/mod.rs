@@ -7,13 +7,14 @@
 //! * `lex`: comments and controls that KDL has not;
 //! * `structure`, `brace`, `indent`: braces and `;` that are missing or too many;
 //! * `statement`: `=`, `:` and calls between a word and its values;
-//! * `value`, `property`: commas, brackets, quotes, words of other languages;
+//! * `value`, `part`, `property`: commas, brackets, quotes, words of other languages;
 //! * `number`: `.5`, `5.`, `1e5f`, `50%`.
 
 mod brace;
 mod indent;
 mod lex;
 mod number;
+mod part;
 mod property;
 mod quote;
 mod statement;

@@ -61,7 +61,9 @@ pub(super) fn meant(word: &str) -> Option<Meant> {
     }
     if let Some(number) = word.strip_suffix(['f', 'F', 'd', 'D', 'h', 'H', 'l', 'L', 'u', 'U']) {
         let number = pointed(number).unwrap_or_else(|| number.to_owned());
-        return found(number, format!("{word} has a letter behind its number"));
+        if let Some(meant) = found(number, format!("{word} has a letter behind its number")) {
+            return Some(meant);
+        }
     }
     if let Some(meant) = with_unit(word).or_else(|| reckoned(word)).or_else(|| too_long(word)) {
         return Some(meant);
@@ -160,6 +162,7 @@ mod tests {
             ("50%", "0.5"),
             ("45°", "45"),
             ("45deg", "45"),
+            ("0.5rad", "28.6479"),
             ("30cm", "0.3"),
             ("2m", "2"),
             ("1/3", "0.333333"),

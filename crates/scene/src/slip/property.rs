@@ -15,6 +15,15 @@ impl Values<'_> {
     pub(super) fn property_or_name(&mut self, tokens: &[Token], sort: Option<Sort>) -> usize {
         let span = tokens[0].span.clone();
         let text = self.text;
+        let next = Sort::named(&text[span.clone()])
+            .filter(|_| tokens.get(1).is_some_and(|next| next.kind == Kind::Text));
+        if let Some(next) = next {
+            let message =
+                format!("{} begins on the line of another node without a ; between them", next.word());
+            self.push(span.start..span.start, "; ", message, Help::Statement(""));
+            self.takes = Takes::Head(Some(next));
+            return 0;
+        }
         let written = text[span.clone()].trim_start_matches(',');
         let start = span.end - written.len();
         let ends_call = |bare: &&str| bare.ends_with(',') || (self.called && bare.ends_with(')'));

@@ -7,7 +7,7 @@ use super::value::Values;
 use super::word::{is_annotation, is_identifier, shown};
 use super::{Help, Touch};
 use crate::outline::Sort;
-use crate::read::{ABOUT, STEPS, arity};
+use crate::read::{ABOUT, MATERIAL, STEPS, arity};
 use catoptra_core::FieldKind;
 
 /// What stands behind the word of a statement.
@@ -87,6 +87,9 @@ pub(super) fn takes(word: &str, sort: Option<Sort>, within: Option<&str>, is_nod
             FieldKind::Flag => Takes::Flag,
             kind => Takes::Numbers(arity(kind).0),
         };
+    }
+    if word == MATERIAL && matches!(sort, Some(Sort::Shape(_))) {
+        return Takes::Words;
     }
     if within == Some("turn") && word == ABOUT {
         return Takes::Numbers(&[3]);

@@ -3,19 +3,13 @@
 use super::lex::{Kind, Token};
 use super::number::{is_number, meant};
 use super::statement::{Takes, takes};
-use super::word::{
-    KEYWORDS, color, is_annotation, is_identifier, is_keyword, is_valid_property, is_value_of_property, shown,
-};
+use super::word::{is_annotation, is_identifier, is_keyword, is_valid_property, is_value_of_property, shown};
 use super::{Help, Touch};
 use crate::outline::{Sort, Span};
 use crate::read::STEPS;
 
 /// Marks that stand round numbers elsewhere.
 pub(super) const BRACKETS: &str = "[](){}<>";
-
-/// What makes a vector, a colour or a number of numbers elsewhere, as part of its name.
-const MAKERS: &[&str] =
-    &["vec", "rgb", "color", "colour", "array", "float", "double", "int", "tuple", "list", "point", "xyz"];
 
 /// The values of a statement and what is wrong with them.
 pub(super) struct Values<'a> {
@@ -134,6 +128,12 @@ impl<'a> Values<'a> {
     /// Looks at numbers; answers with how many tokens more than one were looked at.
     pub(super) fn numbers(&mut self, tokens: &[Token]) -> usize {
         let written = &self.text[tokens[0].span.clone()];
+        if self.are_named(tokens) {
+            for token in tokens {
+                self.named_number(token.span.clone());
+            }
+            return tokens.len();
+        }
         if self.begins_field(&tokens[0]) || is_annotation(written) || is_valid_property(written) {
             return 0;
         }
@@ -163,11 +163,34 @@ impl<'a> Values<'a> {
         0
     }
 
+    /// Whether three numbers are written `x=1 y=2 z=3`.
+    fn are_named(&self, tokens: &[Token]) -> bool {
+        let named = |token: &Token| {
+            self.text[token.span.clone()].split_once(['=', ':']).is_some_and(|(key, number)| {
+                ["x", "y", "z", "r", "g", "b"].contains(&key) && {
+                    let number = number.trim_end_matches(',');
+                    is_number(number) || meant(number).is_some()
+                }
+            })
+        };
+        tokens.len() == 3 && tokens.iter().all(named)
+    }
+
+    /// Of `x=1` the number alone is written.
+    fn named_number(&mut self, at: Span) {
+        let Some((key, number)) = self.text[at.clone()].split_once(['=', ':']) else { return };
+        let number = number.trim_end_matches(',');
+        let right = meant(number).map_or_else(|| number.to_owned(), |meant| meant.number);
+        self.push(at, &right, format!("numbers stand without {key} before them"), Help::Statement(""));
+    }
+
     /// The word for another field: a `;` is missing before it.
     fn begins_field(&mut self, token: &Token) -> bool {
         let written = &self.text[token.span.clone()];
         let key = written.split(['=', ':']).next().unwrap_or(written);
-        let Some(owner) = self.owner else { return false };
+        let Some(owner) = self.owner.filter(|_| !matches!(self.takes, Takes::Numbers(&[]))) else {
+            return false;
+        };
         let known = owner.fields().iter().any(|field| field.name == key)
             || (owner.is_entity() && STEPS.iter().any(|(step, ..)| *step == key));
         if !known {
@@ -256,85 +279,6 @@ impl<'a> Values<'a> {
                 _ => {}
             }
         }
-    }
-
-    /// The name before a bracket.
-    fn maker(&mut self, at: Span, call: &str) {
-        let name = self.text[at.clone()].to_ascii_lowercase();
-        if MAKERS.iter().any(|maker| name.contains(maker)) {
-            let message = format!("{} is no number of scene text", shown(call));
-            self.push(at, "", message, Help::Statement(""));
-        } else {
-            let message = format!("{} is not reckoned out", shown(call));
-            self.unknown = Some((at, message, "write the number that it gives".to_owned()));
-        }
-    }
-
-    /// One number, or what was meant to be one.
-    fn part(&mut self, at: Span) {
-        let written = &self.text[at.clone()];
-        let flag = matches!(self.takes, Takes::Flag);
-        if is_number(written)
-            || self.keyword(at.clone(), flag)
-            || is_identifier(written) && meant(written).is_none()
-        {
-            return;
-        }
-        if let Some(meant) = meant(written) {
-            let help = Help::Says(format!("write {}", meant.number));
-            self.push(at, &meant.number, meant.fault, help);
-        } else if let Some(color) = color(written) {
-            let help = Help::Says(format!("write {color} for that sRGB colour"));
-            self.push(
-                at,
-                &color,
-                format!("{written} is no colour of scene text, which takes linear light"),
-                help,
-            );
-        } else {
-            let message = format!("{} is no number", shown(written));
-            self.unknown = Some((at, message, "write a number such as 0.5".to_owned()));
-        }
-    }
-
-    /// A word that needs a `#`, or has it and is spelled otherwise; true if it is one.
-    fn keyword(&mut self, at: Span, flag: bool) -> bool {
-        let written = &self.text[at.clone()];
-        let name = written.trim_start_matches('#').to_ascii_lowercase();
-        let right = match name.as_str() {
-            "yes" | "on" if flag => "#true",
-            "no" | "off" if flag => "#false",
-            "true" | "yes" | "on" => "#true",
-            "false" | "no" | "off" => "#false",
-            "null" | "none" => "#null",
-            "nan" => "#nan",
-            "inf" => "#inf",
-            "-inf" => "#-inf",
-            _ => return false,
-        };
-        if written == right {
-            return true;
-        }
-        if !written.starts_with('#') && !KEYWORDS.contains(&written) {
-            return false;
-        }
-        if flag && matches!(right, "#true" | "#false") {
-            self.push(
-                at,
-                right,
-                format!("{written} needs to be written {right}"),
-                Help::Says(format!("write {right}")),
-            );
-        } else {
-            let message = format!("{written} stands where a number or a word is needed");
-            self.push(
-                at,
-                right,
-                message,
-                Help::Unknown(format!("write a value for {}, or leave it away", self.word)),
-            );
-        }
-        true
     }
 
     /// A word or a path that needs quotes.
