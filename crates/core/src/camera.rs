@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use crate::part::Given;
+use crate::part::{Given, degrees};
 use crate::{Field, FieldKind, InvalidPart, Kind, Part, Placement, Ray, Value, Values};
 
 /// Perspective camera: every ray starts at the eye.
@@ -72,11 +72,13 @@ impl Camera {
         let Some(forward) = along.try_normalize() else {
             return Err(InvalidPart::new(field, "must lie in a direction from the eye", along));
         };
-        let Some(right) = up.try_normalize().and_then(|up| forward.cross(up).try_normalize()) else {
-            return Err(InvalidPart::new("up", "must not be zero or along the view", up));
+        let across = upwards(forward, up);
+        let Some(right) = across.try_normalize().and_then(|up| forward.cross(up).try_normalize()) else {
+            return Err(InvalidPart::new("up", "must not be zero or along the view", up)
+                .with_hint("leave up away, or write one across the view, such as up 0 1 0"));
         };
         if !(fov > 0.0 && fov < PI) {
-            return Err(InvalidPart::new("fov", "must lie between 0 and 180 degrees", fov.to_degrees()));
+            return Err(InvalidPart::new("fov", "must lie between 0 and 180 degrees", degrees(fov)));
         }
         Ok(Self { eye, aim, up_hint: up, fov, forward, right, up: right.cross(forward) })
     }
@@ -141,7 +143,8 @@ impl Camera {
             Aim::Target(target) => Aim::Target(placement.point(target)),
             Aim::Direction(direction) => Aim::Direction(placement.direction(direction)),
         };
-        Self::new(placement.point(self.eye), aim, placement.direction(self.up_hint), self.fov)
+        let up = upwards(self.forward, self.up_hint);
+        Self::new(placement.point(self.eye), aim, placement.direction(up), self.fov)
     }
 
     /// How ray directions follow from pixels, in a picture of `width` x `height` pixels:
@@ -161,6 +164,13 @@ impl Camera {
     pub fn ray(&self, x: f64, y: f64, width: u32, height: u32) -> Ray {
         self.raster(width, height).ray(x, y)
     }
+}
+
+/// What stands for `up` in a view along `forward`: itself, but where the view goes straight down or up the y axis and
+/// `up` is that axis, the direction that a camera which looks along −z has upwards when it is tilted there.
+fn upwards(forward: DVec3, up: DVec3) -> DVec3 {
+    let along_y = |v: DVec3| v.x == 0.0 && v.z == 0.0;
+    if along_y(forward) && along_y(up) && up.y > 0.0 { DVec3::Z * forward.y.signum() } else { up }
 }
 
 /// Ray directions as an affine function of pixels; see [`Camera::raster`].
@@ -252,10 +262,23 @@ mod tests {
     }
 
     #[test]
+    fn straight_down_the_far_side_is_at_the_top() {
+        let seen = |direction: DVec3| Camera::looking(DVec3::ZERO, direction, DVec3::Y, 1.0).unwrap();
+        let down = seen(-DVec3::Y * 3.0);
+        assert_eq!((down.up(), down.right(), down.up_hint()), (-DVec3::Z, DVec3::X, DVec3::Y));
+        assert_eq!((seen(DVec3::Y).up(), seen(DVec3::Y).right()), (DVec3::Z, DVec3::X));
+        // What turns with a group keeps it.
+        let turned = Placement::IDENTITY.turned(DVec3::ZERO, DVec3::X, 0.3).unwrap();
+        let up = down.placed(&turned).unwrap().up();
+        assert!((up - turned.direction(-DVec3::Z)).length() < 1e-12, "{up}");
+    }
+
+    #[test]
     fn impossible_views_are_refused() {
         let refused = |aim, up, fov| Camera::new(DVec3::ZERO, aim, up, fov).unwrap_err().field();
         assert_eq!(refused(Aim::Target(DVec3::ZERO), DVec3::Y, 1.0), "target");
-        assert_eq!(refused(Aim::Direction(DVec3::Y), DVec3::Y, 1.0), "up");
+        assert_eq!(refused(Aim::Direction(DVec3::Z), DVec3::Z, 1.0), "up");
+        assert_eq!(refused(Aim::Direction(DVec3::Y), -DVec3::Y, 1.0), "up");
         assert_eq!(refused(Aim::Direction(DVec3::X), DVec3::Y, PI), "fov");
         assert_eq!(refused(Aim::Direction(DVec3::X), DVec3::Y, f64::NAN), "fov");
     }

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use catoptra_core::scene::{Content, Edit, EntityId, MaterialId, Node, Scene, Subtree};
 
 use crate::outline::{Item, Outline, Part, Word};
-use crate::report::{Complaints, line_and_column};
+use crate::report::Complaints;
 use crate::words;
 
 /// The part of a scene that a node stands for.
@@ -18,10 +18,9 @@ pub(crate) enum Id {
 
 /// Builds the scene, and answers with what each item of the outline has become. If anything is wrong it goes to
 /// `complaints`, and the scene is not whole.
-pub(crate) fn build(outline: &Outline, text: &str, complaints: &mut Complaints) -> (Scene, Vec<Id>) {
+pub(crate) fn build(outline: &Outline, complaints: &mut Complaints) -> (Scene, Vec<Id>) {
     let mut builder = Builder {
         scene: Scene::new(),
-        text,
         complaints,
         first: HashMap::new(),
         materials: HashMap::new(),
@@ -37,7 +36,6 @@ pub(crate) fn build(outline: &Outline, text: &str, complaints: &mut Complaints) 
 
 struct Builder<'a> {
     scene: Scene,
-    text: &'a str,
     complaints: &'a mut Complaints,
     /// Where every name was first given; materials have names of their own.
     first: HashMap<(bool, &'a str), usize>,
@@ -79,8 +77,7 @@ impl<'a> Builder<'a> {
     }
 
     fn again(&mut self, span: crate::outline::Span, message: String, first: usize) {
-        let (line, _) = line_and_column(self.text, first);
-        self.complaints.add_with(span, message, format!("the first stands in line {line}"));
+        self.complaints.add_again(span, message, first);
     }
 
     fn add_materials(&mut self, outline: &'a Outline) {
@@ -144,7 +141,7 @@ impl<'a> Builder<'a> {
         let word = item.material.as_ref()?;
         let found = self.materials.get(word.value.as_str()).copied();
         if found.is_none() && !word.value.is_empty() && !self.names.contains(&word.value.as_str()) {
-            let help = words::hint(&word.value, &self.names, "materials");
+            let help = self.complaints.hint(|| words::hint(&word.value, &self.names, "materials"));
             let message = format!("there is no material \"{}\"", word.value);
             self.complaints.add_with(word.span.clone(), message, help);
         }

@@ -9,8 +9,10 @@ use crate::atomic;
 use crate::build::{self, Id};
 use crate::disk::{self, OnDisk};
 use crate::outline::Outline;
+use crate::printable;
 use crate::read::{self, LONGEST, Meshes};
 use crate::report::{Complaints, SceneTextError};
+use crate::slip::{self, Mended};
 use crate::write::{self, Splice};
 
 /// The text of a scene, kept so that saving changes only what has changed.
@@ -30,7 +32,7 @@ pub struct SceneFile {
 
 /// A scene that could not be saved; what was on the disk before is there still.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("{}: cannot be written: {cause}", path.display())]
+#[error("{}: cannot be written: {cause}", printable(&path.to_string_lossy()))]
 #[diagnostic(code(catoptra::save))]
 pub struct SaveError {
     path: PathBuf,
@@ -63,15 +65,37 @@ pub fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
 /// # Errors
 /// Text that is no valid scene, with all that is wrong in it.
 pub fn parse(text: &str, name: &str, base: Option<&Path>) -> Result<(Scene, SceneFile), SceneTextError> {
-    let mut complaints = Complaints::new();
     let mut meshes = Meshes::new(base);
-    let outline = read::read(text, &mut meshes, &mut complaints);
-    let (scene, ids) = build::build(&outline, text, &mut complaints);
-    if complaints.count() > 0 {
-        return Err(complaints.into_error(name, text));
+    let mended = slip::mend(text);
+    let mut complaints = Complaints::new();
+    if mended.as_ref().is_none_or(Mended::is_doubtful) {
+        let outline = read::read(text, &mut meshes, &mut complaints);
+        let (scene, ids) = build::build(&outline, &mut complaints);
+        if complaints.count() == 0 {
+            return Ok((scene, SceneFile { path: None, text: text.to_owned(), outline, ids, meshes }));
+        }
     }
+<<<<<<< HEAD
     let file = SceneFile { path: None, stored: String::new(), text: text.to_owned(), outline, ids, meshes };
     Ok((scene, file))
+=======
+    if let Some(mended) = mended {
+        complaints = without_slips(&mended, &mut meshes);
+    }
+    Err(complaints.into_error(name, text))
+}
+
+/// All that is wrong with a text: its slips, and what is found behind them.
+fn without_slips(mended: &Mended, meshes: &mut Meshes) -> Complaints {
+    let (mut slips, mut behind) = (Complaints::new(), Complaints::new());
+    mended.tell(&mut slips);
+    if mended.is_to_be_read() {
+        let outline = read::read(&mended.text, meshes, &mut behind);
+        build::build(&outline, &mut behind);
+        slips.take_over(behind, |at| mended.place(at));
+    }
+    slips
+>>>>>>> scene
 }
 
 fn not_utf8(error: &std::string::FromUtf8Error, name: &str) -> SceneTextError {
@@ -79,7 +103,11 @@ fn not_utf8(error: &std::string::FromUtf8Error, name: &str) -> SceneTextError {
     let text = String::from_utf8_lossy(error.as_bytes());
     let mut complaints = Complaints::new();
     let message = format!("byte {valid} of the file is no UTF-8 text");
-    complaints.add_with(valid..valid + 3, message, "save the file as UTF-8");
+    let help = match error.as_bytes() {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "this looks like UTF-16: save the file as UTF-8",
+        _ => "save the file as UTF-8",
+    };
+    complaints.add_with(valid..valid + 3, message, help);
     complaints.into_error(name, &text)
 }
 

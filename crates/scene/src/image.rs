@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
 
-use crate::atomic;
+use crate::{atomic, printable};
 
 /// A picture of 8-bit red, green, blue: row-major from the top left, `3 * width * height` bytes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,7 +46,7 @@ impl Rgb8Image {
 
 /// A picture file that cannot be written or read.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("{}: {message}", path.display())]
+#[error("{}: {}", printable(&path.to_string_lossy()), printable(message))]
 #[diagnostic(code(catoptra::image))]
 pub struct ImageError {
     path: PathBuf,

@@ -14,17 +14,21 @@
 pub mod atomic;
 mod build;
 mod disk;
+mod excerpt;
 mod file;
 pub mod image;
 pub mod mesh;
 mod outline;
+mod printable;
 mod read;
 mod report;
 mod scan;
+mod slip;
 mod state;
 pub mod words;
 mod write;
 
 pub use disk::OnDisk;
 pub use file::{SaveError, SceneFile, load, parse};
+pub use printable::printable;
 pub use report::{Complaint, SceneTextError};

@@ -2,13 +2,19 @@
 
 use std::fmt;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
-use miette::{Diagnostic, LabeledSpan, NamedSource, Severity, SourceCode};
+use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
+
+use crate::excerpt::Excerpt;
+use crate::printable::{brief, printable};
 
 /// More complaints about one text than this are counted, not told.
 const MOST: usize = 50;
+
+/// Of longer messages and hints the middle is left out, in characters.
+const LONGEST: usize = 400;
 
 /// One thing that is wrong in scene text.
 #[derive(Debug, Clone)]
@@ -19,7 +25,8 @@ pub struct Complaint {
     line: usize,
     column: usize,
     place: String,
-    source: Arc<NamedSource<String>>,
+    text: Arc<str>,
+    excerpt: Excerpt,
 }
 
 impl Complaint {
@@ -56,8 +63,7 @@ impl Complaint {
     /// The line of the text that it is about, without its end.
     #[must_use]
     pub fn source_line(&self) -> &str {
-        let text = self.source.inner();
-        text.split('\n').nth(self.line - 1).unwrap_or_default().trim_end_matches('\r')
+        self.text.split('\n').nth(self.line - 1).unwrap_or_default().trim_end_matches('\r')
     }
 }
 
@@ -79,11 +85,11 @@ impl Diagnostic for Complaint {
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        Some(&*self.source)
+        Some(&self.excerpt)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let label = LabeledSpan::new_with_span(Some("here".to_owned()), self.span.clone());
+        let label = LabeledSpan::new_with_span(Some("here".to_owned()), self.excerpt.mark());
         Some(Box::new(std::iter::once(label)))
     }
 }
@@ -104,15 +110,15 @@ pub struct SceneTextError {
 impl SceneTextError {
     pub(crate) fn unreadable(path: &Path, cause: std::io::Error) -> Self {
         let message = format!("cannot be read: {cause}");
-        Self { unreadable: Some((message, Some(cause))), ..Self::named(path.display().to_string()) }
+        Self { unreadable: Some((message, Some(cause))), ..Self::named(path) }
     }
 
     pub(crate) fn unusable(path: &Path, message: String) -> Self {
-        Self { unreadable: Some((message, None)), ..Self::named(path.display().to_string()) }
+        Self { unreadable: Some((message, None)), ..Self::named(path) }
     }
 
-    fn named(name: String) -> Self {
-        Self { name, complaints: Vec::new(), untold: 0, unreadable: None }
+    fn named(path: &Path) -> Self {
+        Self { name: path.display().to_string(), complaints: Vec::new(), untold: 0, unreadable: None }
     }
 
     /// The file, or the name that the text was given.
@@ -149,13 +155,13 @@ impl SceneTextError {
 impl fmt::Display for SceneTextError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.unreadable, self.complaints.as_slice()) {
-            (Some((message, _)), _) => write!(f, "{}: {message}", self.name),
+            (Some((message, _)), _) => write!(f, "{}: {message}", printable(&self.name)),
             (None, [first, rest @ ..]) => match rest.len() + self.untold {
                 0 => write!(f, "{first}"),
                 1 => write!(f, "{first} (and 1 more error)"),
                 more => write!(f, "{first} (and {more} more errors)"),
             },
-            (None, []) => write!(f, "{}: cannot be used", self.name),
+            (None, []) => write!(f, "{}: cannot be used", printable(&self.name)),
         }
     }
 }
@@ -189,9 +195,26 @@ impl Diagnostic for SceneTextError {
     }
 }
 
+/// One complaint before its line is known.
+#[derive(Debug)]
+struct Found {
+    span: Range<usize>,
+    message: String,
+    help: Option<Help>,
+}
+
+/// What to do about a complaint.
+#[derive(Debug)]
+enum Help {
+    Says(String),
+    /// The first of two stands at this byte.
+    FirstAt(usize),
+}
+
 /// Collects complaints about one text.
+#[derive(Debug)]
 pub(crate) struct Complaints {
-    found: Vec<(Range<usize>, String, Option<String>)>,
+    found: Vec<Found>,
 }
 
 impl Complaints {
@@ -201,7 +224,7 @@ impl Complaints {
 
     /// Notes that something is wrong with `span` of the text.
     pub(crate) fn add(&mut self, span: Range<usize>, message: impl Into<String>) {
-        self.found.push((span, message.into(), None));
+        self.found.push(Found { span, message: message.into(), help: None });
     }
 
     /// The same, with a hint.
@@ -211,26 +234,64 @@ impl Complaints {
         message: impl Into<String>,
         help: impl Into<String>,
     ) {
-        self.found.push((span, message.into(), Some(help.into())));
+        self.found.push(Found { span, message: message.into(), help: Some(Help::Says(help.into())) });
+    }
+
+    /// Notes that what stands at `span` is there already, at the byte `first`.
+    pub(crate) fn add_again(&mut self, span: Range<usize>, message: impl Into<String>, first: usize) {
+        self.found.push(Found { span, message: message.into(), help: Some(Help::FirstAt(first)) });
+    }
+
+    /// A hint that takes time to find; none is sought for what will not be told anyway.
+    pub(crate) fn hint(&self, find: impl FnOnce() -> String) -> String {
+        if self.found.len() < 20 * MOST { find() } else { String::new() }
     }
 
     pub(crate) fn count(&self) -> usize {
         self.found.len()
     }
 
+    /// Takes over complaints about a changed copy of the text: `place` tells where a byte of it stands in this text,
+    /// `None` if a complaint that begins there is not to be told.
+    pub(crate) fn take_over(&mut self, others: Self, place: impl Fn(usize) -> Option<usize>) {
+        for mut found in others.found {
+            let Some(start) = place(found.span.start) else { continue };
+            let end = place(found.span.end).unwrap_or(start).max(start);
+            if let Some(Help::FirstAt(first)) = &mut found.help {
+                *first = place(*first).unwrap_or(start);
+            }
+            self.found.push(Found { span: start..end, ..found });
+        }
+    }
+
     /// All of them in the order of the text, with their lines and columns.
     pub(crate) fn into_error(mut self, name: &str, text: &str) -> SceneTextError {
-        self.found.sort_by_key(|(span, ..)| span.start);
+        self.found.sort_by_key(|found| found.span.start);
         let untold = self.found.len().saturating_sub(MOST);
-        let source = Arc::new(NamedSource::new(name, text.to_owned()));
-        let place: String = PathBuf::from(name).display().to_string();
-        let complaints = self.found.into_iter().take(MOST).map(|(span, message, help)| {
-            let start = floor(text, span.start);
-            let span = start..floor(text, span.end.max(start));
+        let whole: Arc<str> = text.into();
+        let place = printable(name).into_owned();
+        let complaints = self.found.into_iter().take(MOST).map(|found| {
+            let start = floor(text, found.span.start);
+            let span = start..floor(text, found.span.end.max(start));
             let (line, column) = line_and_column(text, start);
-            Complaint { message, help, span, line, column, place: place.clone(), source: Arc::clone(&source) }
+            let help = found.help.map(|help| match help {
+                Help::Says(help) => brief(&help, LONGEST),
+                Help::FirstAt(first) => {
+                    format!("the first stands in line {}", line_and_column(text, first).0)
+                }
+            });
+            Complaint {
+                message: brief(&found.message, LONGEST),
+                help,
+                excerpt: Excerpt::new(&place, text, span.clone(), line, column),
+                span,
+                line,
+                column,
+                place: place.clone(),
+                text: Arc::clone(&whole),
+            }
         });
-        SceneTextError { name: name.to_owned(), complaints: complaints.collect(), untold, unreadable: None }
+        SceneTextError { complaints: complaints.collect(), name: name.to_owned(), untold, unreadable: None }
     }
 }
 
@@ -239,7 +300,7 @@ fn floor(text: &str, at: usize) -> usize {
 }
 
 /// Line and column (in characters), both from 1, of a byte of the text.
-pub(crate) fn line_and_column(text: &str, at: usize) -> (usize, usize) {
+fn line_and_column(text: &str, at: usize) -> (usize, usize) {
     let before = &text[..floor(text, at)];
     let line = before.matches('\n').count() + 1;
     let start = before.rfind('\n').map_or(0, |newline| newline + 1);

@@ -3,6 +3,7 @@
 //! The KDL parser calls itself for every nested block and comment, so text is looked over here first, and refused
 //! before it can exhaust the stack. The same look finds the braces of a node when text is put into it.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Blocks and comments may lie this deep inside each other: the groups of a scene, with room for their fields.
@@ -21,8 +22,8 @@ pub(crate) enum Mark {
     Comment {
         /// How deep comments lie inside it, itself included.
         depth: usize,
-        /// Whether it ends before the text does.
-        closed: bool,
+        /// The byte behind it.
+        end: usize,
     },
 }
 
@@ -80,7 +81,7 @@ impl<'a> Marks<'a> {
                 self.at += 1;
             }
         }
-        Mark::Comment { depth: deepest, closed: depth == 0 }
+        Mark::Comment { depth: deepest, end: self.at }
     }
 
     /// Goes past a string, given that a quote stands here; one that is not closed ends with its line.
@@ -160,10 +161,25 @@ pub(crate) fn too_deep(text: &str) -> Option<usize> {
     None
 }
 
-/// Where a comment begins that is never closed, if there is one.
-pub(crate) fn unclosed_comment(text: &str) -> Option<usize> {
-    Marks::from(text, 0)
-        .find_map(|(at, mark)| matches!(mark, Mark::Comment { closed: false, .. }).then_some(at))
+/// The text with blanks for what stands between `/*` and `*/`, byte by byte: the parser calls itself for every `*` and
+/// `/` in there.
+pub(crate) fn without_comments(text: &str) -> Cow<'_, str> {
+    let comments: Vec<Range<usize>> = Marks::from(text, 0)
+        .filter_map(|(at, mark)| match mark {
+            Mark::Comment { end, .. } if text[at..end].ends_with("*/") => Some(at..end),
+            _ => None,
+        })
+        .collect();
+    if comments.is_empty() {
+        return Cow::Borrowed(text);
+    }
+    let mut out = String::with_capacity(text.len());
+    for comment in comments {
+        out.push_str(&text[out.len()..comment.start]);
+        out.extend(std::iter::repeat_n(' ', comment.len()));
+    }
+    out.push_str(&text[out.len()..]);
+    Cow::Owned(out)
 }
 
 /// The block of a node whose text is `node` in `text`: from its `{` to past its `}`. Blocks that are commented out
@@ -203,7 +219,7 @@ mod tests {
     fn braces_in_strings_and_comments_are_no_blocks() {
         let text = "a \"{\\\"{\" #\"{\"{\"# /* { /* { */ { */ // {\n\"\"\"{\n\"{\"\n\"\"\" b { c }";
         let marks: Vec<_> =
-            Marks::from(text, 0).filter(|(_, m)| *m != Mark::Comment { depth: 2, closed: true }).collect();
+            Marks::from(text, 0).filter(|(_, m)| !matches!(m, Mark::Comment { depth: 2, .. })).collect();
         assert_eq!(marks, [(text.len() - 5, Mark::Open), (text.len() - 1, Mark::Close)]);
     }
 
@@ -213,6 +229,14 @@ mod tests {
         assert_eq!(too_deep(&"a {".repeat(DEEPEST + 1)), Some(3 * DEEPEST + 2));
         assert!(too_deep(&"/*".repeat(100_000)).is_some());
         assert_eq!(too_deep(&"a { }".repeat(1000)), None);
+    }
+
+    #[test]
+    fn comments_are_blanked_byte_by_byte() {
+        let text = "a \"/* b */\" /* ü\n/* x */ */ c // /* d\n/* e";
+        let blanked = without_comments(text);
+        assert_eq!(blanked.len(), text.len());
+        assert_eq!(blanked.replace("  ", ""), "a \"/* b */\"c // /* d\n/* e");
     }
 
     #[test]

@@ -20,9 +20,54 @@ pub fn nearest<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> O
     (near.0 <= (near.1.chars().count() / 3).max(1)).then_some(near.1)
 }
 
+/// What other programs call things, and what scene text calls them.
+const SYNONYMS: &[(&str, &[&str])] = &[
+    ("location", &["eye", "position", "center"]),
+    ("position", &["eye", "center"]),
+    ("from", &["eye"]),
+    ("lookat", &["target"]),
+    ("at", &["target"]),
+    ("to", &["target"]),
+    ("angle", &["fov"]),
+    ("rotate", &["turn"]),
+    ("rotation", &["turn"]),
+    ("translate", &["move"]),
+    ("translation", &["move"]),
+    ("origin", &["center", "point"]),
+    ("colour", &["color"]),
+    ("rgb", &["color"]),
+    ("albedo", &["color", "diffuse"]),
+    ("diffuse", &["color"]),
+    ("pigment", &["color"]),
+    ("power", &["intensity", "irradiance", "radiance"]),
+    ("energy", &["intensity", "irradiance", "radiance"]),
+    ("strength", &["intensity", "irradiance", "radiance"]),
+    ("intensity", &["irradiance", "radiance"]),
+    ("path", &["file"]),
+    ("filename", &["file"]),
+    ("lightsource", &["point-light"]),
+    ("light", &["point-light"]),
+    ("sun", &["directional-light"]),
+    ("cube", &["box"]),
+    ("cuboid", &["box"]),
+    ("ball", &["sphere"]),
+    ("quad", &["rectangle"]),
+    ("floor", &["plane"]),
+    ("object", &["mesh"]),
+    ("lambert", &["matte"]),
+    ("metal", &["mirror"]),
+];
+
+/// The known word for what other programs call `written`.
+fn synonym<'a>(written: &str, known: &[&'a str]) -> Option<&'a str> {
+    let plain: String = written.chars().filter(|c| !"-_ ".contains(*c)).collect::<String>().to_lowercase();
+    let (_, meant) = SYNONYMS.iter().find(|(word, _)| *word == plain)?;
+    meant.iter().find_map(|meant| known.iter().find(|word| *word == meant)).copied()
+}
+
 /// "did you mean …?" where a word is near, else the list of what there is.
 pub(crate) fn hint(written: &str, known: &[&str], what: &str) -> String {
-    match nearest(written, known.iter().copied()) {
+    match synonym(written, known).or_else(|| nearest(written, known.iter().copied())) {
         Some(word) => format!("did you mean \"{word}\"?"),
         None if known.is_empty() => format!("there are no {what}"),
         None if known.len() > 40 => format!("there are {} {what}, none of them near to that", known.len()),
@@ -45,6 +90,17 @@ mod tests {
         assert_eq!(nearest("orcale", ["wide", "scalar", "oracle"]), Some("oracle"));
         assert_eq!(nearest("frnt", ["front"]), Some("front"));
         assert_eq!(nearest("sgrb", ["linear", "srgb", "filmic"]), Some("srgb"));
+    }
+
+    #[test]
+    fn words_of_other_programs_find_theirs() {
+        let camera = ["eye", "target", "fov", "move", "turn"];
+        for (word, meant) in
+            [("look_at", "target"), ("Location", "eye"), ("angle", "fov"), ("rotate", "turn")]
+        {
+            assert_eq!(hint(word, &camera, "fields"), format!("did you mean \"{meant}\"?"));
+        }
+        assert_eq!(hint("light_source", &KNOWN, "words"), "did you mean \"point-light\"?");
     }
 
     #[test]

@@ -105,8 +105,8 @@ const AFTER_A_MATERIAL: &[Case] = &[
     Case(
         "rectangle \"r\" material=\"w\" { corner 0 0 0; edge-u 1 0 0; edge-v 1 1 0 }",
         (2, 58),
-        "edge-v must be perpendicular to edge-u",
-        "",
+        "edge-v must be perpendicular to edge-u, not at 45° to it",
+        "write edge-v 0 1 0",
     ),
     Case("box \"b\" material=\"w\" { min 0 0 0; max 1 -1 1 }", (2, 35), "max must not be below min", ""),
     Case(
@@ -117,7 +117,7 @@ const AFTER_A_MATERIAL: &[Case] = &[
     ),
     Case("checker \"c\" scale=0", (2, 13), "scale must be greater than 0", ""),
     Case("camera \"c\" { eye 0 0 0; target 0 0 0 }", (2, 25), "target must lie in a direction", ""),
-    Case("camera \"c\" { eye 0 0 5; direction 0 -1 0; up 0 1 0 }", (2, 43), "up must not be", ""),
+    Case("camera \"c\" { eye 0 0 5; direction 0 -1 0; up 0 -1 0 }", (2, 43), "up must not be", "up 0 1 0"),
     Case(
         "camera \"c\" { eye 0 0 5; direction 0 0 -1; fov 180 }",
         (2, 43),
@@ -175,10 +175,15 @@ const AFTER_A_MATERIAL: &[Case] = &[
     Case("group \"g\" { scale 1e300; scale 1e300 }", (2, 26), "scale must be greater than 0 and finite", ""),
     Case("group \"g\" { seed-turn 1 x }", (2, 25), "seed-turn needs a number, not x", ""),
     // Syntax
-    Case("sphere \"s\" material=\"w\" {\n  radius 1", (2, 25), "No closing '}'", ""),
-    Case("}", (2, 1), "Expected end of document", "no block to close"),
-    Case("sphere \"s material=w {\n radius 1 }", (2, 8), "quoted string", ""),
-    Case("sphere \"s\" material=\"w\" { radius 1..5 }", (2, 34), "float", ""),
+    Case(
+        "sphere \"s\" material=\"w\" {\n  radius 1",
+        (2, 25),
+        "this sphere is never closed",
+        "close it with }",
+    ),
+    Case("}", (2, 1), "no block to close", "leave the } away"),
+    Case("sphere \"s material=w {\n radius 1 }", (2, 8), "never closed", "write \"s\""),
+    Case("sphere \"s\" material=\"w\" { radius 1..5 }", (2, 34), "1..5 is no number", "such as 0.5"),
     Case("point-light \"l\" { intensity 1; shadow false }", (2, 39), "", "write #false"),
     Case(
         "sphere \"s\" material=\"w\" { radius 1 } /* never closed",
@@ -186,8 +191,8 @@ const AFTER_A_MATERIAL: &[Case] = &[
         "comment is never closed",
         "close it with */",
     ),
-    Case("settings {\n  max-depth 0x\n}", (3, 13), "hexadecimal", ""),
-    Case("{ radius 1 }", (2, 1), "child block instead of node name", ""),
+    Case("settings {\n  max-depth 0x\n}", (3, 13), "0x is no number", "such as 0.5"),
+    Case("{ radius 1 }", (2, 1), "behind no word", "write what it is before it"),
     // Meshes
     Case(
         "mesh \"m\" material=\"w\" file=\"none.ply\"",

@@ -97,6 +97,32 @@ fn no_damaged_scene_panics() {
     );
 }
 
+/// The parser of KDL calls itself for every error that it meets and for every mark in a comment.
+#[test]
+fn errors_and_comments_without_end_exhaust_no_stack() {
+    let mut random = Random(3);
+    for _ in 0..4 {
+        let word = |random: &mut Random| -> String {
+            let letters =
+                (0..1 + random.below(6)).map(|_| TELLING[random.below(TELLING.len() - 3)] as char).collect();
+            if random.below(4) == 0 { format!("radius{letters}1 ") } else { letters }
+        };
+        let kinds: Vec<String> = (0..6).map(|_| word(&mut random)).collect();
+        let text: String = (0..10_000).map(|_| kinds[random.below(kinds.len())].as_str()).collect();
+        if let Err(error) = parse(&text, "garbage.kdl", None) {
+            assert!(error.complaints().len() <= 50);
+        }
+    }
+    for piece in
+        ["}\n", "= 1\n", "a 1.\n", "{}\n", "( ", "\"a\"b ", "a \\ b\n", "/- ", "#a\n", "a {} b\n", "/ "]
+    {
+        assert!(parse(&piece.repeat(10_000), "garbage.kdl", None).is_err());
+    }
+    let comment =
+        format!("/*{}*/\nmatte \"m\" color=1 /* {} */", "*".repeat(40_000), "// a / b\n".repeat(10_000));
+    parse(&comment, "comment.kdl", None).unwrap();
+}
+
 fn meshes() -> Vec<(&'static str, Vec<u8>)> {
     let header = |format: &str| {
         format!(

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::{Geometry, Meeting};
 use crate::exact::{Located, Number, Root, Vector, Verdict};
 use crate::numeric::RIGHT_ANGLE_TOLERANCE;
-use crate::part::Given;
+use crate::part::{Given, degrees};
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
 /// The points `corner + u * edge_u + v * edge_v` with u and v in 0..=1; its normal is `edge_u × edge_v`.
@@ -50,9 +50,14 @@ impl Part for Rectangle {
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         let (edge_u, edge_v) = (given.direction("edge-u")?, given.direction("edge-v")?);
-        let cosine = edge_u.normalize().dot(edge_v.normalize());
-        if cosine.abs() > RIGHT_ANGLE_TOLERANCE || cosine.is_nan() {
-            return Err(InvalidPart::new("edge-v", "must be perpendicular to edge-u", edge_v));
+        if !are_perpendicular(edge_u, edge_v) {
+            let angle = degrees(edge_u.normalize().angle_between(edge_v.normalize()));
+            let refused =
+                InvalidPart::new("edge-v", "must be perpendicular to edge-u", format!("at {angle} to it"));
+            return Err(match perpendicular(edge_u, edge_v) {
+                Some(right) => refused.with_hint(format!("write {right}")),
+                None => refused,
+            });
         }
         if edge_u.cross(edge_v).try_normalize().is_none() {
             return Err(InvalidPart::new("edge-v", "must span an area with edge-u", edge_v));
@@ -66,6 +71,26 @@ impl Part for Rectangle {
             .with("edge-u", Value::Vector(self.edge_u))
             .with("edge-v", Value::Vector(self.edge_v))
     }
+}
+
+/// Whether the angle between two edges is a right one, but for rounding.
+fn are_perpendicular(edge_u: DVec3, edge_v: DVec3) -> bool {
+    edge_u.normalize().dot(edge_v.normalize()).abs() <= RIGHT_ANGLE_TOLERANCE
+}
+
+/// `edge-v` as it should be written: what of it is perpendicular to `edge_u`, in as few digits as keep it so.
+fn perpendicular(edge_u: DVec3, edge_v: DVec3) -> Option<String> {
+    let right = edge_v - edge_v.project_onto_normalized(edge_u.try_normalize()?);
+    let size = right.abs().max_element();
+    (6..=15_usize).find_map(|digits| {
+        let rounded = |v: f64| {
+            let text = format!("{:.*e}", digits, if v.abs() < size * 1e-12 { 0.0 } else { v });
+            text.parse::<f64>().unwrap_or(v)
+        };
+        let edge = right.to_array().map(rounded);
+        are_perpendicular(edge_u, DVec3::from_array(edge))
+            .then(|| format!("edge-v {} {} {}", edge[0], edge[1], edge[2]))
+    })
 }
 
 impl Geometry for Rectangle {
@@ -139,6 +164,19 @@ mod tests {
     #[test]
     fn a_slanted_one_is_refused() {
         let slanted = Rectangle::new(DVec3::ZERO, DVec3::X, DVec3::new(0.5, 1.0, 0.0));
-        assert_eq!(slanted.unwrap_err().field(), "edge-v");
+        let refused = slanted.unwrap_err();
+        assert_eq!(refused.to_string(), "edge-v must be perpendicular to edge-u, not at 63.43494882° to it");
+        assert_eq!(refused.hint(), Some("write edge-v 0 1 0"));
+    }
+
+    #[test]
+    fn edges_that_were_rounded_are_told_as_they_should_be() {
+        let (u, v) = (DVec3::new(0.866, 0.0, -0.5), DVec3::new(0.333, 0.7, 0.577));
+        let refused = Rectangle::new(DVec3::ZERO, u, v).unwrap_err();
+        let numbers = refused.hint().and_then(|hint| hint.strip_prefix("write edge-v ")).unwrap();
+        let right: Vec<f64> = numbers.split(' ').map(|number| number.parse().unwrap()).collect();
+        let right = DVec3::new(right[0], right[1], right[2]);
+        assert!((right - v).length() < 2e-4, "{numbers}");
+        assert!(Rectangle::new(DVec3::ZERO, u, right).is_ok(), "{numbers}");
     }
 }

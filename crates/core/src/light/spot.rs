@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::{Arrival, Emitter, SHADOW, from_point};
 use crate::lane::Constant3;
-use crate::part::Given;
+use crate::part::{Given, degrees};
 use crate::{Coefficient, Field, FieldKind, InvalidPart, Lane, Part, Placement, Rgb, Triple, Value, Values};
 
 /// A point light within a cone: full strength up to the inner cone, none beyond the outer, and between them
@@ -91,15 +91,11 @@ impl Part for SpotLight {
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         let (inner, outer) = (given.not_negative("inner")?, given.positive("outer")?);
         if outer < inner {
-            let requirement = format!("must not be under inner, {}°", round(inner.to_degrees()));
-            return Err(InvalidPart::new("outer", requirement, format!("{}°", round(outer.to_degrees()))));
+            let requirement = format!("must not be under inner, {}", degrees(inner));
+            return Err(InvalidPart::new("outer", requirement, degrees(outer)));
         }
         if outer > 2.0 * PI {
-            return Err(InvalidPart::new(
-                "outer",
-                "must be at most 360°",
-                format!("{}°", round(outer.to_degrees())),
-            ));
+            return Err(InvalidPart::new("outer", "must be at most 360°", degrees(outer)));
         }
         // 1 − cos(angle / 2) without cancellation.
         let depth = |angle: f64| 2.0 * (angle / 4.0).sin().powi(2);
@@ -182,11 +178,6 @@ impl Emitter for SpotLight {
     fn shadow(&self) -> bool {
         self.shadow
     }
-}
-
-/// Degrees as a person writes them: without the noise of the conversion from radians.
-fn round(degrees: f64) -> f64 {
-    (degrees * 1e6).round() / 1e6
 }
 
 #[cfg(test)]

@@ -26,6 +26,14 @@ impl Given<'_> {
         value.ok_or_else(|| InvalidPart::new(name, "must be given", "missing"))
     }
 
+    /// Refuses a number; angles are told in degrees, as they are written.
+    fn refuse(&self, name: &'static str, requirement: &str, found: f64) -> InvalidPart {
+        match self.fields.iter().find(|field| field.name == name).map(|field| field.kind) {
+            Some(FieldKind::Angle) => InvalidPart::new(name, requirement, degrees(found)),
+            _ => InvalidPart::new(name, requirement, short(found)),
+        }
+    }
+
     /// Whether a value was given.
     #[must_use]
     pub fn has(&self, name: &str) -> bool {
@@ -39,7 +47,7 @@ impl Given<'_> {
     pub fn number(&self, name: &'static str) -> Result<f64, InvalidPart> {
         match self.value(name)? {
             Value::Number(v) if v.abs() <= LARGEST => Ok(v),
-            Value::Number(v) if v.is_finite() => Err(InvalidPart::new(name, WITHIN_LARGEST, v)),
+            Value::Number(v) if v.is_finite() => Err(self.refuse(name, WITHIN_LARGEST, v)),
             other => Err(wrong(name, "must be a finite number", &other)),
         }
     }
@@ -50,7 +58,7 @@ impl Given<'_> {
     /// Missing, not a number, not finite, or not greater than 0.
     pub fn positive(&self, name: &'static str) -> Result<f64, InvalidPart> {
         let v = self.number(name)?;
-        if v > 0.0 { Ok(v) } else { Err(InvalidPart::new(name, "must be greater than 0", v)) }
+        if v > 0.0 { Ok(v) } else { Err(self.refuse(name, "must be greater than 0", v)) }
     }
 
     /// A number of at least 0.
@@ -59,7 +67,7 @@ impl Given<'_> {
     /// Missing, not a number, not finite, or negative.
     pub fn not_negative(&self, name: &'static str) -> Result<f64, InvalidPart> {
         let v = self.number(name)?;
-        if v >= 0.0 { Ok(v) } else { Err(InvalidPart::new(name, "must be at least 0", v)) }
+        if v >= 0.0 { Ok(v) } else { Err(self.refuse(name, "must be at least 0", v)) }
     }
 
     /// A number in 0..=1.
@@ -161,11 +169,23 @@ impl Given<'_> {
     }
 }
 
+/// An angle in degrees, rounded to the ten digits that come back from radians as they were written.
+pub(crate) fn degrees(radians: f64) -> String {
+    let degrees = radians.to_degrees();
+    let rounded: f64 = format!("{degrees:.9e}").parse().unwrap_or(degrees);
+    format!("{}°", short(rounded))
+}
+
+/// A number without a row of zeros where it is huge or tiny.
+fn short(v: f64) -> String {
+    if v != 0.0 && !(1e-9..1e16).contains(&v.abs()) { format!("{v:e}") } else { v.to_string() }
+}
+
 fn wrong(name: &'static str, requirement: &str, found: &Value) -> InvalidPart {
     let found = match found {
-        Value::Number(v) => v.to_string(),
-        Value::Vector(v) => format!("{} {} {}", v.x, v.y, v.z),
-        Value::Color(c) => format!("{} {} {}", c.r, c.g, c.b),
+        Value::Number(v) => short(*v),
+        Value::Vector(v) => v.to_array().map(short).join(" "),
+        Value::Color(c) => c.to_array().map(short).join(" "),
         Value::Flag(v) => format!("#{v}"),
         Value::Word(w) => format!("\"{w}\""),
         Value::Mesh(m) => format!("the mesh {}", m.path),

@@ -4,6 +4,7 @@
 mod given;
 mod value;
 
+pub(crate) use given::degrees;
 pub use given::{Given, LARGEST};
 pub use value::{MeshSource, Value, Values};
 

@@ -3,6 +3,11 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::printable::{brief, printable};
+
+/// Of longer messages the middle is left out, in characters.
+const LONGEST: usize = 300;
+
 /// Where in a mesh file something stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -17,7 +22,7 @@ pub enum Place {
 
 /// A mesh file that cannot be used. Reads `bunny.ply:12: …` or `bunny.ply, byte 1024: …`.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("{}{}: {message}", path.display(), at(*place))]
+#[error("{}{}: {}", printable(&path.to_string_lossy()), at(*place), brief(message, LONGEST))]
 #[diagnostic(code(catoptra::mesh))]
 pub struct MeshError {
     path: PathBuf,
@@ -58,7 +63,7 @@ impl MeshError {
         }
     }
 
-    /// What is wrong, without the place.
+    /// What is wrong, without the place; as the file spells it, controls included.
     #[must_use]
     pub fn message(&self) -> &str {
         &self.message

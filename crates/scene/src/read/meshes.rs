@@ -8,11 +8,11 @@ use catoptra_core::{MeshSource, TriangleMesh};
 
 use crate::mesh;
 
-/// The meshes of one scene, by the path that the text names.
+/// The meshes of one scene, by the path that the text names, and why some cannot be had.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Meshes {
     base: Option<PathBuf>,
-    known: HashMap<String, Arc<TriangleMesh>>,
+    known: HashMap<String, Result<Arc<TriangleMesh>, String>>,
 }
 
 impl Meshes {
@@ -23,22 +23,21 @@ impl Meshes {
 
     /// The mesh at `path`, read now or before.
     pub(crate) fn get(&mut self, path: &str) -> Result<MeshSource, String> {
-        if let Some(mesh) = self.known.get(path) {
-            return Ok(MeshSource { path: path.to_owned(), mesh: Arc::clone(mesh) });
+        if let Some(known) = self.known.get(path) {
+            return known.clone().map(|mesh| MeshSource { path: path.to_owned(), mesh });
         }
         let file = match &self.base {
             Some(base) => base.join(path),
             None if Path::new(path).is_absolute() => PathBuf::from(path),
             None => return Err(format!("{path}: the scene lies in no folder from which to find it")),
         };
-        let mesh = Arc::new(mesh::read(&file).map_err(|e| e.to_string())?);
-        let source = MeshSource { path: path.to_owned(), mesh };
-        self.know(&source);
-        Ok(source)
+        let found = mesh::read(&file).map(Arc::new).map_err(|e| e.to_string());
+        self.known.insert(path.to_owned(), found.clone());
+        found.map(|mesh| MeshSource { path: path.to_owned(), mesh })
     }
 
     /// Takes a mesh as read.
     pub(crate) fn know(&mut self, source: &MeshSource) {
-        self.known.insert(source.path.clone(), Arc::clone(&source.mesh));
+        self.known.insert(source.path.clone(), Ok(Arc::clone(&source.mesh)));
     }
 }

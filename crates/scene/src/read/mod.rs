@@ -14,9 +14,14 @@ use crate::report::Complaints;
 use crate::scan;
 pub(crate) use meshes::Meshes;
 pub(crate) use node::MATERIAL;
+pub(crate) use placement::{ABOUT, STEPS};
+pub(crate) use value::arity;
 
 /// Longer scene text is refused: the parser needs about a second for each megabyte.
 pub(crate) const LONGEST: usize = 16 << 20;
+
+/// Bytes of stack for the parser; the system gives memory for what is used of it.
+const DEEP_STACK: usize = 256 << 20;
 
 /// What the text says; what is wrong with it goes to `complaints`.
 pub(crate) fn read(text: &str, meshes: &mut Meshes, complaints: &mut Complaints) -> Outline {
@@ -30,7 +35,7 @@ pub(crate) fn read(text: &str, meshes: &mut Meshes, complaints: &mut Complaints)
         complaints.add(at..at + 1, message);
         return outline;
     }
-    match KdlDocument::parse_v2(text) {
+    match parse_kdl(&scan::without_comments(text)) {
         Ok(document) => {
             let mut reader = Reader { text, meshes, complaints, outline: &mut outline };
             for node in document.nodes() {
@@ -40,6 +45,17 @@ pub(crate) fn read(text: &str, meshes: &mut Meshes, complaints: &mut Complaints)
         Err(error) => syntax(text, &error, complaints),
     }
     outline
+}
+
+/// Parses on a stack of its own where there is room for one: the parser calls itself for every error that it meets.
+fn parse_kdl(text: &str) -> Result<KdlDocument, kdl::KdlError> {
+    std::thread::scope(|scope| {
+        let deep = std::thread::Builder::new().stack_size(DEEP_STACK);
+        match deep.spawn_scoped(scope, || KdlDocument::parse_v2(text)) {
+            Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+            Err(_) => KdlDocument::parse_v2(text),
+        }
+    })
 }
 
 /// What reading needs at hand.
@@ -55,29 +71,17 @@ fn span_of(span: miette::SourceSpan) -> Span {
     span.offset()..span.offset() + span.len()
 }
 
-/// Passes on what the KDL library complains about, with hints for slips that it does not know.
+/// Passes on the first thing that the KDL library complains about: the others follow from it.
 fn syntax(text: &str, error: &kdl::KdlError, complaints: &mut Complaints) {
-    if let Some(at) = scan::unclosed_comment(text) {
-        complaints.add_with(at..at + 2, "this comment is never closed", "close it with */");
-        return;
-    }
-    for found in &error.diagnostics {
-        let span = span_of(found.span);
-        let message = found.message.clone().unwrap_or_else(|| "this is no valid KDL".to_owned());
-        let word = text.get(span.clone()).unwrap_or_default().trim();
-        let help = match word {
-            "true" | "false" | "null" | "inf" | "-inf" | "nan" => Some(format!("write #{word}")),
-            "}" if message.contains("end of document") => Some("there is no block to close here".to_owned()),
-            _ => found.help.clone(),
-        };
-        match help {
-            Some(help) => complaints.add_with(span, message, help),
-            None => complaints.add(span, message),
-        }
-    }
-    if error.diagnostics.is_empty() {
-        complaints.add(0..0, "this is no valid KDL");
-    }
+    let form = "a node is written: word \"name\" { field value; field value }";
+    let Some(found) = error.diagnostics.first() else {
+        return complaints.add_with(0..0, "this is no scene text", form);
+    };
+    let span = span_of(found.span);
+    let line = text.get(span.clone()).unwrap_or_default().split('\n').next().unwrap_or_default();
+    let end = span.start + line.len();
+    let what = found.message.as_deref().unwrap_or("no valid KDL");
+    complaints.add_with(span.start..end, format!("this cannot be read as scene text ({what})"), form);
 }
 
 /// The words that can stand as nodes at the top or, with `in_group`, in a group.

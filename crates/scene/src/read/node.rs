@@ -7,7 +7,6 @@ use super::placement::STEPS;
 use super::value::{fits_property, value_span};
 use super::{Reader, hint_for_word, span_of};
 use crate::outline::{FieldText, Item, Sort, Span, Word};
-use crate::report::line_and_column;
 use crate::words;
 
 /// The property that names the material of a shape.
@@ -28,7 +27,7 @@ impl Reader<'_> {
                 return;
             }
             None => {
-                let help = hint_for_word(word, in_group);
+                let help = self.complaints.hint(|| hint_for_word(word, in_group));
                 self.complaints.add_with(word_span, format!("unknown word \"{word}\""), help);
                 return;
             }
@@ -114,6 +113,7 @@ impl Reader<'_> {
                 item.name = Some(Word { value: String::new(), span: value_span(entry) });
             }
             Some(name) => {
+                self.refuse_odd_quotes(entry);
                 if name.trim().is_empty() {
                     self.complaints.add(span.clone(), "a name must not be empty");
                 }
@@ -125,6 +125,7 @@ impl Reader<'_> {
     fn read_material(&mut self, entry: &KdlEntry, item: &mut Item) {
         let span = value_span(entry);
         let value = entry.value().as_string().unwrap_or_default().to_owned();
+        self.refuse_odd_quotes(entry);
         if !entry.value().is_string() {
             self.complaints.add(span.clone(), "material needs the name of a material in quotes");
         } else if item.material.is_some() {
@@ -185,9 +186,8 @@ impl Reader<'_> {
     fn read_field(&mut self, mut written: FieldText, entries: &[&KdlEntry], item: &mut Item) {
         let field = written.field;
         if let Some(before) = item.fields.iter().find(|f| f.field.name == field.name) {
-            let (line, _) = line_and_column(self.text, before.span.start);
-            let help = format!("the first stands in line {line}");
-            self.complaints.add_with(written.span, format!("{} is given twice", field.name), help);
+            let first = before.span.start;
+            self.complaints.add_again(written.span, format!("{} is given twice", field.name), first);
             return;
         }
         if let Some(value) = self.read_value(field, entries, written.span.clone()) {
@@ -205,7 +205,10 @@ impl Reader<'_> {
                 let written = item.fields.iter().find(|f| f.field.name == invalid.field());
                 let span = written.map_or(item.word.clone(), |f| f.span.clone());
                 if written.is_some() || !missing(item, invalid.field()) {
-                    self.complaints.add(span, invalid.to_string());
+                    match invalid.hint() {
+                        Some(hint) => self.complaints.add_with(span, invalid.to_string(), hint),
+                        None => self.complaints.add(span, invalid.to_string()),
+                    }
                 } else {
                     let (word, field) = (item.sort.word(), invalid.field());
                     self.complaints.add_with(
@@ -226,8 +229,18 @@ impl Reader<'_> {
         if sort.is_entity() {
             known.extend(STEPS.iter().map(|(step, ..)| *step));
         }
-        let message = format!("{} has no \"{name}\"", one(sort.word()));
-        self.complaints.add_with(span, message, words::hint(name, &known, "what it has"));
+        let message = format!(
+            "{} has no \"{name}\"{}",
+            one(sort.word()),
+            if name == MATERIAL { " in its block" } else { "" }
+        );
+        let help = match name {
+            MATERIAL if matches!(sort, Sort::Shape(_)) => {
+                format!("it stands before the block: {} … {MATERIAL}=\"name of a material\" {{", sort.word())
+            }
+            _ => self.complaints.hint(|| words::hint(name, &known, "what it has")),
+        };
+        self.complaints.add_with(span, message, help);
     }
 
     fn refuse_block(&mut self, node: &KdlNode) {

@@ -9,12 +9,15 @@ use super::{Reader, span_of};
 use crate::outline::{Item, StepText};
 
 /// The words for the steps, and what each takes.
-pub(super) const STEPS: [(&str, usize, &str); 4] = [
+pub(crate) const STEPS: [(&str, usize, &str); 4] = [
     ("move", 3, "three numbers: x y z"),
     ("turn", 4, "four numbers: degrees and the axis x y z"),
     ("seed-turn", 2, "two numbers: degrees about y, then about x"),
     ("scale", 1, "one number"),
 ];
+
+/// The word for the centre of a turn.
+pub(crate) const ABOUT: &str = "about";
 
 impl Reader<'_> {
     /// Reads a child that is a step, and applies it to the item's placement.
@@ -54,7 +57,7 @@ impl Reader<'_> {
         for child in node.children().map(kdl::KdlDocument::nodes).unwrap_or_default() {
             let span = span_of(child.name().span());
             let entries = self.arguments(child);
-            if node.name().value() != "turn" || child.name().value() != "about" {
+            if node.name().value() != "turn" || child.name().value() != ABOUT {
                 let message = format!("{} has no {}", node.name().value(), child.name().value());
                 self.complaints.add_with(
                     span,
@@ -63,7 +66,7 @@ impl Reader<'_> {
                 );
             } else if entries.len() != 3 {
                 self.complaints.add(span, "about takes three numbers: x y z");
-            } else if let Some(point) = self.read_three("about", &entries) {
+            } else if let Some(point) = self.read_three(ABOUT, &entries) {
                 about = DVec3::from_array(point);
             }
         }

@@ -6,10 +6,10 @@ use kdl::{KdlEntry, KdlValue};
 
 use super::{Reader, span_of};
 use crate::outline::Span;
-use crate::words;
+use crate::{slip, words};
 
 /// How many values a kind of field takes: the numbers allowed, and in words.
-fn arity(kind: FieldKind) -> (&'static [usize], &'static str) {
+pub(crate) fn arity(kind: FieldKind) -> (&'static [usize], &'static str) {
     match kind {
         FieldKind::Point | FieldKind::Direction => (&[3], "three numbers"),
         FieldKind::Color | FieldKind::Quantity => (&[3, 1], "three numbers (red green blue) or one (grey)"),
@@ -44,6 +44,9 @@ impl Reader<'_> {
             self.complaints
                 .add(span, format!("{} takes {words}, not {found} value{}", field.name, plural(found)));
             return None;
+        }
+        if matches!(field.kind, FieldKind::Choice(_) | FieldKind::Mesh) {
+            self.refuse_odd_quotes(entries[0]);
         }
         match field.kind {
             FieldKind::Flag => self.read_flag(field, entries[0]),
@@ -126,8 +129,16 @@ impl Reader<'_> {
         match self.meshes.get(path) {
             Ok(source) => Some(Value::Mesh(source)),
             Err(message) => {
-                let help = "the path of a mesh is relative to the folder of the scene file";
-                self.complaints.add_with(value_span(entry), message, help);
+                let span = value_span(entry);
+                let escaped =
+                    self.text[span.clone()].starts_with('"') && self.text[span.clone()].contains('\\');
+                let help = if escaped {
+                    let slashed = self.text[span.clone()].replace("\\\\", "\\").replace('\\', "/");
+                    format!("a \\ in quotes must be written \\\\ or /: write {slashed}")
+                } else {
+                    "the path of a mesh is relative to the folder of the scene file".to_owned()
+                };
+                self.complaints.add_with(span, message, help);
                 None
             }
         }
@@ -136,8 +147,36 @@ impl Reader<'_> {
     fn expect(&mut self, what: &str, name: &str, entry: &KdlEntry) {
         let span = value_span(entry);
         let written = &self.text[span.clone()];
-        self.complaints.add(span, format!("{name} needs {what}, not {written}"));
+        let message = format!("{name} needs {what}, not {written}");
+        match meant(what, written) {
+            Some(word) => self.complaints.add_with(span, message, format!("write {word}")),
+            None => self.complaints.add(span, message),
+        }
     }
+
+    /// Complains of a word without quotes that begins with a mark used for one elsewhere.
+    pub(super) fn refuse_odd_quotes(&mut self, entry: &KdlEntry) {
+        let span = value_span(entry);
+        if self.text[span.clone()].starts_with(slip::is_odd_quote) {
+            let help = "write it as in \"white\"";
+            self.complaints.add_with(span, "names and paths stand in double quotes", help);
+        }
+    }
+}
+
+/// What scene text has for a word of another language.
+fn meant(what: &str, written: &str) -> Option<String> {
+    let word = written.trim_matches('"').trim_start_matches('#').to_ascii_lowercase();
+    if what.starts_with("#true") {
+        return match word.as_str() {
+            "true" | "yes" | "on" | "1" => Some("#true".to_owned()),
+            "false" | "no" | "off" | "0" => Some("#false".to_owned()),
+            _ => None,
+        };
+    }
+    let number = written.trim_matches('"');
+    (what == "a number" && number != written && number.parse::<f64>().is_ok_and(f64::is_finite))
+        .then(|| format!("{number} without quotes"))
 }
 
 pub(super) fn plural(count: usize) -> &'static str {

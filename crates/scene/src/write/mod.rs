@@ -16,3 +16,4 @@ pub(crate) use splice::{Splice, apply};
 pub(crate) use tree::{arrange, remove};
 
 pub(crate) use edit::edit;
+pub(crate) use value::number;
