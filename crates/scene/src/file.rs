@@ -72,13 +72,11 @@ pub fn parse(text: &str, name: &str, base: Option<&Path>) -> Result<(Scene, Scen
         let outline = read::read(text, &mut meshes, &mut complaints);
         let (scene, ids) = build::build(&outline, &mut complaints);
         if complaints.count() == 0 {
-            return Ok((scene, SceneFile { path: None, text: text.to_owned(), outline, ids, meshes }));
+            let text = text.to_owned();
+            let file = SceneFile { path: None, stored: String::new(), text, outline, ids, meshes };
+            return Ok((scene, file));
         }
     }
-<<<<<<< HEAD
-    let file = SceneFile { path: None, stored: String::new(), text: text.to_owned(), outline, ids, meshes };
-    Ok((scene, file))
-=======
     if let Some(mended) = mended {
         complaints = without_slips(&mended, &mut meshes);
     }
@@ -95,7 +93,6 @@ fn without_slips(mended: &Mended, meshes: &mut Meshes) -> Complaints {
         slips.take_over(behind, |at| mended.place(at));
     }
     slips
->>>>>>> scene
 }
 
 fn not_utf8(error: &std::string::FromUtf8Error, name: &str) -> SceneTextError {
