@@ -95,7 +95,7 @@ mod tests {
     #[test]
     fn every_block_of_samples_is_even_in_cells_of_every_shape() {
         for (pixel, pair) in [([0, 0], 0), ([1, 0], 1), ([4000, 3000], 2), ([u32::MAX, 0], 77)] {
-            for (power, block) in [(4, 0), (4, 3), (6, 1), (8, 0)] {
+            for (power, block) in [(4, 0), (4, 3), (6, 1), (10, 0)] {
                 let samples = (block << power)..((block + 1) << power);
                 let points: Vec<[f64; 2]> = samples.map(|k| shares(pixel, k, pair)).collect();
                 for across in 0..=power {
@@ -105,6 +105,21 @@ mod tests {
                     assert_eq!(taken.len(), 1 << power, "{pixel:?} pair {pair}, {cells:?}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn the_second_dimension_is_that_of_its_direction_numbers() {
+        let mut random = Random(3);
+        for _ in 0..1000 {
+            let [index, seed] = [(); 2].map(|()| random.bits() as u32);
+            let (mut second, mut direction) = (0, 1_u32 << 31);
+            for bit in 0..32 {
+                second ^= if index >> bit & 1 == 1 { direction } else { 0 };
+                direction ^= direction >> 1;
+            }
+            let scrambled = scrambled_reversed(second.reverse_bits(), seed).reverse_bits();
+            assert_eq!(sobol(index, [0, seed])[1], scrambled, "{index:x}");
         }
     }
 

@@ -116,15 +116,15 @@ fn mean_sign(from: f64, to: f64) -> f64 {
     (integral(to) - integral(from)) / (to - from)
 }
 
-fn question(name: &'static str, title: &'static str, words: String, ways: Vec<Way>) -> Question {
+pub(super) fn question(name: &'static str, title: &'static str, words: String, ways: Vec<Way>) -> Question {
     Question { name, title, words, time: "ms a frame", errors: &["RMSE", "largest difference"], ways }
 }
 
 /// Where on the floor the ray through a place within a pixel ends, by the place's distance from the upper left corner.
-type Floor<'a> = dyn Fn(f64, f64) -> DVec3 + 'a;
+pub(super) type Floor<'a> = dyn Fn(f64, f64) -> DVec3 + 'a;
 
 /// Renders a scene and holds it against what is right for each pixel's part of the floor.
-fn way(
+pub(super) fn way(
     lab: &Lab,
     text: &str,
     view: impl Fn(View) -> View,
@@ -136,9 +136,10 @@ fn way(
     let camera = camera.ok_or_else(|| miette!("a scene of the lab has no camera"))?;
     let view = view(View::of(&scene, camera.clone(), SIZE));
     let (picture, time) = lab.picture(&Snapshot::extract(&scene), &view)?;
-    let reference = Picture::painted(SIZE.width, SIZE.height, |x, y| {
+    let size = view.size;
+    let reference = Picture::painted(size.width, size.height, |x, y| {
         let floor = |across: f64, down: f64| {
-            let ray = camera.ray(f64::from(x) + across, f64::from(y) + down, SIZE.width, SIZE.height);
+            let ray = camera.ray(f64::from(x) + across, f64::from(y) + down, size.width, size.height);
             ray.at(-ray.origin.y / ray.direction.y)
         };
         [right(&floor) as f32; 3]

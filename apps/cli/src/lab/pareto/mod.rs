@@ -3,6 +3,7 @@
 mod averages;
 mod closed_forms;
 mod cutoffs;
+mod occlusion;
 mod page;
 mod pictures;
 mod visibility;
@@ -33,7 +34,8 @@ pub(crate) struct ParetoArgs {
 /// Answers some questions that have much in common.
 type Ask = fn(&Lab) -> Result<Vec<Question>>;
 
-const QUESTIONS: [Ask; 5] = [visibility::ask, pictures::ask, cutoffs::ask, averages::ask, closed_forms::ask];
+const QUESTIONS: [Ask; 6] =
+    [visibility::ask, pictures::ask, cutoffs::ask, averages::ask, occlusion::ask, closed_forms::ask];
 
 /// A question with all ways to answer it that were tried.
 pub(super) struct Question {
