@@ -56,11 +56,11 @@ impl Snapshot {
     /// As [`nearest`](Self::nearest).
     pub(crate) fn nearest_on(&self, way: &Way<'_>) -> Option<Hit> {
         let mut best = None;
-        for &prim in &self.unbounded {
+        for &prim in &self.index.unbounded {
             best = self.closer(way, best, self.cross(prim, &way.until(best)));
         }
-        self.tree.walk(&self.box_ray(way), way.until(best).span, |item| {
-            let hit = self.cross(self.bounded[item as usize], &way.until(best));
+        self.index.tree.walk(&self.box_ray(way), way.until(best).span, |item| {
+            let hit = self.cross(self.index.bounded[item as usize], &way.until(best));
             best = self.closer(way, best, hit);
             way.until(best).span.max
         });
@@ -69,12 +69,12 @@ impl Snapshot {
 
     /// As [`occluded`](Self::occluded).
     pub(crate) fn is_occluded_on(&self, way: &Way<'_>) -> bool {
-        if self.unbounded.iter().any(|&prim| self.cross(prim, way).is_some()) {
+        if self.index.unbounded.iter().any(|&prim| self.cross(prim, way).is_some()) {
             return true;
         }
         let mut found = false;
-        self.tree.walk(&self.box_ray(way), way.span, |item| {
-            found = found || self.cross(self.bounded[item as usize], way).is_some();
+        self.index.tree.walk(&self.box_ray(way), way.span, |item| {
+            found = found || self.cross(self.index.bounded[item as usize], way).is_some();
             if found { f64::NEG_INFINITY } else { way.span.max }
         });
         found
@@ -165,7 +165,7 @@ impl Snapshot {
         let left = facet_left(prim, way.leaving);
         let crossing = match (&*self.shape(way, prim), self.prims[prim as usize].mesh) {
             (Shape::Mesh(mesh), Some(tree)) => {
-                let tree = &self.meshes[tree as usize].tree;
+                let tree = &self.index.meshes[tree as usize].tree;
                 cross_mesh(mesh, tree, &mesh.own_ray(way.ray), way.span, left)
             }
             (shape, _) => shape.cross(way.ray, way.span, left),
