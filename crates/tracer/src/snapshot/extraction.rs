@@ -8,7 +8,7 @@ use catoptra_core::{Camera, Light, Material, MaterialId, Placed, Scene, Settings
 /// All that a [`Snapshot`](super::Snapshot) is made of, copied out of a scene. It needs the scene no more, so that a
 /// window can go on editing while another thread builds trees.
 ///
-/// Meshes are shared and not copied. Measured: 0.4 ms for 10,000 balls.
+/// Meshes are shared and not copied. Measured: 10,000 balls in 1 ms.
 #[derive(Debug)]
 pub struct Extraction {
     pub(super) shapes: Vec<(Placed<Shape>, MaterialId)>,
