@@ -49,7 +49,8 @@ mod counted {
         };
         let mut view = View::of(&scene, camera(&scene), SIZE);
         view.instructions = Instructions::named("avx2");
-        (Snapshot::extract(&scene), view, Film::new(SIZE), Pool::new(1).expect("a thread"))
+        let pool = Pool::new(1).expect("a thread");
+        (Snapshot::extract(&scene, &pool), view, Film::new(SIZE), pool)
     }
 
     #[library_benchmark(config = LibraryBenchmarkConfig::default().tool(Callgrind::default()

@@ -42,7 +42,7 @@ fn depths(scene: &catoptra_core::Scene) -> Vec<f32> {
     let pool = Pool::new(0).expect("threads");
     let view = View::of(scene, camera(scene), SIZE);
     let mut film = Film::new(SIZE);
-    render(backend, &Snapshot::extract(scene), &view, &mut film, &pool, &Control::default())
+    render(backend, &Snapshot::extract(scene, &pool), &view, &mut film, &pool, &Control::default())
         .expect("nobody cancels");
     film.depths()
 }

@@ -45,7 +45,7 @@ pub fn alone(shape: Shape) -> Snapshot {
     let grey = Matte::new(Rgb::grey(0.5)).expect("grey");
     let grey = scene.add_material("grey", grey).expect("a material");
     scene.add_shape("shape", shape, grey, None).expect("a shape");
-    Snapshot::extract(&scene)
+    Snapshot::extract(&scene, &Pool::new(1).expect("a thread"))
 }
 
 /// A shape of each kind with its name, and a mesh.
@@ -108,9 +108,9 @@ pub fn frame(c: &mut Criterion, group: &str, name: &str, scene: &Scene) {
 /// As [`frame`].
 pub fn frame_of(c: &mut Criterion, group: &str, name: &str, scene: &Scene, size: Size) {
     let backend = backend_named("wide").expect("the default backend");
-    let snapshot = Snapshot::extract(scene);
-    let view = View::of(scene, camera(scene), size);
     let pool = Pool::new(1).expect("a thread");
+    let snapshot = Snapshot::extract(scene, &pool);
+    let view = View::of(scene, camera(scene), size);
     let mut film = Film::new(size);
     let mut group = c.benchmark_group(group);
     group.throughput(Throughput::Elements(size.pixels() as u64));

@@ -22,7 +22,7 @@ fuzz_target!(|bytes: &[u8]| {
         rays.push(bytes.ray());
     }
     let trial = Trial { shapes, rays };
-    let snapshot = Snapshot::extract(&trial.scene().expect("a scene"));
+    let snapshot = Snapshot::extract(&trial.scene().expect("a scene"), &POOL);
     let mut list = RayList::new();
     trial.rays.iter().for_each(|ray| list.push(ray, [Span::AHEAD.min, Span::AHEAD.max], None));
     for backend in backends() {

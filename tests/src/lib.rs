@@ -27,7 +27,7 @@ pub fn film(scene: &Scene, backend: &str, size: Size, threads: usize) -> Film {
 pub fn traced(scene: &Scene, backend: &str, view: &View, mut film: Film, threads: usize) -> Film {
     let backend = backend_named(backend).expect("a backend of that name");
     let pool = Pool::new(threads).expect("a pool of threads");
-    let snapshot = Snapshot::extract(scene);
+    let snapshot = Snapshot::extract(scene, &pool);
     render(backend, &snapshot, view, &mut film, &pool, &Control::default()).expect("nobody cancels");
     film
 }

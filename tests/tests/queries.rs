@@ -56,7 +56,7 @@ fn nearest(backend: &str, snapshot: &Snapshot, rays: &RayList) -> HitList {
 fn every_backend_meets_what_the_oracle_meets() {
     let rays = random_rays(1000);
     for (name, scene) in shipped_scenes() {
-        let snapshot = Snapshot::extract(&scene);
+        let snapshot = Snapshot::extract(&scene, &pool(2));
         let right = nearest("oracle", &snapshot, &rays);
         for backend in backends() {
             let found = nearest(backend.name(), &snapshot, &rays);
@@ -77,7 +77,7 @@ const BALL: &str = "matte \"grey\" { color 0.5 0.5 0.5 }\nsphere \"ball\" materi
 
 #[test]
 fn both_ends_of_a_stretch_belong_to_it() {
-    let snapshot = Snapshot::extract(&parsed(BALL));
+    let snapshot = Snapshot::extract(&parsed(BALL), &pool(2));
     let mut rays = RayList::new();
     let ray = Ray::new(DVec3::Z * 3.0, -DVec3::Z);
     for ends in [[0.0, 2.0], [2.0, 2.0], [2.0, 9.0], [0.0, 1.999], [2.001, 9.0], [4.001, 9.0]] {
@@ -92,7 +92,7 @@ fn both_ends_of_a_stretch_belong_to_it() {
 
 #[test]
 fn a_surface_that_is_left_is_not_met_at_once() {
-    let snapshot = Snapshot::extract(&parsed(BALL));
+    let snapshot = Snapshot::extract(&parsed(BALL), &pool(2));
     let mut rays = RayList::new();
     rays.push(&Ray::new(DVec3::Z, DVec3::Z), [0.0, 9.0], Some(SurfaceId { prim: 0, facet: 0 }));
     rays.push(&Ray::new(DVec3::Z, -DVec3::Z), [0.0, 9.0], Some(SurfaceId { prim: 0, facet: 0 }));
@@ -140,7 +140,7 @@ fn leaving_rays(snapshot: &Snapshot, count: usize) -> RayList {
 
 #[test]
 fn rays_that_leave_solids_meet_what_the_oracle_meets() {
-    let snapshot = Snapshot::extract(&parsed(SOLIDS));
+    let snapshot = Snapshot::extract(&parsed(SOLIDS), &pool(2));
     let rays = leaving_rays(&snapshot, 4000);
     let right = nearest("oracle", &snapshot, &rays);
     let again = (0..rays.len()).filter(|&at| right.get(at).is_some()).count();
@@ -156,7 +156,7 @@ fn rays_that_leave_solids_meet_what_the_oracle_meets() {
 
 #[test]
 fn what_is_no_ray_meets_nothing() {
-    let snapshot = Snapshot::extract(&parsed(BALL));
+    let snapshot = Snapshot::extract(&parsed(BALL), &pool(2));
     let mut rays = RayList::new();
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         rays.push(&Ray::new(DVec3::new(bad, 0.0, 3.0), -DVec3::Z), [0.0, 9.0], None);
@@ -171,7 +171,7 @@ fn what_is_no_ray_meets_nothing() {
 
 #[test]
 fn rays_of_extreme_length_meet_what_ordinary_ones_do() {
-    let snapshot = Snapshot::extract(&parsed(BALL));
+    let snapshot = Snapshot::extract(&parsed(BALL), &pool(2));
     for scale in [1e-38, 1e-100, 1e30, 1e100] {
         let mut rays = RayList::new();
         rays.push(&Ray::new(DVec3::Z * 3.0, -DVec3::Z * scale), [0.0, f64::INFINITY], None);
@@ -259,7 +259,7 @@ fn all_meet_what_the_oracle_meets(numbers: &mut Numbers, source: &MeshSource) {
         let grey = add_grey(&mut scene);
         scene.add_shape("mesh", mesh, grey, None).expect("a shape");
         for preset in Preset::ALL {
-            let snapshot = Snapshot::extract_with(&scene, None, *preset);
+            let snapshot = Snapshot::extract_with(&scene, *preset, &pool(2));
             assert_met_as_by_the_oracle(&snapshot, &rays, preset.name());
         }
     }
@@ -289,7 +289,11 @@ fn meshes_far_from_all_else_are_met_where_the_oracle_meets_them() {
         let grey = add_grey(&mut scene);
         scene.add_shape("here", Mesh::new(mesh.clone()), grey, None).expect("a shape");
         scene.add_shape("there", far, grey, None).expect("a shape");
-        assert_met_as_by_the_oracle(&Snapshot::extract(&scene), &rays, &format!("{away:e} m away,"));
+        assert_met_as_by_the_oracle(
+            &Snapshot::extract(&scene, &pool(2)),
+            &rays,
+            &format!("{away:e} m away,"),
+        );
     }
 }
 
@@ -333,7 +337,11 @@ fn shapes_far_from_all_else_are_met_where_the_oracle_meets_them() {
             let ends = [[0.0, f64::INFINITY], [0.0, 1.0], [0.5, 2.0]][at / shapes.len() % 3];
             rays.push(&Ray::new(from, to - from), ends, None);
         }
-        assert_met_as_by_the_oracle(&Snapshot::extract(&scene), &rays, &format!("{away:e} m away,"));
+        assert_met_as_by_the_oracle(
+            &Snapshot::extract(&scene, &pool(2)),
+            &rays,
+            &format!("{away:e} m away,"),
+        );
     }
 }
 

@@ -16,7 +16,7 @@ fn every_backend_finds_what_exact_arithmetic_finds() {
     let mut counts = vec![Stats::default(); backends().len()];
     for (group, number) in GROUPS.iter().flat_map(|group| (0..TRIALS).map(move |number| (group, number))) {
         let trial = (group.make)(&mut Random::new(number));
-        let snapshot = Snapshot::extract(&trial.scene().expect("a scene"));
+        let snapshot = Snapshot::extract(&trial.scene().expect("a scene"), &pool);
         let (mut list, mut hits) = (RayList::new(), HitList::default());
         trial.rays.iter().for_each(|ray| list.push(ray, [Span::AHEAD.min, Span::AHEAD.max], None));
         asked += trial.rays.len();

@@ -46,10 +46,10 @@ impl Job {
             instructions: args.simd.as_deref().map(find_instructions).transpose()?,
             ..view
         };
-        let started = Instant::now();
-        let snapshot = Arc::new(Snapshot::extract(&scene));
-        let build_ms = milliseconds_since(started);
         let pool = Pool::new(args.threads.map_or(0, usize::from)).into_diagnostic()?;
+        let started = Instant::now();
+        let snapshot = Arc::new(Snapshot::extract(&scene, &pool));
+        let build_ms = milliseconds_since(started);
         let camera_name = scene.name(camera_id).unwrap_or_default();
         let scene_name = file_name(&args.scene);
         let tile = args.tile;

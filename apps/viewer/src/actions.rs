@@ -5,7 +5,6 @@ use std::path::Path;
 use catoptra_core::Value;
 use catoptra_core::scene::{Edit, EntityId, Role};
 use catoptra_raster::{Ring, RingGrip};
-use catoptra_tracer::pick;
 
 use crate::camera_control::{self, NOTCH, ORBIT_PER_PIXEL};
 use crate::guard::Next;
@@ -158,7 +157,7 @@ pub(crate) fn gesture(viewer: &mut Viewer, gesture: Gesture) {
 
 fn click(viewer: &mut Viewer, x: f64, y: f64) {
     let mark = viewer.overlay(&viewer.camera, &[]).mark_at(x, y);
-    let found = mark.or_else(|| pick(&viewer.snapshot, &viewer.view(), x, y).map(|hit| hit.entity));
+    let found = mark.or_else(|| viewer.pick(x, y).map(|hit| hit.entity));
     viewer.select(found);
 }
 
@@ -215,7 +214,7 @@ pub(crate) fn wheel(viewer: &mut Viewer, notches: f64, ctrl: bool) {
     let focus = camera_control::focus(&viewer.camera);
     let camera = if to_pointer {
         let (x, y) = viewer.pointer.at;
-        let hit = pick(&viewer.snapshot, &viewer.view(), x, y).map(|hit| hit.point);
+        let hit = viewer.pick(x, y).map(|hit| hit.point);
         let ray = viewer.camera.ray(x, y, viewer.size.0.max(1), viewer.size.1.max(1));
         let point = hit.unwrap_or_else(|| ray.at(focus));
         camera_control::zoom_to(&viewer.camera, point, (1.0 - NOTCH).powf(notches))
@@ -335,14 +334,28 @@ mod tests {
     }
 
     #[test]
-    fn moving_the_camera_reuses_the_snapshot_and_editing_does_not() {
+    fn moving_the_camera_reuses_the_copy_of_the_scene_and_editing_does_not() {
         let mut viewer = viewer();
-        let snapshot = std::sync::Arc::clone(&viewer.snapshot);
+        let extraction = std::sync::Arc::clone(&viewer.extraction);
         run(&mut viewer, Command::Step(1, 0));
         viewer.follow_scene();
-        assert!(std::sync::Arc::ptr_eq(&snapshot, &viewer.snapshot));
+        assert!(std::sync::Arc::ptr_eq(&extraction, &viewer.extraction));
         gesture(&mut viewer, Gesture::Dragged { drag: Drag::Turn, by: (40.0, 9.0), to: (0.0, 0.0) });
         viewer.follow_scene();
-        assert!(!std::sync::Arc::ptr_eq(&snapshot, &viewer.snapshot));
+        assert!(!std::sync::Arc::ptr_eq(&extraction, &viewer.extraction));
+        assert_eq!(viewer.extraction.revision(), viewer.document.scene().revision());
+    }
+
+    #[test]
+    fn what_was_removed_is_not_selected_in_a_picture_that_still_shows_it() {
+        let mut viewer = viewer();
+        let shown = (0..640).map(|x| (f64::from(x), 350.0)).find(|&(x, y)| viewer.pick(x, y).is_some());
+        let (x, y) = shown.unwrap();
+        gesture(&mut viewer, Gesture::Click(x, y));
+        assert!(viewer.selection.is_some());
+        run(&mut viewer, Command::Delete);
+        viewer.follow_scene();
+        gesture(&mut viewer, Gesture::Click(x, y));
+        assert_eq!(viewer.selection, None);
     }
 }

@@ -35,6 +35,8 @@ pub(crate) struct App {
     pub(crate) options: Options,
     pub(crate) viewer: Viewer,
     pub(crate) pool: Arc<Pool>,
+    /// A thread that only encodes frames, so that the window never waits for what the pool is busy with.
+    pub(crate) encoder: Pool,
     pub(crate) worker: FrameWorker<PoolTracing>,
     pub(crate) screen: Option<Screen>,
     pub(crate) modifiers: ModifiersState,
@@ -67,6 +69,7 @@ impl App {
         options: Options,
         opened: Opened,
         pool: Arc<Pool>,
+        encoder: Pool,
         proxy: EventLoopProxy<Wake>,
     ) -> Self {
         let wake = proxy.clone();
@@ -77,6 +80,7 @@ impl App {
         let mut app = Self {
             viewer: Viewer::new(opened),
             pool,
+            encoder,
             worker,
             screen: None,
             modifiers: ModifiersState::empty(),

@@ -1,9 +1,9 @@
-//! Who traces while the window stays awake? One thread that takes the newest request, traces it coarse to fine, and
-//! leaves each finished frame where the window picks it up.
+//! Who traces while the window stays awake? One thread that takes the newest request, prepares its scene, traces it coarse
+//! to fine, and leaves each finished frame where the window picks it up.
 //!
 //! A newer request takes the place of one that still waits. It abandons refinement under way at once; a first, coarse
-//! frame is let finish (else a fast hand would never see one) unless it has overrun its time. Without a request the
-//! thread sleeps.
+//! frame is let finish (else a fast hand would never see one) unless it has overrun its time, and so is the preparation,
+//! as the next one builds on it. Without a request the thread sleeps.
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
@@ -23,20 +23,27 @@ const SPARES: usize = 4;
 pub(crate) trait Tracing: Send + 'static {
     /// What is asked for.
     type Request: Send + 'static;
+    /// A request with all that its frames have in common.
+    type Job;
     /// What comes of it.
-    type Frame: Send + 'static;
+    type Frame: Send + Into<Self::Spare> + 'static;
+    /// What of a used frame can be filled again.
+    type Spare: Send + 'static;
+
+    /// Does what has to be done once, before the first frame.
+    fn prepare(&mut self, request: Self::Request) -> Self::Job;
 
     /// Width and height in pixels that a request asks for.
-    fn size(request: &Self::Request) -> (u32, u32);
+    fn size(job: &Self::Job) -> (u32, u32);
 
     /// Traces with each pixel standing for `divisor` x `divisor`, into one of `spares` if one fits.
-    /// `None` when it was cancelled.
+    /// `None` when it was cancelled; what it was traced into is then among the spares.
     fn trace(
         &mut self,
-        request: &Self::Request,
+        job: &Self::Job,
         divisor: u32,
         control: &Control,
-        spares: &mut Vec<Self::Frame>,
+        spares: &mut Vec<Self::Spare>,
     ) -> Option<Self::Frame>;
 }
 
@@ -62,9 +69,10 @@ struct UnderWay {
 struct State<T: Tracing> {
     generation: u64,
     waiting: Option<T::Request>,
+    preparing: bool,
     under_way: Option<UnderWay>,
     finished: Option<Finished<T::Frame>>,
-    spares: Vec<T::Frame>,
+    spares: Vec<T::Spare>,
     closing: bool,
 }
 
@@ -79,7 +87,8 @@ impl<T: Tracing> Shared<T> {
     }
 }
 
-/// The thread, and what it shares with the window. Dropping it abandons the frame under way and waits for the end.
+/// The thread, and what it shares with the window. Dropping it abandons the frame under way and waits for the end, but
+/// for a preparation, which cannot be abandoned and ends by itself.
 pub(crate) struct FrameWorker<T: Tracing> {
     shared: Arc<Shared<T>>,
     thread: Option<JoinHandle<()>>,
@@ -91,6 +100,7 @@ impl<T: Tracing> FrameWorker<T> {
         let state = State {
             generation: 0,
             waiting: None,
+            preparing: false,
             under_way: None,
             finished: None,
             spares: Vec::new(),
@@ -123,7 +133,7 @@ impl<T: Tracing> FrameWorker<T> {
 
     /// Gives a used frame back to be filled again.
     pub(crate) fn give_back(&self, frame: T::Frame) {
-        keep(&mut self.shared.lock().spares, frame);
+        keep(&mut self.shared.lock().spares, frame.into());
     }
 }
 
@@ -134,31 +144,35 @@ impl<T: Tracing> Drop for FrameWorker<T> {
         if let Some(frame) = &state.under_way {
             frame.control.cancel();
         }
+        let preparing = state.preparing;
         drop(state);
         self.shared.changed.notify_one();
-        if let Some(thread) = self.thread.take() {
+        if let Some(thread) = self.thread.take()
+            && !preparing
+        {
             // A panic there has been reported by its own thread.
             let _ = thread.join();
         }
     }
 }
 
-fn keep<F>(spares: &mut Vec<F>, frame: F) {
+fn keep<S>(spares: &mut Vec<S>, spare: S) {
     if spares.len() == SPARES {
         spares.remove(0);
     }
-    spares.push(frame);
+    spares.push(spare);
 }
 
 fn work<T: Tracing>(shared: &Shared<T>, mut tracing: T, wake: &impl Fn()) {
     let mut pace = Pace::default();
     while let Some((generation, request)) = next(shared) {
-        let (width, height) = T::size(&request);
+        let job = tracing.prepare(request);
+        let (width, height) = T::size(&job);
         for (step, divisor) in pace.steps(width, height).into_iter().enumerate() {
             let first = step == 0;
             let Some((control, mut spares)) = begin(shared, first) else { break };
             let since = Instant::now();
-            let frame = tracing.trace(&request, divisor, &control, &mut spares);
+            let frame = tracing.trace(&job, divisor, &control, &mut spares);
             let took = since.elapsed();
             let Some(frame) = frame else {
                 if first {
@@ -183,6 +197,7 @@ fn next<T: Tracing>(shared: &Shared<T>) -> Option<(u64, T::Request)> {
             return None;
         }
         if let Some(request) = state.waiting.take() {
+            state.preparing = true;
             return Some((state.generation, request));
         }
         state = shared.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
@@ -190,8 +205,9 @@ fn next<T: Tracing>(shared: &Shared<T>) -> Option<(u64, T::Request)> {
 }
 
 /// Notes that a frame is begun; `None` if it need not be, since it would only refine what is out of date.
-fn begin<T: Tracing>(shared: &Shared<T>, first: bool) -> Option<(Arc<Control>, Vec<T::Frame>)> {
+fn begin<T: Tracing>(shared: &Shared<T>, first: bool) -> Option<(Arc<Control>, Vec<T::Spare>)> {
     let mut state = shared.lock();
+    state.preparing = false;
     if state.closing || (!first && state.waiting.is_some()) {
         return None;
     }
@@ -201,7 +217,7 @@ fn begin<T: Tracing>(shared: &Shared<T>, first: bool) -> Option<(Arc<Control>, V
 }
 
 /// Notes that a frame is done with, and leaves it to be taken. One that was not taken in time is used again.
-fn end<T: Tracing>(shared: &Shared<T>, spares: Vec<T::Frame>, finished: Option<Finished<T::Frame>>) {
+fn end<T: Tracing>(shared: &Shared<T>, spares: Vec<T::Spare>, finished: Option<Finished<T::Frame>>) {
     let mut state = shared.lock();
     state.under_way = None;
     for spare in spares {
@@ -210,7 +226,7 @@ fn end<T: Tracing>(shared: &Shared<T>, spares: Vec<T::Frame>, finished: Option<F
     if finished.is_some()
         && let Some(missed) = std::mem::replace(&mut state.finished, finished)
     {
-        keep(&mut state.spares, missed.frame);
+        keep(&mut state.spares, missed.frame.into());
     }
 }
 
@@ -222,13 +238,25 @@ mod tests {
 
     /// Tells what it begins, and finishes when told or when cancelled.
     struct Steered {
+        prepared: Sender<u32>,
         begun: Sender<(u32, u32)>,
         go: Receiver<()>,
     }
 
+    /// A request whose preparation ends when told.
+    const SLOW: u32 = 99;
+
     impl Tracing for Steered {
         type Request = u32;
+        type Job = u32;
         type Frame = (u32, u32);
+        type Spare = (u32, u32);
+
+        fn prepare(&mut self, request: u32) -> u32 {
+            let _ = self.prepared.send(request);
+            while request == SLOW && self.go.recv_timeout(Duration::from_millis(1)).is_err() {}
+            request
+        }
 
         fn size(_: &u32) -> (u32, u32) {
             (64, 64)
@@ -255,6 +283,7 @@ mod tests {
 
     struct Bench {
         worker: FrameWorker<Steered>,
+        prepared: Receiver<u32>,
         begun: Receiver<(u32, u32)>,
         go: Sender<()>,
         woken: Receiver<()>,
@@ -262,13 +291,17 @@ mod tests {
 
     impl Bench {
         fn new() -> Self {
+            let (prepared_to, prepared) = channel();
             let (begun_to, begun) = channel();
             let (go, go_from) = channel();
             let (woken_to, woken) = channel();
-            let worker = FrameWorker::start(Steered { begun: begun_to, go: go_from }, move || {
-                let _ = woken_to.send(());
-            });
-            Self { worker, begun, go, woken }
+            let worker = FrameWorker::start(
+                Steered { prepared: prepared_to, begun: begun_to, go: go_from },
+                move || {
+                    let _ = woken_to.send(());
+                },
+            );
+            Self { worker, prepared, begun, go, woken }
         }
 
         fn begun(&self) -> (u32, u32) {
@@ -328,6 +361,35 @@ mod tests {
         bench.go.send(()).unwrap();
         bench.woken.recv_timeout(Duration::from_secs(20)).unwrap();
         assert_eq!(bench.worker.take().unwrap().generation, newest);
+    }
+
+    #[test]
+    fn what_is_being_prepared_is_shown_coarsely_before_what_was_asked_for_meanwhile() {
+        let bench = Bench::new();
+        bench.worker.submit(SLOW);
+        assert_eq!(bench.prepared.recv_timeout(Duration::from_secs(20)), Ok(SLOW));
+        bench.worker.submit(1);
+        bench.worker.submit(2);
+        assert!(bench.worker.take().is_none());
+        bench.go.send(()).unwrap();
+        assert_eq!(bench.begun(), (SLOW, 8));
+        bench.finish();
+        assert_eq!(bench.begun().0, 2);
+    }
+
+    #[test]
+    fn dropping_does_not_wait_for_a_preparation() {
+        let Bench { worker, prepared, begun, go, woken: _ } = Bench::new();
+        worker.submit(SLOW);
+        assert_eq!(prepared.recv_timeout(Duration::from_secs(20)), Ok(SLOW));
+        let (dropped_to, dropped) = channel();
+        std::thread::spawn(move || {
+            drop(worker);
+            let _ = dropped_to.send(());
+        });
+        assert!(dropped.recv_timeout(Duration::from_secs(20)).is_ok(), "the window waits to be closed");
+        go.send(()).unwrap();
+        assert!(begun.recv_timeout(Duration::from_secs(20)).is_err(), "no frame is begun any more");
     }
 
     #[test]

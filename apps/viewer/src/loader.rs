@@ -3,22 +3,26 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use catoptra_tracer::{Pool, Snapshot};
+use catoptra_tracer::{Extraction, Pool};
 
 use crate::document::Document;
+use crate::latest::Latest;
 
 /// A scene that is ready to be shown.
 pub(crate) struct Opened {
     /// The scene.
     pub(crate) document: Document,
+    /// The scene as the worker freezes it.
+    pub(crate) extraction: Arc<Extraction>,
     /// The scene for the tracer.
-    pub(crate) snapshot: Arc<Snapshot>,
+    pub(crate) latest: Arc<Latest>,
 }
 
 impl Opened {
     fn new(document: Document, pool: &Pool) -> Self {
-        let snapshot = Arc::new(pool.run(|| Snapshot::extract(document.scene())));
-        Self { document, snapshot }
+        let extraction = Extraction::of(document.scene());
+        let latest = Latest::new(extraction.snapshot(pool));
+        Self { document, extraction: Arc::new(extraction), latest: Arc::new(latest) }
     }
 }
 

@@ -11,6 +11,7 @@ mod frame_worker;
 mod guard;
 mod input;
 mod keys;
+mod latest;
 mod loader;
 mod options;
 mod outline;
@@ -50,8 +51,9 @@ fn run(options: Options) -> Result<(), String> {
     let events =
         EventLoop::<Wake>::with_user_event().build().map_err(|why| format!("{NO_DISPLAY}\n({why})"))?;
     let pool = Arc::new(Pool::new(options.threads).map_err(|e| e.to_string())?);
+    let encoder = Pool::new(1).map_err(|e| e.to_string())?;
     let opened = loader::welcome(&pool)?;
-    let mut app = App::new(options, opened, pool, events.create_proxy());
+    let mut app = App::new(options, opened, pool, encoder, events.create_proxy());
     events.run_app(&mut app).map_err(|e| e.to_string())?;
     app.failure.map_or(Ok(()), Err)
 }

@@ -134,7 +134,7 @@ impl App {
             return;
         };
         if shown.frame.display != self.viewer.settings.display {
-            shown.frame.encode(self.viewer.settings.display, &self.pool);
+            shown.frame.encode(self.viewer.settings.display, &self.encoder);
         }
         let frame = &shown.frame;
         screen.canvas.lay(&frame.pixels, size);

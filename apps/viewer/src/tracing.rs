@@ -1,25 +1,34 @@
-//! How does a request become a frame? The tracer fills a film, the film is encoded for display.
+//! How does a request become a frame? The scene is frozen, the tracer fills a film, the film is encoded for display.
 
 use std::sync::Arc;
 
 use catoptra_core::Camera;
-use catoptra_tracer::{Backend, Control, Display, Film, Pool, Size, Snapshot, View, render};
+use catoptra_tracer::{Backend, Control, Display, Extraction, Film, Pool, Size, Snapshot, View, render};
 
 use crate::canvas::Pixels;
 use crate::frame_worker::Tracing;
+use crate::latest::Latest;
 use crate::refine::reduced;
 
 /// All that a picture depends on.
 #[derive(Clone)]
 pub(crate) struct Request {
     /// The scene.
-    pub(crate) snapshot: Arc<Snapshot>,
+    pub(crate) extraction: Arc<Extraction>,
+    /// The same as it was last frozen, for what need not be made anew.
+    pub(crate) latest: Arc<Latest>,
     /// Who traces.
     pub(crate) backend: &'static dyn Backend,
     /// From where, how large when traced in full, and what is shown.
     pub(crate) view: View,
     /// How radiance becomes colour.
     pub(crate) display: Display,
+}
+
+/// A request with its scene frozen.
+pub(crate) struct Job {
+    request: Request,
+    snapshot: Arc<Snapshot>,
 }
 
 /// A traced picture.
@@ -50,6 +59,26 @@ impl Frame {
     }
 }
 
+/// Room for a picture, to be filled again.
+pub(crate) struct Spare {
+    film: Film,
+    pixels: Pixels,
+}
+
+impl From<Frame> for Spare {
+    fn from(Frame { film, pixels, .. }: Frame) -> Self {
+        Self { film, pixels }
+    }
+}
+
+/// One of that size, or a new one.
+fn room(size: Size, spares: &mut Vec<Spare>) -> Spare {
+    let fitting = spares.iter().position(|spare| spare.film.size() == size);
+    fitting
+        .map(|i| spares.swap_remove(i))
+        .unwrap_or_else(|| Spare { film: Film::with_tiles(size, tile_edge(size)), pixels: Pixels::default() })
+}
+
 /// Below this number of pixels a film has small tiles: else few of them hold all the work, and threads wait.
 const SMALL: usize = 100_000;
 
@@ -66,33 +95,84 @@ pub(crate) struct PoolTracing {
 
 impl Tracing for PoolTracing {
     type Request = Request;
+    type Job = Job;
     type Frame = Frame;
+    type Spare = Spare;
 
-    fn size(request: &Request) -> (u32, u32) {
-        (request.view.size.width, request.view.size.height)
+    fn prepare(&mut self, request: Request) -> Job {
+        let snapshot = request.latest.follow(&request.extraction, &self.pool);
+        Job { request, snapshot }
+    }
+
+    fn size(job: &Job) -> (u32, u32) {
+        (job.request.view.size.width, job.request.view.size.height)
     }
 
     fn trace(
         &mut self,
-        request: &Request,
+        Job { request, snapshot }: &Job,
         divisor: u32,
         control: &Control,
-        spares: &mut Vec<Frame>,
+        spares: &mut Vec<Spare>,
     ) -> Option<Frame> {
-        let full = Self::size(request);
+        let full = (request.view.size.width, request.view.size.height);
         let (width, height) = reduced(full.0, full.1, divisor);
         let size = Size { width, height };
-        let spare = spares.iter().position(|s| s.film.size() == size).map(|i| spares.swap_remove(i));
-        let (mut film, pixels) = match spare {
-            Some(spare) => (spare.film, spare.pixels),
-            None => (Film::with_tiles(size, tile_edge(size)), Pixels::default()),
-        };
+        let Spare { mut film, pixels } = room(size, spares);
         let view = View { size, ..request.view.clone() };
-        let stats = render(request.backend, &request.snapshot, &view, &mut film, &self.pool, control).ok()?;
+        let traced = render(request.backend, snapshot, &view, &mut film, &self.pool, control);
+        let Ok(stats) = traced else {
+            spares.push(Spare { film, pixels });
+            return None;
+        };
         let rays = stats.rays.total();
         let mut frame =
             Frame { film, pixels, camera: view.camera, size: full, display: request.display, rays };
         frame.encode(request.display, &self.pool);
         Some(frame)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use catoptra_core::Edit;
+
+    use super::*;
+    use crate::loader;
+    use crate::viewer::Viewer;
+
+    fn viewer_and_tracing() -> (Viewer, PoolTracing) {
+        let pool = Arc::new(Pool::new(1).unwrap());
+        let mut viewer = Viewer::new(loader::welcome(&pool).unwrap());
+        viewer.size = (64, 48);
+        (viewer, PoolTracing { pool })
+    }
+
+    #[test]
+    fn a_cancelled_frame_leaves_its_room_to_the_next() {
+        let (viewer, mut tracing) = viewer_and_tracing();
+        let (job, mut spares) = (tracing.prepare(viewer.request()), Vec::new());
+        let control = Control::default();
+        control.cancel();
+        for _ in 0..2 {
+            assert!(tracing.trace(&job, 2, &control, &mut spares).is_none());
+            let sizes: Vec<Size> = spares.iter().map(|spare| spare.film.size()).collect();
+            assert_eq!(sizes, [Size::new(32, 24)]);
+        }
+        assert!(tracing.trace(&job, 2, &Control::default(), &mut spares).is_some());
+        assert!(spares.is_empty());
+    }
+
+    #[test]
+    fn the_scene_is_frozen_when_its_turn_comes() {
+        let (mut viewer, mut tracing) = viewer_and_tracing();
+        let before = viewer.latest.get();
+        let floor = viewer.document.scene().entity_named("floor").unwrap();
+        viewer.edit(Edit::Remove(floor));
+        viewer.follow_scene();
+        assert!(Arc::ptr_eq(&before, &viewer.latest.get()));
+        let job = tracing.prepare(viewer.request());
+        assert!(!job.snapshot.entities().contains(&floor));
+        assert!(Arc::ptr_eq(&job.snapshot, &viewer.latest.get()));
     }
 }

@@ -5,15 +5,16 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use catoptra_core::scene::{Edit, EntityId, Role, SceneError, Subject};
+use catoptra_core::scene::{Edit, EntityId, SceneError, Subject};
 use catoptra_core::{Aabb, Camera, Integrator};
 use catoptra_raster::{Overlay, OverlayStyle};
-use catoptra_tracer::{Backend, Display, Size, Snapshot, View, backends, pick};
+use catoptra_tracer::{Backend, Display, Extraction, Pick, Size, View, backends, pick};
 
 use crate::camera_control;
 use crate::document::Document;
 use crate::guard::{Answer, Guard, Next};
 use crate::input::{Mode, Pointer};
+use crate::latest::Latest;
 use crate::loader::Opened;
 use crate::tracing::Request;
 
@@ -58,7 +59,10 @@ pub(crate) struct ViewSettings {
 /// The viewer's state.
 pub(crate) struct Viewer {
     pub(crate) document: Document,
-    pub(crate) snapshot: Arc<Snapshot>,
+    /// The scene as it is now, for the worker to freeze.
+    pub(crate) extraction: Arc<Extraction>,
+    /// The scene as it was last frozen.
+    pub(crate) latest: Arc<Latest>,
     pub(crate) camera: Camera,
     /// The scene's camera that was last looked through.
     pub(crate) through: Option<EntityId>,
@@ -98,7 +102,8 @@ impl Viewer {
         let seen = opened.document.scene().revision();
         let mut viewer = Self {
             document: opened.document,
-            snapshot: opened.snapshot,
+            extraction: opened.extraction,
+            latest: opened.latest,
             camera: usual_camera(),
             through: None,
             settings: ViewSettings {
@@ -126,7 +131,8 @@ impl Viewer {
     /// Shows another scene from its own camera; what is switched on stays.
     pub(crate) fn show(&mut self, opened: Opened) {
         self.document = opened.document;
-        self.snapshot = opened.snapshot;
+        self.extraction = opened.extraction;
+        self.latest = opened.latest;
         self.seen = self.document.scene().revision();
         self.selection = None;
         self.typed_name = None;
@@ -200,7 +206,7 @@ impl Viewer {
     /// A camera that names no target is taken to look at the middle of what it sees in the middle of its picture.
     fn aimed(&self, camera: &Camera) -> Camera {
         let view = View::new(camera.clone(), Size::new(2, 2));
-        let Some(hit) = pick(&self.snapshot, &view, 1.0, 1.0) else { return camera.clone() };
+        let Some(hit) = pick(&self.latest.get(), &view, 1.0, 1.0) else { return camera.clone() };
         let bounds = self.document.scene().world_bounds(hit.entity);
         let depth = bounds.map_or(0.0, |bounds| (bounds.centre() - camera.eye()).dot(camera.forward()));
         camera_control::aimed(camera, depth.max(hit.distance))
@@ -208,9 +214,8 @@ impl Viewer {
 
     /// The box round all bounded shapes.
     pub(crate) fn everything(&self) -> Aabb {
-        let scene = self.document.scene();
-        let boxes = scene.entities_of(Role::Shape).filter_map(|id| scene.world_bounds(id));
-        boxes.fold(Aabb::EMPTY, Aabb::union)
+        let shapes = self.document.scene().world_shapes();
+        shapes.iter().filter_map(|(shape, _)| shape.part.bounds()).fold(Aabb::EMPTY, Aabb::union)
     }
 
     /// Moves the camera so that `bounds` is seen; an empty box changes nothing.
@@ -224,6 +229,12 @@ impl Viewer {
         View::of(self.document.scene(), self.camera.clone(), Size::new(self.size.0, self.size.1))
     }
 
+    /// What the picture shows at a point, in pixels, as far as it is traced: what has been removed since is nothing.
+    pub(crate) fn pick(&self, x: f64, y: f64) -> Option<Pick> {
+        let hit = pick(&self.latest.get(), &self.view(), x, y);
+        hit.filter(|hit| self.document.scene().contains(hit.entity))
+    }
+
     /// What the worker is to trace now.
     pub(crate) fn request(&self) -> Request {
         let view = match self.document.scene().settings().integrator() {
@@ -231,7 +242,8 @@ impl Viewer {
             Integrator::Occlusion => self.view().with_samples(OCCLUSION_SAMPLES),
         };
         Request {
-            snapshot: Arc::clone(&self.snapshot),
+            extraction: Arc::clone(&self.extraction),
+            latest: Arc::clone(&self.latest),
             backend: self.settings.backend,
             view,
             display: self.settings.display,
@@ -290,7 +302,8 @@ impl Viewer {
         }
     }
 
-    /// Brings everything up to what the scene has become; once for all that happened since the last time.
+    /// Brings everything up to what the scene has become; once for all that happened since the last time. The worker
+    /// makes the snapshot.
     pub(crate) fn follow_scene(&mut self) {
         let scene = self.document.scene();
         if scene.revision() == self.seen {
@@ -299,7 +312,7 @@ impl Viewer {
         let changes = scene.changes_since(self.seen);
         let moved = self.through.filter(|id| changes.iter().any(|c| c.subject == Subject::Entity(*id)));
         self.seen = scene.revision();
-        self.snapshot = Arc::new(Snapshot::extract_after(scene, Some(&self.snapshot)));
+        self.extraction = Arc::new(Extraction::of(scene));
         if self.selection.is_some_and(|id| !scene.contains(id)) {
             self.selection = None;
         }

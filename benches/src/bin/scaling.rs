@@ -113,7 +113,7 @@ fn threads(name: &str) -> Result<Line, Failure> {
 /// Of the fastest frame.
 fn milliseconds(scene: &Scene, size: Size, pool: &Pool, clock: Clock) -> Result<f64, Failure> {
     let backend = backend_named("wide").ok_or("there is no backend wide")?;
-    let (snapshot, view) = (Snapshot::extract(scene), View::of(scene, camera(scene), size));
+    let (snapshot, view) = (Snapshot::extract(scene, pool), View::of(scene, camera(scene), size));
     let mut film = Film::new(size);
     let (done, least) = fastest(clock, 3, LONG_ENOUGH, || {
         render(backend, &snapshot, &view, &mut film, pool, &Control::default())

@@ -39,6 +39,6 @@ pub use part::{Field, FieldKind, Kind, MeshSource, Part, Value, Values};
 pub use placement::Placement;
 pub use ray::{Crossing, Ray, Span, order_of_roots};
 pub use scene::{
-    Change, ChangeKind, Content, Edit, EntityId, History, Integrator, MaterialId, Members, Name, Node,
-    Parent, Role, Scene, SceneError, Settings, Subject, Subtree,
+    Change, ChangeKind, Content, Edit, EntityId, History, Integrator, MaterialId, Node, Placed, Role, Scene,
+    SceneError, Settings, Subject, Subtree,
 };

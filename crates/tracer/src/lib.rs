@@ -16,7 +16,8 @@
 //! let view = View::new(camera, Size::new(32, 24));
 //! let mut film = Film::new(view.size);
 //! let backend = backend_named("wide").ok_or("no such backend")?;
-//! render(backend, &Snapshot::extract(&scene), &view, &mut film, &Pool::new(1)?, &Control::default())?;
+//! let pool = Pool::new(1)?;
+//! render(backend, &Snapshot::extract(&scene, &pool), &view, &mut film, &pool, &Control::default())?;
 //! assert_eq!(film.radiance(16, 12), [0.5; 3]);
 //! # Ok(())
 //! # }
@@ -62,6 +63,8 @@ pub use pattern::Pattern;
 pub use pick::{Pick, pick};
 pub use pool::{NoPool, Pool};
 pub use render::{Cancelled, render};
-pub use snapshot::{Hit, Needs, Prim, Snapshot, SurfaceId};
+pub use snapshot::{
+    Changed, Extraction, Hit, Needs, PartDiff, Presence, Prim, ShapeDiff, Snapshot, SnapshotDiff, SurfaceId,
+};
 pub use stats::{Rays, Skipped, Stats, Tests};
 pub use view::{Region, Size, Skip, View};

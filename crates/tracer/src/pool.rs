@@ -35,3 +35,10 @@ impl Pool {
         self.threads.install(work)
     }
 }
+
+/// For tests that build many trees: a pool is made once.
+#[cfg(test)]
+pub(crate) fn one_thread() -> &'static Pool {
+    static POOL: std::sync::LazyLock<Pool> = std::sync::LazyLock::new(|| Pool::new(1).unwrap());
+    &POOL
+}

@@ -87,7 +87,7 @@ const BUILDS: u32 = 5;
 /// Builds what is traced; milliseconds that it took.
 fn build(scene: &Scene, preset: Preset, pool: &Pool) -> (Snapshot, f64) {
     let started = Instant::now();
-    let snapshot = pool.run(|| Snapshot::extract_with(scene, None, preset));
+    let snapshot = Snapshot::extract_with(scene, preset, pool);
     (snapshot, milliseconds_since(started))
 }
 

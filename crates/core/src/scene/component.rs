@@ -27,37 +27,17 @@ impl std::fmt::Display for Role {
 }
 
 /// Component of every entity: its name, which no other entity of the scene has.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Name(pub(super) String);
+#[derive(Debug, Clone)]
+pub(super) struct Name(pub(super) String);
 
-impl Name {
-    /// The name.
-    #[must_use]
-    pub fn as_str(&self) -> &str {
-        &self.0
-    }
-}
+/// Component of every entity: the revision of the last edit of what it is or where it stands in its group.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Touched(pub(super) u64);
 
 /// Component of every member of a group: which group. Entities at the top of the scene have none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Parent(pub(super) EntityId);
-
-impl Parent {
-    /// The group.
-    #[must_use]
-    pub fn id(self) -> EntityId {
-        self.0
-    }
-}
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Parent(pub(super) EntityId);
 
 /// Component of every group: its members, in order.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Members(pub(super) Vec<EntityId>);
-
-impl Members {
-    /// The ids of the members, in order.
-    #[must_use]
-    pub fn ids(&self) -> &[EntityId] {
-        &self.0
-    }
-}
+#[derive(Debug, Clone)]
+pub(super) struct Members(pub(super) Vec<EntityId>);

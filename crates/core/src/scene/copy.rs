@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use super::component::Touched;
 use super::{Content, EntityId, Node, Scene, Subtree};
 
 impl Scene {
@@ -71,6 +72,13 @@ impl Clone for Scene {
         for root in &self.roots {
             if let Some(node) = self.node(*root) {
                 copy.spawn(node, None);
+            }
+        }
+        for (id, entity) in &copy.entities {
+            if let (Some(touched), Ok(copied)) =
+                (self.component::<Touched>(*id), copy.world.query_one_mut::<&mut Touched>(*entity))
+            {
+                *copied = touched;
             }
         }
         copy.roots.clone_from(&self.roots);

@@ -1,8 +1,7 @@
 //! Where do the parts of a scene live, how are they found, and how are they changed?
 //!
 //! A [`Scene`] is a [`hecs::World`] behind stable ids. An entity is a [`Shape`], a [`Light`] or a [`Camera`] with
-//! a [`Placement`], or a group whose members name it as their [`Parent`] and move with it. Materials are shared
-//! by [`MaterialId`]. Every change is an [`Edit`] that goes through [`Scene::apply`], which checks it, answers
+//! a [`Placement`], or a group whose members move with it. Materials are shared by [`MaterialId`]. Every change is an [`Edit`] that goes through [`Scene::apply`], which checks it, answers
 //! with its inverse, and writes into the edit log what was changed; [`History`] makes undo and redo of it.
 
 mod add;
@@ -19,21 +18,25 @@ mod ids;
 mod integrator;
 mod materials;
 mod node;
+mod query;
 mod settings;
 mod tree;
 
 use std::collections::{BTreeMap, HashMap};
+use std::sync::atomic::{AtomicU64, Ordering};
 
-pub use component::{Members, Name, Parent, Role};
+pub use component::Role;
 pub use edit::{Change, ChangeKind, Edit, Subject};
 pub use error::SceneError;
 pub use history::History;
 pub use ids::{EntityId, MaterialId};
 pub use integrator::Integrator;
 pub use node::{Content, Node, Subtree};
+pub use query::Placed;
 pub use settings::Settings;
 
 use crate::{Camera, Light, Material, Placement, Shape};
+use component::Name;
 use ids::Counter;
 use materials::Materials;
 
@@ -71,19 +74,8 @@ impl Scene {
         }
     }
 
-    /// The store itself, to query components: every entity has its [`EntityId`], a [`Name`] and a [`Placement`];
-    /// then a [`Shape`] and a [`MaterialId`], or a [`Light`], or a [`Camera`], or [`Members`]; and a [`Parent`]
-    /// if it is in a group. The order of a query follows the history of edits: sort by id where order matters.
-    ///
-    /// For reading only: hecs would lend components for writing too, and such a change is in no log.
-    #[must_use]
-    pub fn world(&self) -> &hecs::World {
-        &self.world
-    }
-
-    /// Under what handle [`Self::world`] keeps an entity. It changes when a removal is undone.
-    #[must_use]
-    pub fn entity(&self, id: EntityId) -> Option<hecs::Entity> {
+    /// Under what handle the store keeps an entity. It changes when a removal is undone.
+    fn entity(&self, id: EntityId) -> Option<hecs::Entity> {
         self.entities.get(&id).copied()
     }
 
@@ -214,7 +206,9 @@ impl Scene {
         &self.settings
     }
 
-    /// How many edits the scene has seen. Equal revisions of one scene mean that nothing has changed between.
+    /// The number of the scene's last edit; 0 before the first. Later edits have larger numbers, and no two edits of
+    /// a process have the same, so that scenes of equal revision are equal: one scene at two times, a scene and its
+    /// clone, or two that are empty.
     #[must_use]
     pub fn revision(&self) -> u64 {
         self.revision
@@ -244,6 +238,12 @@ impl Scene {
     pub fn next_material_id(&self) -> MaterialId {
         self.materials.ids.peek_material()
     }
+}
+
+/// A revision that no scene of this process has had yet.
+fn new_revision() -> u64 {
+    static LAST: AtomicU64 = AtomicU64::new(0);
+    LAST.fetch_add(1, Ordering::Relaxed) + 1
 }
 
 impl Default for Scene {

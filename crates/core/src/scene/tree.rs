@@ -1,6 +1,7 @@
 //! Who is a member of which group, in what order, and where does that put things in the world?
 
-use super::{EntityId, Members, Parent, Role, Scene};
+use super::component::{Members, Parent};
+use super::{EntityId, Scene};
 use crate::{Aabb, Camera, Light, Placement, Shape};
 
 impl Scene {
@@ -16,7 +17,7 @@ impl Scene {
     /// The group that an entity is a member of; `None` at the top of the scene, or without such an entity.
     #[must_use]
     pub fn parent(&self, id: EntityId) -> Option<EntityId> {
-        self.component::<Parent>(id).map(Parent::id)
+        self.component::<Parent>(id).map(|parent| parent.0)
     }
 
     /// The groups round an entity, from the inner to the outer.
@@ -39,7 +40,16 @@ impl Scene {
     /// The first camera in the order of the tree.
     #[must_use]
     pub fn main_camera(&self) -> Option<EntityId> {
-        self.walk().into_iter().find(|&id| self.role(id) == Some(Role::Camera))
+        self.cameras().into_iter().map(|(id, _)| id).min_by_key(|&id| self.position(id))
+    }
+
+    /// The places of an entity and of the groups round it among their siblings, from the outer to the inner: the
+    /// order of the tree.
+    fn position(&self, id: EntityId) -> Vec<usize> {
+        let mut places: Vec<usize> =
+            std::iter::once(id).chain(self.ancestors(id)).map(|id| self.index_of(id)).collect();
+        places.reverse();
+        places
     }
 
     /// Where an entity stands in the world: its own placement, then those of the groups round it.

@@ -23,7 +23,7 @@ pub fn answer(cases: &Cases, asked: Asked<'_>) -> Vec<(u64, Reply)> {
     let mut replies = vec![None; cases.cases.len()];
     for (number, stage) in cases.stages.iter().enumerate() {
         let Ok(posed) = pose(stage) else { continue };
-        let snapshot = Snapshot::extract(&posed.scene);
+        let snapshot = Snapshot::extract(&posed.scene, asked.pool);
         let places: Vec<usize> = (0..cases.cases.len()).filter(|&i| cases.cases[i].stage == number).collect();
         let of_stage: Vec<&Case> = places.iter().map(|&i| &cases.cases[i]).collect();
         let stage = Staged { posed: &posed, snapshot: &snapshot, asked };

@@ -3,6 +3,7 @@
 //! Wald, "On fast construction of SAH-based bounding volume hierarchies", IEEE RT 2007.
 
 use super::tree::{Box32, MAX_DEPTH, Node, Tree};
+use crate::Pool;
 
 /// Bins along the longest axis of the centres.
 const BINS: usize = 16;
@@ -13,13 +14,13 @@ const VISIT: f32 = 1.0;
 /// Stretches longer than this are built by two threads.
 const PARALLEL: usize = 4096;
 
-pub(super) fn build(boxes: &[Box32]) -> Tree {
+pub(super) fn build(boxes: &[Box32], pool: &Pool) -> Tree {
     let mut items: Vec<Item> = boxes.iter().zip(0..).map(|(b, id)| Item { bounds: *b, id }).collect();
     if items.is_empty() {
         return Tree::default();
     }
     let mut nodes = Vec::new();
-    grow(&mut items, 0, 0, &mut nodes);
+    pool.run(|| grow(&mut items, 0, 0, &mut nodes));
     Tree { nodes, order: items.iter().map(|item| item.id).collect() }
 }
 
@@ -166,6 +167,7 @@ fn partition(items: &mut [Item], goes_left: impl Fn(&Item) -> bool) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pool::one_thread;
 
     fn grid(n: u32) -> Vec<Box32> {
         let at = |i: u32, k: u32| (i / n.pow(k) % n) as f32;
@@ -178,7 +180,7 @@ mod tests {
     #[test]
     fn every_item_stands_in_one_leaf_within_its_ancestors() {
         let boxes = grid(20);
-        let tree = build(&boxes);
+        let tree = build(&boxes, one_thread());
         let mut seen = vec![0; boxes.len()];
         let mut stack = vec![(0_usize, tree.nodes[0].bounds)];
         while let Some((at, around)) = stack.pop() {
@@ -199,14 +201,14 @@ mod tests {
     #[test]
     fn boxes_in_one_place_still_make_a_tree() {
         let same = vec![Box32 { min: [1.0; 3], max: [2.0; 3] }; 10_000];
-        assert_eq!(build(&same).order.len(), 10_000);
+        assert_eq!(build(&same, one_thread()).order.len(), 10_000);
     }
 
     #[test]
     fn wild_extents_stay_within_the_deepest_tree() {
         let boxes: Vec<Box32> =
             (0..2000).map(|i| [2.0_f32.powi(i / 10 - 100); 3]).map(|p| Box32 { min: p, max: p }).collect();
-        let tree = build(&boxes);
+        let tree = build(&boxes, one_thread());
         let mut stack = vec![(0_usize, 0)];
         while let Some((at, depth)) = stack.pop() {
             assert!(depth < MAX_DEPTH);

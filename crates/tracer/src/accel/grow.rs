@@ -12,6 +12,7 @@ use super::pack::pack;
 use super::spatial::cheapest_cut;
 use super::wide_tree::{Node8, WIDTH, WideTree};
 use super::{MAX_DEPTH, Preset};
+use crate::Pool;
 
 /// Most triangles of a leaf of a node that has no room for two: a node of a few leaves costs more to visit than their blocks.
 /// Measured on three meshes of 66,000 to 871,000 triangles: single rays test an eighth to a quarter fewer blocks than with 32
@@ -29,9 +30,9 @@ const OVERLAP: f32 = 1e-2;
 /// Depth from which on stretches are halved, which takes at most 32 levels.
 const HALVE: usize = MAX_DEPTH - 32;
 
-/// Builds the tree on the threads of the pool it is called in.
-pub(super) fn grow(mesh: &TriangleMesh, preset: Preset) -> WideTree {
-    dispatch!(Level::new(), s => Grower { s, preset, mesh, overlap: f32::INFINITY }.grow())
+/// Builds the tree on the threads of `pool`.
+pub(super) fn grow(mesh: &TriangleMesh, preset: Preset, pool: &Pool) -> WideTree {
+    pool.run(|| dispatch!(Level::new(), s => Grower { s, preset, mesh, overlap: f32::INFINITY }.grow()))
 }
 
 struct Grower<'a, S: Simd> {
@@ -342,6 +343,7 @@ fn append(nodes: &mut Vec<Node8>, subtree: Vec<Node8>) {
 mod tests {
     use super::*;
     use crate::accel::Box32;
+    use crate::pool::one_thread;
 
     /// Triangles in random places of random sizes, some without area, some in one place.
     fn crowd(count: u32) -> TriangleMesh {
@@ -392,7 +394,7 @@ mod tests {
 
     /// Asserts that leaves hold all of every triangle, and no more triangles than a preset may add.
     fn assert_complete(mesh: &TriangleMesh, preset: Preset) {
-        let (leaves, count) = (leaves(mesh, &grow(mesh, preset)), mesh.triangles().len());
+        let (leaves, count) = (leaves(mesh, &grow(mesh, preset, one_thread())), mesh.triangles().len());
         let total: usize = leaves.iter().map(Vec::len).sum();
         assert!(total <= count + preset.room(count), "{total} of {count} {}", preset.name());
         let weights =
@@ -437,7 +439,7 @@ mod tests {
     #[test]
     fn a_triangle_stands_in_one_leaf_unless_space_is_cut() {
         let mesh = thicket(2000);
-        let most = |preset| leaves(&mesh, &grow(&mesh, preset)).iter().map(Vec::len).max();
+        let most = |preset| leaves(&mesh, &grow(&mesh, preset, one_thread())).iter().map(Vec::len).max();
         assert_eq!([most(Preset::Fast), most(Preset::Balanced)], [Some(1); 2]);
         assert!(most(Preset::Best) > Some(1));
     }
@@ -446,8 +448,7 @@ mod tests {
     fn a_tree_does_not_depend_on_the_number_of_threads() {
         for (mesh, preset) in [(crowd(30_000), Preset::Balanced), (thicket(9000), Preset::Best)] {
             let grown = |threads: usize| {
-                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-                let tree = pool.install(|| grow(&mesh, preset));
+                let tree = grow(&mesh, preset, &Pool::new(threads).unwrap());
                 let facets = tree.blocks.iter().map(|block| block.facet).collect::<Vec<_>>();
                 (tree.nodes.iter().map(|node| (node.bounds, node.link)).collect::<Vec<_>>(), facets)
             };

@@ -6,6 +6,7 @@ use catoptra_core::TriangleMesh;
 
 use super::grow::grow;
 use super::{Preset, WideTree};
+use crate::Pool;
 use crate::numeric::magnitude_of;
 
 /// A triangle mesh and a tree of boxes over its triangles, in the mesh's own space.
@@ -18,11 +19,11 @@ pub struct MeshTree {
 }
 
 impl MeshTree {
-    /// Builds the tree, on the threads of the pool it is called in.
+    /// Builds the tree on the threads of `pool`; it does not depend on how many there are.
     #[must_use]
-    pub fn build(mesh: &Arc<TriangleMesh>, preset: Preset) -> Self {
+    pub fn build(mesh: &Arc<TriangleMesh>, preset: Preset, pool: &Pool) -> Self {
         let reach = mesh.bounds().corners().map(magnitude_of).into_iter().fold(0.0, f32::max);
-        Self { mesh: Arc::clone(mesh), tree: grow(mesh, preset), reach }
+        Self { mesh: Arc::clone(mesh), tree: grow(mesh, preset, pool), reach }
     }
 
     /// The mesh.

@@ -4,6 +4,7 @@ use catoptra_core::numeric::gamma_f64;
 use catoptra_core::{Aabb, Ray, Span};
 
 use super::build;
+use crate::Pool;
 use crate::numeric::BOUNDS_ERROR;
 
 /// An axis-aligned box in `f32`, never smaller than what it stands for.
@@ -104,9 +105,9 @@ pub(crate) struct Tree {
 pub(crate) const MAX_DEPTH: usize = 64;
 
 impl Tree {
-    /// Over items with the given boxes.
-    pub(crate) fn build(boxes: &[Box32]) -> Self {
-        build::build(boxes)
+    /// Over items with the given boxes, on the threads of `pool`.
+    pub(crate) fn build(boxes: &[Box32], pool: &Pool) -> Self {
+        build::build(boxes, pool)
     }
 
     /// Calls `visit` with the items whose boxes the ray may meet on the stretch that is left; `visit` answers how

@@ -1,88 +1,123 @@
-//! How a snapshot is taken of a scene.
+//! How is a snapshot built of what was taken out of a scene, and what does it take over from an earlier one?
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use catoptra_core::geometry::Plane;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{
-    Aabb, EntityId, Light, Material, MaterialId, Placement, Rgb, Role, Scene, Shape, TriangleMesh,
-};
+use catoptra_core::{Light, Material, MaterialId, Placement, Rgb, Scene, Shape};
 
+use super::index::{Index, MeshTrees};
 use super::origin::{frame_for, origin_for, relative};
-use super::{Columns, LightRow, MaterialRow, Prim, Snapshot};
-use crate::accel::{Box32, MeshTree, Preset, Tree};
-use crate::numeric::BOUNDS_ERROR;
+use super::{Extraction, LightRow, MaterialRow, Prim, Snapshot, SnapshotDiff};
+use crate::Pool;
+use crate::accel::Preset;
 
 impl Snapshot {
-    /// Freezes a scene. Trees over meshes are built on the threads of the pool this is called in.
+    /// Freezes a scene. Trees are built on the threads of `pool`; the snapshot does not depend on how many there are.
     #[must_use]
-    pub fn extract(scene: &Scene) -> Self {
-        Self::extract_after(scene, None)
+    pub fn extract(scene: &Scene, pool: &Pool) -> Self {
+        Self::extract_with(scene, Preset::default(), pool)
     }
 
-    /// Freezes a scene, taking over from an earlier snapshot the trees of meshes that are still there.
+    /// As [`extract`](Self::extract), with trees over meshes as `preset` says.
     #[must_use]
-    pub fn extract_after(scene: &Scene, earlier: Option<&Self>) -> Self {
-        Self::extract_with(scene, earlier, Preset::default())
+    pub fn extract_with(scene: &Scene, preset: Preset, pool: &Pool) -> Self {
+        Extraction::of(scene).build(MeshTrees::new(preset, pool), None)
     }
 
-    /// As [`extract_after`](Self::extract_after); trees of meshes that were not there before are built as `preset` says.
+    /// Freezes a scene, taking over from an earlier snapshot what is still the same, and tells what is not. The
+    /// snapshot is the one that [`extract`](Self::extract) makes, bit for bit; the earlier one may be of another scene.
     #[must_use]
-    pub fn extract_with(scene: &Scene, earlier: Option<&Self>, preset: Preset) -> Self {
-        let placed: Vec<(EntityId, Shape, MaterialId)> = scene
-            .entities_of(Role::Shape)
-            .filter_map(|id| Some((id, scene.world_shape(id)?, scene.material_of(id)?)))
-            .collect();
-        let eye = scene.main_camera().and_then(|id| scene.world_camera(id)).map(|camera| camera.eye());
-        let origin = origin_for(placed.iter().filter_map(|(_, shape, _)| shape.bounds()), eye);
-        let frame = frame_for(placed.iter().map(|(_, shape, _)| shape), origin);
-        let rows: HashMap<MaterialId, u32> = scene.materials().map(|(id, ..)| id).zip(0..).collect();
-        let mut trees = MeshTrees::after(earlier, preset);
-        let prims: Vec<Prim> = placed
-            .iter()
-            .map(|(_, shape, material)| Prim {
-                shape: relative(shape, frame).into_owned(),
-                material: rows[material],
-                mesh: trees.of(shape),
-            })
-            .collect();
-        let lights: Vec<Light> =
-            scene.entities_of(Role::Light).filter_map(|id| scene.world_light(id)).collect();
-        let (bounded, unbounded): (Vec<u32>, Vec<u32>) =
-            (0..prims.len() as u32).partition(|&i| prims[i as usize].shape.bounds().is_some());
-        let boxes = bounded.iter().filter_map(|&i| prims[i as usize].shape.bounds());
-        let boxes: Vec<Box32> = boxes.map(|b| around(b, origin - frame)).collect();
-        let columns = Columns::of(&prims, &bounded, &trees.meshes, origin - frame);
-        let ambient = lights.iter().map(Light::ambient).fold(Rgb::BLACK, |a, b| a + b);
+    pub fn after(scene: &Scene, earlier: &Self, pool: &Pool) -> (Self, SnapshotDiff) {
+        Extraction::of(scene).after(earlier, pool)
+    }
+}
+
+impl Extraction {
+    /// The snapshot, as [`Snapshot::extract`] makes it.
+    #[must_use]
+    pub fn snapshot(&self, pool: &Pool) -> Snapshot {
+        self.build(MeshTrees::new(Preset::default(), pool), None)
+    }
+
+    /// The snapshot and what it changes, as [`Snapshot::after`] makes them.
+    ///
+    /// Trees of meshes that are still there are taken over; and where no edit touched a shape and the origin stays, so
+    /// are the tree over all shapes and the columns of the kernels.
+    #[must_use]
+    pub fn after(&self, earlier: &Snapshot, pool: &Pool) -> (Snapshot, SnapshotDiff) {
+        let snapshot = self.build(MeshTrees::after(earlier, pool), Some(earlier));
+        let diff = SnapshotDiff::between(earlier, &snapshot);
+        (snapshot, diff)
+    }
+
+    fn build(&self, mut trees: MeshTrees<'_>, earlier: Option<&Snapshot>) -> Snapshot {
+        let shapes = self.shapes.iter().map(|(shape, _)| &shape.part);
+        let origin = origin_for(shapes.clone().filter_map(Shape::bounds), self.eye);
+        let frame = frame_for(shapes, origin);
+        let prims = self.prims(frame, &mut trees);
+        let same =
+            earlier.filter(|e| same_bits([e.origin, e.frame], [origin, frame]) && self.keeps_shapes(e));
+        let preset = trees.preset();
+        let index = match same {
+            Some(earlier) => Arc::clone(&earlier.index),
+            None => Arc::new(Index::build(&prims, trees, origin - frame)),
+        };
+        let lights = self.parts.lights.iter().map(|light| &light.part);
+        let ambient = lights.clone().map(Light::ambient).fold(Rgb::BLACK, |a, b| a + b);
         let to_frame = Placement::IDENTITY.moved(-frame).unwrap_or_default();
-        let lights: Vec<Light> = lights.iter().filter(|l| shines(l)).map(|l| l.placed(&to_frame)).collect();
+        let lights: Vec<Light> = lights.filter(|l| shines(l)).map(|l| l.placed(&to_frame)).collect();
         let planes: Vec<&Plane> =
-            columns.planes.iter().filter_map(|row| plane_of(&prims[row.prim as usize])).collect();
+            index.columns.planes.iter().filter_map(|row| plane_of(&prims[row.prim as usize])).collect();
         let materials: Vec<Material> =
-            scene.materials().map(|(.., material)| material.relative_to(origin)).collect();
+            self.parts.materials.iter().map(|(_, material)| material.relative_to(origin)).collect();
         let material_rows: Vec<_> = materials.iter().map(MaterialRow::new).collect();
-        Self {
+        let background = self.parts.settings.background();
+        Snapshot {
             origin,
             frame,
-            constants: [ambient.into(), scene.settings().background().into()],
+            preset,
+            constants: [ambient.into(), background.into()],
             has_mirrors: material_rows.iter().any(|row| row.reflects),
             material_rows,
             light_rows: lights.iter().map(|light| LightRow::new(light, origin - frame, &planes)).collect(),
             has_cones: lights.iter().any(Light::has_cone),
-            columns,
-            tree: Tree::build(&boxes),
-            entities: placed.iter().map(|(id, ..)| *id).collect(),
+            entities: self.shapes.iter().map(|(shape, _)| shape.id).collect(),
+            touched: self.shapes.iter().map(|(shape, _)| shape.touched).collect(),
             prims,
-            unbounded,
-            bounded,
-            meshes: trees.meshes,
+            index,
             materials,
             ambient,
             lights,
-            background: scene.settings().background(),
+            background,
+            parts: Arc::clone(&self.parts),
         }
     }
+
+    fn prims(&self, frame: DVec3, trees: &mut MeshTrees<'_>) -> Vec<Prim> {
+        let rows: HashMap<MaterialId, u32> =
+            self.parts.materials.iter().map(|(id, _)| *id).zip(0..).collect();
+        self.shapes
+            .iter()
+            .map(|(shape, material)| Prim {
+                shape: relative(&shape.part, frame).into_owned(),
+                material: rows[material],
+                mesh: trees.of(&shape.part),
+            })
+            .collect()
+    }
+
+    /// Whether the shapes are those of a snapshot, bit for bit, for no edit has touched any.
+    fn keeps_shapes(&self, earlier: &Snapshot) -> bool {
+        let before = earlier.entities.iter().copied().zip(earlier.touched.iter().copied());
+        self.shapes.iter().map(|(shape, _)| (shape.id, shape.touched)).eq(before)
+    }
+}
+
+fn same_bits(a: [DVec3; 2], b: [DVec3; 2]) -> bool {
+    let bits = |places: [DVec3; 2]| places.map(|place| place.to_array().map(f64::to_bits));
+    bits(a) == bits(b)
 }
 
 /// Whether a light shines from somewhere, rather than from everywhere.
@@ -97,34 +132,65 @@ fn plane_of(prim: &Prim) -> Option<&Plane> {
     }
 }
 
-/// A box, relative to an origin, and wider by what rounding may make of its corners and of rays.
-fn around(bounds: Aabb, origin: DVec3) -> Box32 {
-    let largest = bounds.min.abs().max(bounds.max.abs()).max(origin.abs()).max_element();
-    let slack = DVec3::splat(BOUNDS_ERROR * largest + f64::MIN_POSITIVE);
-    Aabb { min: bounds.min - origin - slack, max: bounds.max - origin + slack }.into()
-}
+#[cfg(test)]
+mod tests {
+    use catoptra_core::geometry::{Mesh, Sphere};
+    use catoptra_core::light::PointLight;
+    use catoptra_core::material::Matte;
+    use catoptra_core::{Edit, MeshSource, TriangleMesh};
 
-/// The trees over the meshes of a scene, each built once.
-struct MeshTrees<'a> {
-    earlier: &'a [Arc<MeshTree>],
-    preset: Preset,
-    meshes: Vec<Arc<MeshTree>>,
-    places: HashMap<*const TriangleMesh, u32>,
-}
+    use super::*;
+    use crate::pool::one_thread;
 
-impl<'a> MeshTrees<'a> {
-    fn after(earlier: Option<&'a Snapshot>, preset: Preset) -> Self {
-        let earlier = earlier.map_or(&[][..], |snapshot| &snapshot.meshes);
-        Self { earlier, preset, meshes: Vec::new(), places: HashMap::new() }
+    /// A ball, a mesh and a lamp.
+    fn scene() -> Scene {
+        let mut scene = Scene::new();
+        let grey = scene.add_material("grey", Matte::new(Rgb::grey(0.5)).unwrap()).unwrap();
+        let corners = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let mesh = Arc::new(TriangleMesh::new(corners, vec![[0, 1, 2]], None, None).unwrap());
+        scene.add_shape("ball", Sphere::new(DVec3::ZERO, 1.0).unwrap(), grey, None).unwrap();
+        scene.add_shape("mesh", Mesh::new(MeshSource { path: String::new(), mesh }), grey, None).unwrap();
+        scene.add_light("lamp", PointLight::new(DVec3::Y * 4.0, Rgb::WHITE).unwrap(), None).unwrap();
+        scene
     }
 
-    fn of(&mut self, shape: &Shape) -> Option<u32> {
-        let Shape::Mesh(mesh) = shape else { return None };
-        let (mesh, preset) = (&mesh.source().mesh, self.preset);
-        Some(*self.places.entry(Arc::as_ptr(mesh)).or_insert_with(|| {
-            let known = self.earlier.iter().find(|tree| Arc::ptr_eq(tree.mesh(), mesh));
-            self.meshes.push(known.map_or_else(|| Arc::new(MeshTree::build(mesh, preset)), Arc::clone));
-            self.meshes.len() as u32 - 1
-        }))
+    /// Snapshots before and after an edit of something.
+    fn around(edit: impl FnOnce(&Scene) -> Edit) -> [Snapshot; 2] {
+        let mut scene = scene();
+        let earlier = Snapshot::extract(&scene, one_thread());
+        scene.apply(edit(&scene)).unwrap();
+        let (later, _) = Snapshot::after(&scene, &earlier, one_thread());
+        [earlier, later]
+    }
+
+    #[test]
+    fn what_shapes_are_searched_with_outlives_other_edits() {
+        let grey = |scene: &Scene| scene.material_named("grey").unwrap();
+        let lamp = |scene: &Scene| scene.entity_named("lamp").unwrap();
+        let black: Material = Matte::new(Rgb::BLACK).unwrap().into();
+        let moved = Placement::IDENTITY.moved(DVec3::X).unwrap();
+        for [earlier, later] in [
+            around(|scene| Edit::Material(grey(scene), black)),
+            around(|scene| Edit::Placement(lamp(scene), moved)),
+            around(|scene| Edit::Remove(lamp(scene))),
+        ] {
+            assert!(Arc::ptr_eq(&earlier.index, &later.index));
+        }
+    }
+
+    #[test]
+    fn a_mesh_that_moves_keeps_its_tree() {
+        let moved = Placement::IDENTITY.moved(DVec3::X).unwrap();
+        let [earlier, later] = around(|scene| Edit::Placement(scene.entity_named("mesh").unwrap(), moved));
+        assert!(!Arc::ptr_eq(&earlier.index, &later.index));
+        assert!(Arc::ptr_eq(&earlier.meshes()[0], &later.meshes()[0]));
+    }
+
+    #[test]
+    fn a_preset_is_kept() {
+        let scene = scene();
+        let earlier = Snapshot::extract_with(&scene, Preset::Best, one_thread());
+        let (later, _) = Snapshot::after(&scene, &earlier, one_thread());
+        assert_eq!(later.preset, Preset::Best);
     }
 }

@@ -1,7 +1,10 @@
 //! What is traced: a scene frozen into columns, relative to an origin of its own.
 
 mod columns;
+mod diff;
 mod extract;
+mod extraction;
+mod index;
 mod lighting;
 mod needs;
 mod origin;
@@ -14,13 +17,17 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Constant3, EntityId, Light, Material, Ray, Rgb, Shape};
 
 pub(crate) use columns::{Affine, Ball, Columns, Instance};
+pub use diff::{Changed, PartDiff, Presence, ShapeDiff, SnapshotDiff};
+pub use extraction::Extraction;
 pub(crate) use lighting::{LightRow, MaterialRow};
 pub use needs::Needs;
 pub(crate) use rows::{KernelVisitor, Row};
 pub(crate) use search::RaySegment;
 pub use search::{Hit, SurfaceId};
 
-use crate::accel::{MeshTree, Tree};
+use crate::accel::{MeshTree, Preset, Tree};
+use extraction::Parts;
+use index::Index;
 
 /// One shape of a snapshot; its number is its place in the order of entity ids.
 #[derive(Debug, Clone)]
@@ -40,15 +47,18 @@ pub struct Snapshot {
     frame: DVec3,
     prims: Vec<Prim>,
     entities: Arc<[EntityId]>,
-    unbounded: Vec<u32>,
-    bounded: Vec<u32>,
-    tree: Tree,
-    meshes: Vec<Arc<MeshTree>>,
+    /// When an edit last touched each shape: [`Placed::touched`](catoptra_core::Placed::touched).
+    touched: Vec<u64>,
+    /// Shared with earlier snapshots of the same shapes.
+    index: Arc<Index>,
+    /// How trees over meshes are built.
+    preset: Preset,
+    /// What the scene has besides shapes, in the world.
+    parts: Arc<Parts>,
     materials: Vec<Material>,
     lights: Vec<Light>,
     ambient: Rgb,
     background: Rgb,
-    columns: Columns,
     /// Ambient light and background.
     constants: [Constant3; 2],
     material_rows: Vec<MaterialRow>,
@@ -58,6 +68,12 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
+    /// The scene's [revision](catoptra_core::Scene::revision) when it was frozen.
+    #[must_use]
+    pub fn revision(&self) -> u64 {
+        self.parts.revision
+    }
+
     /// Where in the world the columns of the SIMD kernels have their zero, so that `f32` is spent on detail and not on
     /// distance.
     #[must_use]
@@ -104,7 +120,7 @@ impl Snapshot {
     /// The meshes, each once.
     #[must_use]
     pub fn meshes(&self) -> &[Arc<MeshTree>] {
-        &self.meshes
+        &self.index.meshes
     }
 
     /// Where in the world the coordinates have their zero in which shapes and rays are compared: the
@@ -128,7 +144,7 @@ impl Snapshot {
 
     /// The shapes as the SIMD kernels read them.
     pub(crate) fn columns(&self) -> &Columns {
-        &self.columns
+        &self.index.columns
     }
 
     /// The ambient light as a formula reads it.
@@ -165,6 +181,6 @@ impl Snapshot {
 
     /// The tree over all shapes that have an end; its items are places in [`Columns::bounded`].
     pub(crate) fn tree(&self) -> &Tree {
-        &self.tree
+        &self.index.tree
     }
 }

@@ -40,13 +40,13 @@ impl Snapshot {
             shapes: count(self.prims.iter().map(|p| p.shape.kind_name())),
             lights: count(self.lights.iter().map(Light::kind_name)),
             materials: count(self.materials.iter().map(Material::kind_name)),
-            unbounded: self.unbounded.len(),
-            meshes: self.meshes.len(),
-            triangles: self.meshes.iter().map(|m| m.mesh().triangles().len()).sum(),
-            tree_bytes: self.meshes.iter().map(|m| m.bytes()).sum::<usize>()
-                + size_of_val(&self.tree.nodes[..])
-                + size_of_val(&self.tree.order[..]),
-            with_kernel: self.prims.len() - self.columns.without_kernel(),
+            unbounded: self.index.unbounded.len(),
+            meshes: self.index.meshes.len(),
+            triangles: self.index.meshes.iter().map(|m| m.mesh().triangles().len()).sum(),
+            tree_bytes: self.index.meshes.iter().map(|m| m.bytes()).sum::<usize>()
+                + size_of_val(&self.index.tree.nodes[..])
+                + size_of_val(&self.index.tree.order[..]),
+            with_kernel: self.prims.len() - self.index.columns.without_kernel(),
             reflects: self.materials.iter().any(|m| m.reflectiveness().wide > 0.0),
             shadowing_lights: self.lights.iter().filter(|l| l.shadow()).count(),
             ambient: self.ambient.max_channel() > 0.0,

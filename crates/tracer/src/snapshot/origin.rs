@@ -44,7 +44,12 @@ fn rounded(place: DVec3, detail: f64) -> DVec3 {
 /// shape, so that points near the eye are known the better; else the world's own zero, so that every shape stays what it
 /// is.
 pub(super) fn frame_for<'a>(mut shapes: impl Iterator<Item = &'a Shape>, origin: DVec3) -> DVec3 {
-    if shapes.all(|shape| moves_exactly(shape, origin)) { origin } else { DVec3::ZERO }
+    // Where the origin is the world's own zero, so is the frame, whatever the shapes.
+    if origin != DVec3::ZERO && shapes.all(|shape| moves_exactly(shape, origin)) {
+        origin
+    } else {
+        DVec3::ZERO
+    }
 }
 
 /// Whether a shape can be moved to an origin without rounding. One that is turned or scaled sees rays through its

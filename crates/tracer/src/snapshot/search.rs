@@ -56,11 +56,11 @@ impl Snapshot {
     /// As [`nearest`](Self::nearest).
     pub(crate) fn nearest_on(&self, segment: &RaySegment<'_>) -> Option<Hit> {
         let mut best = None;
-        for &prim in &self.unbounded {
+        for &prim in &self.index.unbounded {
             best = self.closer(segment, best, self.cross(prim, &segment.until(best)));
         }
-        self.tree.walk(&self.box_ray(segment), segment.until(best).span, |item| {
-            let hit = self.cross(self.bounded[item as usize], &segment.until(best));
+        self.index.tree.walk(&self.box_ray(segment), segment.until(best).span, |item| {
+            let hit = self.cross(self.index.bounded[item as usize], &segment.until(best));
             best = self.closer(segment, best, hit);
             segment.until(best).span.max
         });
@@ -69,12 +69,12 @@ impl Snapshot {
 
     /// As [`occluded`](Self::occluded).
     pub(crate) fn is_occluded_on(&self, segment: &RaySegment<'_>) -> bool {
-        if self.unbounded.iter().any(|&prim| self.cross(prim, segment).is_some()) {
+        if self.index.unbounded.iter().any(|&prim| self.cross(prim, segment).is_some()) {
             return true;
         }
         let mut found = false;
-        self.tree.walk(&self.box_ray(segment), segment.span, |item| {
-            found = found || self.cross(self.bounded[item as usize], segment).is_some();
+        self.index.tree.walk(&self.box_ray(segment), segment.span, |item| {
+            found = found || self.cross(self.index.bounded[item as usize], segment).is_some();
             if found { f64::NEG_INFINITY } else { segment.span.max }
         });
         found
@@ -169,7 +169,7 @@ impl Snapshot {
         let left = facet_left(prim, segment.leaving);
         let crossing = match (&*self.shape(segment, prim), self.prims[prim as usize].mesh) {
             (Shape::Mesh(mesh), Some(tree)) => {
-                let tree = &self.meshes[tree as usize].tree;
+                let tree = &self.index.meshes[tree as usize].tree;
                 cross_mesh(mesh, tree, &mesh.own_ray(segment.ray), segment.span, left)
             }
             (shape, _) => shape.cross(segment.ray, segment.span, left),

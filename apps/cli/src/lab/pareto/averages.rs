@@ -135,7 +135,7 @@ pub(super) fn way(
     let camera = scene.main_camera().and_then(|id| scene.world_camera(id));
     let camera = camera.ok_or_else(|| miette!("a scene of the lab has no camera"))?;
     let view = view(View::of(&scene, camera.clone(), SIZE));
-    let (picture, time) = lab.picture(&Snapshot::extract(&scene), &view)?;
+    let (picture, time) = lab.picture(&Snapshot::extract(&scene, &lab.pool), &view)?;
     let size = view.size;
     let reference = Picture::painted(size.width, size.height, |x, y| {
         let floor = |across: f64, down: f64| {

@@ -85,7 +85,7 @@ fn way(lab: &Lab, backend: &str, (name, text, irradiance): &Lamp) -> Result<Way>
     let scene = parsed(&format!("{FLOOR}{text}"))?;
     let camera = scene.main_camera().and_then(|id| scene.world_camera(id));
     let camera = camera.ok_or_else(|| miette!("a scene of the lab has no camera"))?;
-    let (snapshot, view) = (Snapshot::extract(&scene), View::of(&scene, camera.clone(), SIZE));
+    let (snapshot, view) = (Snapshot::extract(&scene, &lab.pool), View::of(&scene, camera.clone(), SIZE));
     let (backend, mut film) = (find_backend(backend)?, Film::new(SIZE));
     let (done, milliseconds) =
         lab.fastest(|| render(backend, &snapshot, &view, &mut film, &lab.pool, &Control::default()));

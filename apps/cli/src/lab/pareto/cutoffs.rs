@@ -31,7 +31,7 @@ pub(super) fn ask(lab: &Lab) -> Result<Vec<Question>> {
     let scene = parsed(MIRRORS)?;
     let camera = scene.main_camera().and_then(|id| scene.world_camera(id));
     let camera = camera.ok_or_else(|| miette!("a scene of the lab has no camera"))?;
-    let snapshot = Snapshot::extract(&scene);
+    let snapshot = Snapshot::extract(&scene, &lab.pool);
     let view = |max_depth, weight_cutoff| View {
         max_depth,
         weight_cutoff,

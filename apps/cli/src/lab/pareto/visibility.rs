@@ -169,7 +169,7 @@ fn mesh(lab: &Lab) -> Result<Question> {
     let mut scene = Scene::new();
     let grey = scene.add_material("grey", Matte::new(Rgb::grey(0.5)).into_diagnostic()?).into_diagnostic()?;
     scene.add_shape("ball", ball_mesh(RINGS), grey, None).into_diagnostic()?;
-    let snapshot = Snapshot::extract(&scene);
+    let snapshot = Snapshot::extract(&scene, &lab.pool);
     let mut ways = Vec::new();
     for (sort_name, sort) in SORTS {
         let rays = mesh_rays(sort);

@@ -74,7 +74,7 @@ impl Target {
         let corners = [wide(0), wide(1), wide(2)];
         let positions = positions.into_iter().map(|p| p.to_array()).collect();
         let mesh = Arc::new(TriangleMesh::new(positions, triangles, None, None).ok()?);
-        Some(Self { tree: MeshTree::build(&mesh, Preset::Fast), shapes, corners })
+        Some(Self { tree: MeshTree::build(&mesh, Preset::Fast, crate::pool::one_thread()), shapes, corners })
     }
 
     /// A point at an edge or a corner, or nearly so.
@@ -200,7 +200,7 @@ fn slow_rays_meet_what_is_far() {
     let (far, slow) = (2.0_f64.powi(58), 2.0_f64.powi(-60));
     let corners = [[1.0, -1.0, -1.0], [1.0, 1.0, -1.0], [1.0, 0.0, 1.0]].map(|p| p.map(|v| v * far as f32));
     let mesh = Arc::new(TriangleMesh::new(corners.to_vec(), vec![[0, 1, 2]], None, None).unwrap());
-    let tree = MeshTree::build(&mesh, Preset::Fast);
+    let tree = MeshTree::build(&mesh, Preset::Fast, crate::pool::one_thread());
     for direction in [DVec3::X, DVec3::new(1.0, 1e-3, -1e-3)] {
         let ray = Ray::new(DVec3::new(-far, far / 64.0, far / 64.0), direction * slow);
         let (best, asked) = dispatch!(Level::new(), s => follow(s, (ray, 0.0), &tree));

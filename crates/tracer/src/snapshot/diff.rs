@@ -1,0 +1,204 @@
+//! What differs between two snapshots: the ground for tracing only what has changed.
+
+use std::borrow::Cow;
+use std::collections::HashSet;
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Aabb, Camera, EntityId, Light, Material, MaterialId, Placed, Rgb, Shape};
+use itertools::{EitherOrBoth, merge_join_by};
+
+use super::Snapshot;
+use super::origin::relative;
+
+/// What is not the same in two snapshots. Values are compared as numbers, so that 0 and −0 are one.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SnapshotDiff {
+    /// Shapes that stand or look otherwise, by age.
+    pub shapes: Vec<ShapeDiff>,
+    /// Lights that shine otherwise in the world, by age; ambient ones as well.
+    pub lights: Vec<PartDiff<EntityId, Light>>,
+    /// Materials with other values, by age. A change of name is none.
+    pub materials: Vec<PartDiff<MaterialId, Material>>,
+    /// Cameras that see otherwise in the world, by age.
+    pub cameras: Vec<PartDiff<EntityId, Camera>>,
+    /// [`Snapshot::origin`], if it is elsewhere: the last bits of everything may then be others.
+    pub origin: Option<Changed<DVec3>>,
+    /// [`Snapshot::frame`], if it is elsewhere.
+    pub frame: Option<Changed<DVec3>>,
+    /// The sum of ambient light.
+    pub ambient: Option<Changed<Rgb>>,
+    /// What is seen where there is nothing.
+    pub background: Option<Changed<Rgb>>,
+    /// How many reflections the scene's settings allow.
+    pub max_depth: Option<Changed<u32>>,
+}
+
+/// A value that is another one now.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Changed<T> {
+    /// In the earlier snapshot.
+    pub before: T,
+    /// In the later one.
+    pub after: T,
+}
+
+/// In which of two snapshots something is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Presence {
+    /// Only in the later one.
+    Appeared,
+    /// Only in the earlier one.
+    Disappeared,
+    /// In both.
+    Stayed,
+}
+
+/// A shape that is not the same.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShapeDiff {
+    /// Which.
+    pub entity: EntityId,
+    /// In which snapshot it is.
+    pub presence: Presence,
+    /// Whether it has another form or stands elsewhere in the world; so does what is in one snapshot only.
+    pub shape: bool,
+    /// Whether it looks different: it wears another material, or its material has other values.
+    pub material: bool,
+    /// The box in the world round the earlier shape; `None` without an end, or without a shape.
+    pub before: Option<Aabb>,
+    /// The same round the later shape.
+    pub after: Option<Aabb>,
+}
+
+/// A light, material or camera that is not the same, in world space.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartDiff<I, T> {
+    /// Which.
+    pub id: I,
+    /// In the earlier snapshot; `None` where it is not there.
+    pub before: Option<T>,
+    /// In the later snapshot; `None` where it is not there.
+    pub after: Option<T>,
+}
+
+impl<I, T> PartDiff<I, T> {
+    /// In which snapshot it is.
+    #[must_use]
+    pub fn presence(&self) -> Presence {
+        match (&self.before, &self.after) {
+            (None, _) => Presence::Appeared,
+            (_, None) => Presence::Disappeared,
+            _ => Presence::Stayed,
+        }
+    }
+}
+
+impl SnapshotDiff {
+    /// Compares two snapshots, of whatever scenes: what is called by the same id counts as one.
+    #[must_use]
+    pub fn between(before: &Snapshot, after: &Snapshot) -> Self {
+        let materials = by_id(&before.parts.materials, &after.parts.materials, |(id, part)| (*id, part));
+        Self {
+            shapes: shapes(before, after, &materials.iter().map(|m| m.id).collect()),
+            lights: by_id(&before.parts.lights, &after.parts.lights, named),
+            cameras: by_id(&before.parts.cameras, &after.parts.cameras, named),
+            materials,
+            origin: changed(before.origin, after.origin),
+            frame: changed(before.frame, after.frame),
+            ambient: changed(before.ambient, after.ambient),
+            background: changed(before.background, after.background),
+            max_depth: changed(before.parts.settings.max_depth(), after.parts.settings.max_depth()),
+        }
+    }
+
+    /// Whether all is the same.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+fn changed<T: PartialEq>(before: T, after: T) -> Option<Changed<T>> {
+    (before != after).then_some(Changed { before, after })
+}
+
+fn named<T>(placed: &Placed<T>) -> (EntityId, &T) {
+    (placed.id, &placed.part)
+}
+
+/// What is in one of two lists only, or with another value in each. Both are sorted by id.
+fn by_id<E, I: Ord, T: PartialEq + Clone>(
+    before: &[E],
+    after: &[E],
+    read: impl Fn(&E) -> (I, &T),
+) -> Vec<PartDiff<I, T>> {
+    let (before, after) = (before.iter().map(&read), after.iter().map(&read));
+    merge_join_by(before, after, |a, b| a.0.cmp(&b.0))
+        .filter_map(|pair| match pair {
+            EitherOrBoth::Both(a, b) if a.1 == b.1 => None,
+            EitherOrBoth::Both((id, a), (_, b)) => {
+                Some(PartDiff { id, before: Some(a.clone()), after: Some(b.clone()) })
+            }
+            EitherOrBoth::Left((id, a)) => Some(PartDiff { id, before: Some(a.clone()), after: None }),
+            EitherOrBoth::Right((id, b)) => Some(PartDiff { id, before: None, after: Some(b.clone()) }),
+        })
+        .collect()
+}
+
+fn shapes(before: &Snapshot, after: &Snapshot, changed: &HashSet<MaterialId>) -> Vec<ShapeDiff> {
+    merge_join_by(Standing::all(before), Standing::all(after), |a, b| a.id().cmp(&b.id()))
+        .filter_map(|pair| match pair {
+            EitherOrBoth::Both(a, b) => a.against(&b, changed),
+            EitherOrBoth::Left(a) => Some(ShapeDiff { before: a.bounds(), ..a.alone(Presence::Disappeared) }),
+            EitherOrBoth::Right(b) => Some(ShapeDiff { after: b.bounds(), ..b.alone(Presence::Appeared) }),
+        })
+        .collect()
+}
+
+/// One shape of a snapshot.
+struct Standing<'a> {
+    snapshot: &'a Snapshot,
+    prim: usize,
+}
+
+impl<'a> Standing<'a> {
+    fn all(snapshot: &'a Snapshot) -> impl Iterator<Item = Self> {
+        (0..snapshot.prims.len()).map(move |prim| Self { snapshot, prim })
+    }
+
+    fn id(&self) -> EntityId {
+        self.snapshot.entities[self.prim]
+    }
+
+    /// In the world. Taking a shape into a frame rounds nothing, and neither does taking it back.
+    fn shape(&self) -> Cow<'a, Shape> {
+        relative(&self.snapshot.prims[self.prim].shape, -self.snapshot.frame)
+    }
+
+    fn bounds(&self) -> Option<Aabb> {
+        self.shape().bounds()
+    }
+
+    fn material(&self) -> &'a (MaterialId, Material) {
+        &self.snapshot.parts.materials[self.snapshot.prims[self.prim].material as usize]
+    }
+
+    fn alone(&self, presence: Presence) -> ShapeDiff {
+        ShapeDiff { entity: self.id(), presence, shape: true, material: true, before: None, after: None }
+    }
+
+    /// What differs in a later snapshot, where those materials have other values.
+    fn against(&self, later: &Self, changed: &HashSet<MaterialId>) -> Option<ShapeDiff> {
+        let touched = |standing: &Self| standing.snapshot.touched[standing.prim];
+        let shape = touched(self) != touched(later) && self.shape() != later.shape();
+        let [(old, was), (new, is)] = [self.material(), later.material()];
+        let material = if old == new { changed.contains(old) } else { was != is };
+        (shape || material).then(|| ShapeDiff {
+            shape,
+            material,
+            before: self.bounds(),
+            after: later.bounds(),
+            ..self.alone(Presence::Stayed)
+        })
+    }
+}

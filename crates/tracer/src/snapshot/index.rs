@@ -1,0 +1,84 @@
+//! With what are the shapes of a snapshot searched: the kernels' columns, the tree over all shapes, trees over meshes.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Aabb, Shape, TriangleMesh};
+
+use super::{Columns, Prim, Snapshot};
+use crate::Pool;
+use crate::accel::{Box32, MeshTree, Preset, Tree};
+use crate::numeric::BOUNDS_ERROR;
+
+/// What follows from the shapes alone, wherever light is and whatever they wear.
+#[derive(Debug)]
+pub(super) struct Index {
+    /// Shapes that have no end.
+    pub(super) unbounded: Vec<u32>,
+    /// Shapes that have one, in the order of the tree's items.
+    pub(super) bounded: Vec<u32>,
+    pub(super) tree: Tree,
+    /// Each once.
+    pub(super) meshes: Vec<Arc<MeshTree>>,
+    pub(super) columns: Columns,
+}
+
+impl Index {
+    /// Relative to an origin.
+    pub(super) fn build(prims: &[Prim], trees: MeshTrees<'_>, origin: DVec3) -> Self {
+        let (bounded, unbounded): (Vec<u32>, Vec<u32>) =
+            (0..prims.len() as u32).partition(|&i| prims[i as usize].shape.bounds().is_some());
+        let boxes = bounded.iter().filter_map(|&i| prims[i as usize].shape.bounds());
+        let boxes: Vec<Box32> = boxes.map(|b| around(b, origin)).collect();
+        let MeshTrees { meshes, pool, .. } = trees;
+        let columns = Columns::of(prims, &bounded, &meshes, origin);
+        Self { unbounded, bounded, tree: Tree::build(&boxes, pool), meshes, columns }
+    }
+}
+
+/// A box, relative to an origin, and wider by what rounding may make of its corners and of rays.
+fn around(bounds: Aabb, origin: DVec3) -> Box32 {
+    let largest = bounds.min.abs().max(bounds.max.abs()).max(origin.abs()).max_element();
+    let slack = DVec3::splat(BOUNDS_ERROR * largest + f64::MIN_POSITIVE);
+    Aabb { min: bounds.min - origin - slack, max: bounds.max - origin + slack }.into()
+}
+
+/// The trees over the meshes of a scene, each built once.
+pub(super) struct MeshTrees<'a> {
+    earlier: HashMap<*const TriangleMesh, &'a Arc<MeshTree>>,
+    preset: Preset,
+    pool: &'a Pool,
+    meshes: Vec<Arc<MeshTree>>,
+    places: HashMap<*const TriangleMesh, u32>,
+}
+
+impl<'a> MeshTrees<'a> {
+    /// All built anew.
+    pub(super) fn new(preset: Preset, pool: &'a Pool) -> Self {
+        Self { earlier: HashMap::new(), preset, pool, meshes: Vec::new(), places: HashMap::new() }
+    }
+
+    /// Those of a snapshot are taken over, and others built as they were.
+    pub(super) fn after(earlier: &'a Snapshot, pool: &'a Pool) -> Self {
+        let trees = earlier.index.meshes.iter().map(|tree| (Arc::as_ptr(tree.mesh()), tree)).collect();
+        Self { earlier: trees, ..Self::new(earlier.preset, pool) }
+    }
+
+    /// How trees are built.
+    pub(super) fn preset(&self) -> Preset {
+        self.preset
+    }
+
+    /// Which of the trees stands behind a shape.
+    pub(super) fn of(&mut self, shape: &Shape) -> Option<u32> {
+        let Shape::Mesh(mesh) = shape else { return None };
+        let mesh = &mesh.source().mesh;
+        Some(*self.places.entry(Arc::as_ptr(mesh)).or_insert_with(|| {
+            let known = self.earlier.get(&Arc::as_ptr(mesh)).map(|tree| Arc::clone(tree));
+            let tree = known.unwrap_or_else(|| Arc::new(MeshTree::build(mesh, self.preset, self.pool)));
+            self.meshes.push(tree);
+            self.meshes.len() as u32 - 1
+        }))
+    }
+}
