@@ -26,15 +26,26 @@ impl Meshes {
         if let Some(mesh) = self.known.get(path) {
             return Ok(MeshSource { path: path.to_owned(), mesh: Arc::clone(mesh) });
         }
-        let file = match &self.base {
-            Some(base) => base.join(path),
-            None if Path::new(path).is_absolute() => PathBuf::from(path),
-            None => return Err(format!("{path}: the scene lies in no folder from which to find it")),
+        let Some(file) = self.place(path) else {
+            return Err(format!("{path}: the scene lies in no folder from which to find it"));
         };
         let mesh = Arc::new(mesh::read(&file).map_err(|e| e.to_string())?);
         let source = MeshSource { path: path.to_owned(), mesh };
         self.know(&source);
         Ok(source)
+    }
+
+    /// Where a mesh lies.
+    fn place(&self, path: &str) -> Option<PathBuf> {
+        match &self.base {
+            Some(base) => Some(base.join(path)),
+            None => Some(PathBuf::from(path)).filter(|path| path.is_absolute()),
+        }
+    }
+
+    /// Where all that are known lie.
+    pub(crate) fn paths(&self) -> impl Iterator<Item = PathBuf> {
+        self.known.keys().filter_map(|path| self.place(path))
     }
 
     /// Takes a mesh as read.
