@@ -33,7 +33,7 @@ pub(crate) enum Command {
 /// What a picture is made from: shared by the commands that trace.
 #[derive(Args)]
 pub(crate) struct JobArgs {
-    /// Scene file (.kdl)
+    /// Scene file (.kdl), or - for standard input
     pub(crate) scene: PathBuf,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = size)]
@@ -50,9 +50,9 @@ pub(crate) struct JobArgs {
     /// Samples per pixel: a square number, 1, 4, 9 and so on
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = samples)]
     pub(crate) samples: u32,
-    /// Where the samples lie in a pixel: grid or sobol
-    #[arg(long, value_name = "NAME", default_value = "grid")]
-    pub(crate) pattern: String,
+    /// Where the samples lie in a pixel: grid or sobol [default: grid]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) pattern: Option<String>,
     /// Reflections followed one after another [default: the scene's setting]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub(crate) max_depth: Option<u32>,
@@ -74,9 +74,9 @@ pub(crate) struct RenderArgs {
     /// Picture to write: .png (8 bits, as displayed) or .exr (linear, 32 bits)
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
-    /// Display transform of a .png: linear, srgb or filmic
-    #[arg(long, value_name = "NAME", default_value = "srgb")]
-    pub(crate) display: String,
+    /// Display transform of a .png: linear, srgb or filmic [default: srgb]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) display: Option<String>,
     /// Time N frames after a warm-up: from snapshot to film, without files and parsing
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) repeat: Option<u32>,
