@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use catoptra_tracer::{Film, Region, Size};
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 
 use crate::lab::LabArgs;
@@ -80,8 +81,8 @@ pub(crate) struct RenderArgs {
     /// Time N frames after a warm-up: from snapshot to film, without files and parsing
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) repeat: Option<u32>,
-    /// Write counts and times as a JSON object
-    #[arg(long, value_name = "FILE.json")]
+    /// Write counts and times as a JSON object; - is standard output
+    #[arg(long, value_name = "FILE.json", value_parser = PathBufValueParser::new().map(or_stdout))]
     pub(crate) stats: Option<PathBuf>,
 }
 
@@ -135,6 +136,16 @@ const LONGEST_SIDE: u32 = 32_768;
 
 /// Most pixels of a picture: a film of this many fits the memory of a common computer.
 const MOST_PIXELS: u64 = 1 << 27;
+
+/// What stands for standard input or output where a file is named.
+pub(crate) const STANDARD: &str = "-";
+
+/// Where the system has standard output among its files.
+pub(crate) const STDOUT: &str = "/dev/stdout";
+
+fn or_stdout(path: PathBuf) -> PathBuf {
+    if path.as_os_str() == STANDARD { PathBuf::from(STDOUT) } else { path }
+}
 
 /// Reads `WIDTHxHEIGHT`.
 fn size(text: &str) -> Result<Size, String> {

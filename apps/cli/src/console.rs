@@ -8,7 +8,8 @@ use miette::{Result, miette};
 
 /// Prints to standard output. A reader that has gone away, such as `head`, wants no more and is no error.
 pub(crate) fn print(text: &str) -> Result<()> {
-    let printed = standard_output().and_then(|mut out| out.write_all(text.as_bytes()));
+    let printed =
+        standard_output().and_then(|mut out| out.write_all(text.as_bytes()).and_then(|()| out.flush()));
     match printed {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(miette!("standard output cannot be written: {error}"))

@@ -12,7 +12,7 @@ use catoptra_tracer::{
 };
 use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
 
-use crate::args::JobArgs;
+use crate::args::{JobArgs, STANDARD};
 use crate::console::warn;
 use crate::destination::{Input, Output, check_apart};
 use crate::memory;
@@ -92,12 +92,9 @@ impl Job {
     }
 }
 
-/// What stands for standard input where a scene is named.
-const STDIN: &str = "-";
-
 /// Reads a scene; the meshes of one from standard input lie in the current folder.
 fn load(path: &Path) -> Result<(Scene, SceneFile)> {
-    Ok(if path == Path::new(STDIN) {
+    Ok(if path == Path::new(STANDARD) {
         catoptra_scene::load_from(std::io::stdin().lock(), Path::new("<stdin>"), Path::new(""))?
     } else {
         catoptra_scene::load(path)?
@@ -105,7 +102,7 @@ fn load(path: &Path) -> Result<(Scene, SceneFile)> {
 }
 
 fn inputs(scene: &Path, file: &SceneFile) -> Vec<Input> {
-    let scene = if scene == Path::new(STDIN) { Path::new("/dev/stdin") } else { scene };
+    let scene = if scene == Path::new(STANDARD) { Path::new("/dev/stdin") } else { scene };
     let meshes = file.mesh_paths().map(|path| ("the mesh", path));
     std::iter::once(("the scene", scene.to_owned())).chain(meshes).collect()
 }

@@ -22,7 +22,7 @@ pub(crate) fn check_room(size: Size) -> Result<()> {
 /// A film of a part of a picture.
 pub(crate) fn film(region: catoptra_tracer::Region, tile: u32) -> Result<Film> {
     Film::try_of_region(region, tile)
-        .map_err(|_| too_large(region.size, Film::bytes_of(region.size), "the scene has left less"))
+        .map_err(|_| too_large(region.size, Film::bytes_of(region.size), "less is left"))
 }
 
 fn too_large(size: Size, needed: u64, why: &str) -> Report {

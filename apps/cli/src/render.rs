@@ -1,10 +1,12 @@
 //! `catoptra render`: a picture of a scene, the time a frame takes, and counts.
 
+use std::path::Path;
+
 use catoptra_scene::atomic::is_straight;
 use catoptra_tracer::{Cancelled, Control, Display, Film, Stats};
 use miette::{Result, miette};
 
-use crate::args::RenderArgs;
+use crate::args::{RenderArgs, STDOUT};
 use crate::console::{check_heard, print, say, warn};
 use crate::destination::{Output, check_writable};
 use crate::job::{Job, Means};
@@ -62,6 +64,7 @@ fn check(args: &RenderArgs, outputs: &[Output<'_>]) -> Result<()> {
             ));
         }
         ([], Some(_)) => check_heard()?,
+        _ if outputs.iter().any(|(_, path)| *path == Path::new(STDOUT)) => check_heard()?,
         _ => {}
     }
     if let Some(path) = &args.output {

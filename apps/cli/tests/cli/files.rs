@@ -86,6 +86,9 @@ fn a_device_stays_one() {
 #[test]
 fn standard_output_gets_the_statistics_and_a_log_keeps_what_it_held() {
     let folder = folder();
+    let ran = shell(folder.path(), "$catoptra render scene.kdl --stats - --size 20x15");
+    assert!(ran.code == 0 && ran.out.starts_with('{') && ran.out.ends_with("}\n"), "{}", ran.err);
+    assert_eq!(files(folder.path()), ["scene.kdl"]);
     let run = "$catoptra render scene.kdl --stats /dev/stdout --repeat 1 --size 20x15";
     let ran = shell(folder.path(), &format!("{run} | cat"));
     assert!(ran.out.starts_with('{') && ran.out.contains(" over 1 frames"), "{}{}", ran.out, ran.err);
@@ -268,13 +271,25 @@ fn too_little_memory_is_told_with_what_is_needed() {
 #[test]
 fn memory_or_threads_that_run_out_end_in_no_crash() {
     let folder = folder();
-    for (limit, threads) in [(300_000, 1024), (60_000, 2), (90_000, 1), (120_000, 1)] {
-        let line = format!(
-            "ulimit -v {limit}; exec $catoptra render scene.kdl -o a.png --size 1200x900 --threads {threads}"
-        );
+    with_mesh(folder.path());
+    let corners: String = (0..200_000).map(|i| format!("v {i} {} 0\n", i % 7)).collect();
+    let faces: String = (1..199_998).map(|i| format!("f {i} {} {}\n", i + 1, i + 2)).collect();
+    fs::write(folder.path().join("m.obj"), corners + &faces).unwrap();
+    let mut told = 0;
+    for limit in (20_000..).step_by(6000) {
+        let line =
+            format!("ulimit -v {limit}; exec $catoptra render mesh.kdl -o a.png --size 90x90 --threads 2");
         let ran = shell(folder.path(), &line);
+        if ran.code == 0 {
+            break;
+        }
         // Loading the program itself may already be too much.
-        assert!([0, 2, 127].contains(&ran.code), "{limit}: {} {}", ran.code, ran.err);
-        assert!(!ran.err.contains("panicked"), "{limit}: {}", ran.err);
+        assert!(ran.code == 2 || (ran.code == 127 && told == 0), "{limit}: {} {}", ran.code, ran.err);
+        assert!(!ran.err.contains("panicked") && ran.err.contains("memory"), "{limit}: {}", ran.err);
+        told += usize::from(ran.err.contains("memory allocation of"));
     }
+    assert!(told > 0, "reading the mesh was never too much");
+    let ran =
+        shell(folder.path(), "ulimit -v 300000; exec $catoptra render scene.kdl -o a.png --threads 1024");
+    assert!(ran.code == 2 && ran.err.contains("--threads"), "{}", ran.err);
 }
