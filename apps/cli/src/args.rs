@@ -140,8 +140,8 @@ const MOST_PIXELS: u64 = 1 << 27;
 /// What stands for standard input or output where a file is named.
 pub(crate) const STANDARD: &str = "-";
 
-/// Where the system has standard output among its files.
-pub(crate) const STDOUT: &str = "/dev/stdout";
+/// Where the system has standard output among its files; `/dev/stdout` leads there.
+pub(crate) const STDOUT: &str = "/dev/fd/1";
 
 fn or_stdout(path: PathBuf) -> PathBuf {
     if path.as_os_str() == STANDARD { PathBuf::from(STDOUT) } else { path }

@@ -181,8 +181,8 @@ mod unix {
         let from = path.clone();
         let reader = std::thread::spawn(move || fs::read_to_string(from).unwrap());
         new(&path).unwrap();
-        assert_eq!(reader.join().unwrap(), "new");
         assert!(!fs::metadata(&path).unwrap().is_file());
+        assert_eq!(reader.join().unwrap(), "new");
         assert_eq!(names(folder.path()), ["pipe"]);
     }
 
