@@ -47,8 +47,8 @@ pub(crate) fn check_folder(folder: &Path, names: &[&str]) -> Result<()> {
         missing.map(|part| there.join(part)).into_iter().collect()
     };
     let outputs: Vec<Output<'_>> = files.iter().map(|file| ("--out", file.as_path())).collect();
-    check_writable(&outputs)?;
-    check_apart(&outputs, &[])
+    check_apart(&outputs, &[])?;
+    check_writable(&outputs)
 }
 
 #[cfg(test)]

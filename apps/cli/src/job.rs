@@ -53,7 +53,7 @@ pub(crate) struct Job {
 }
 
 impl Job {
-    /// Reads the scene, from which these outputs must differ.
+    /// Reads the scene, from whose meshes these outputs must differ.
     pub(crate) fn new(args: &JobArgs, means: Means, outputs: &[Output<'_>]) -> Result<Self> {
         let crop = args.crop.map(|crop| check_crop(crop, args.size)).transpose()?;
         let pool = new_pool(args.threads)?;
@@ -68,7 +68,8 @@ impl Job {
             instructions: means.instructions,
             ..view
         };
-        check_apart(outputs, &inputs(&args.scene, &file))?;
+        let meshes: Vec<Input> = file.mesh_paths().map(|path| ("the mesh", path)).collect();
+        check_apart(outputs, &meshes)?;
         warn_of_idle(args);
         let started = Instant::now();
         let snapshot = pool.run(|| Arc::new(Snapshot::extract(&scene)));
@@ -101,10 +102,10 @@ fn load(path: &Path) -> Result<(Scene, SceneFile)> {
     })
 }
 
-fn inputs(scene: &Path, file: &SceneFile) -> Vec<Input> {
+/// The file that a scene is read from.
+pub(crate) fn scene_input(scene: &Path) -> Input {
     let scene = if scene == Path::new(STANDARD) { Path::new("/dev/stdin") } else { scene };
-    let meshes = file.mesh_paths().map(|path| ("the mesh", path));
-    std::iter::once(("the scene", scene.to_owned())).chain(meshes).collect()
+    ("the scene", scene.to_owned())
 }
 
 /// Says which options change nothing.

@@ -8,8 +8,8 @@ use miette::{Result, miette};
 
 use crate::args::{RenderArgs, STDOUT};
 use crate::console::{check_heard, print, say, warn};
-use crate::destination::{Output, check_writable};
-use crate::job::{Job, Means};
+use crate::destination::{Output, check_apart, check_writable};
+use crate::job::{Job, Means, scene_input};
 use crate::output::{Format, write_film};
 use crate::stats::{FrameTimes, write_stats};
 use crate::suggest::unknown;
@@ -70,6 +70,7 @@ fn check(args: &RenderArgs, outputs: &[Output<'_>]) -> Result<()> {
     if let Some(path) = &args.output {
         Format::of(path)?;
     }
+    check_apart(outputs, &[scene_input(&args.job.scene)])?;
     check_writable(outputs)
 }
 

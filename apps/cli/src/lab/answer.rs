@@ -43,8 +43,8 @@ pub(crate) struct ScoreArgs {
 pub(crate) fn run(args: &AnswerArgs) -> Result<Outcome> {
     let backend = find_backend(&args.backend)?;
     let outputs = [("RESULTS", args.results.as_path())];
-    check_writable(&outputs)?;
     check_apart(&outputs, &[("the case file", args.cases.clone())])?;
+    check_writable(&outputs)?;
     let cases = load_cases(&args.cases)?;
     let pool = new_pool(args.threads)?;
     let replies = answer(&cases, Asked { backend, pool: &pool });

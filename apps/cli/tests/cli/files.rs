@@ -182,6 +182,8 @@ fn what_is_read_is_never_written_over() {
     fs::hard_link(folder.path().join("m.obj"), folder.path().join("hard.png")).unwrap();
     fs::hard_link(folder.path().join("mesh.kdl"), folder.path().join("hard.json")).unwrap();
     let before = fs::read(folder.path().join("mesh.kdl")).unwrap();
+    // What is the matter is not that it is read-only.
+    fs::set_permissions(folder.path().join("mesh.kdl"), fs::Permissions::from_mode(0o444)).unwrap();
     for stats in ["mesh.kdl", "./mesh.kdl", "here/here/mesh.kdl", "link.json", "hard.json"] {
         let words = ["--stats would overwrite the scene mesh.kdl"];
         assert_refused(folder.path(), &["render", "mesh.kdl", "--stats", stats], &words);
