@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use catoptra_tracer::{Film, Region, Size};
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 
 use crate::lab::LabArgs;
@@ -33,7 +34,7 @@ pub(crate) enum Command {
 /// What a picture is made from: shared by the commands that trace.
 #[derive(Args)]
 pub(crate) struct JobArgs {
-    /// Scene file (.kdl)
+    /// Scene file (.kdl), or - for standard input
     pub(crate) scene: PathBuf,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = size)]
@@ -53,9 +54,9 @@ pub(crate) struct JobArgs {
     /// Samples per pixel: a square number, 1, 4, 9 and so on
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = samples)]
     pub(crate) samples: u32,
-    /// Where the samples lie in a pixel: grid or sobol
-    #[arg(long, value_name = "NAME", default_value = "grid")]
-    pub(crate) pattern: String,
+    /// Where the samples lie in a pixel: grid or sobol [default: grid]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) pattern: Option<String>,
     /// What random choices go by: another number makes other ones, the same one the same picture
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u32,
@@ -80,14 +81,14 @@ pub(crate) struct RenderArgs {
     /// Picture to write: .png (8 bits, as displayed) or .exr (linear, 32 bits)
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
-    /// Display transform of a .png: linear, srgb or filmic
-    #[arg(long, value_name = "NAME", default_value = "srgb")]
-    pub(crate) display: String,
+    /// Display transform of a .png: linear, srgb or filmic [default: srgb]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) display: Option<String>,
     /// Time N frames after a warm-up: from snapshot to film, without files and parsing
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) repeat: Option<u32>,
-    /// Write counts and times as a JSON object
-    #[arg(long, value_name = "FILE.json")]
+    /// Write counts and times as a JSON object; - is standard output
+    #[arg(long, value_name = "FILE.json", value_parser = PathBufValueParser::new().map(or_stdout))]
     pub(crate) stats: Option<PathBuf>,
 }
 
@@ -141,6 +142,16 @@ const LONGEST_SIDE: u32 = 32_768;
 
 /// Most pixels of a picture: a film of this many fits the memory of a common computer.
 const MOST_PIXELS: u64 = 1 << 27;
+
+/// What stands for standard input or output where a file is named.
+pub(crate) const STANDARD: &str = "-";
+
+/// Where the system has standard output among its files; `/dev/stdout` leads there.
+pub(crate) const STDOUT: &str = "/dev/fd/1";
+
+fn or_stdout(path: PathBuf) -> PathBuf {
+    if path.as_os_str() == STANDARD { PathBuf::from(STDOUT) } else { path }
+}
 
 /// Reads `WIDTHxHEIGHT`.
 fn size(text: &str) -> Result<Size, String> {

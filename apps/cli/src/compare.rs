@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 
 use crate::Outcome;
 use crate::args::{CompareArgs, LimitArgs};
+use crate::console::print;
 use crate::input::{Stored, read_picture};
-use crate::output::print;
 
 /// Compares two picture files.
 pub(crate) fn run(args: &CompareArgs) -> Result<Outcome> {

@@ -6,21 +6,23 @@ use miette::Result;
 use serde_json::{Map, Value, json};
 
 use crate::args::ExplainArgs;
-use crate::job::Job;
-use crate::output::print;
+use crate::console::{check_heard, print_answer};
+use crate::job::{Job, Means};
 use crate::words::{bytes, counted, list, percent, thousands};
 use crate::{Outcome, interrupt, progress};
 
 /// Traces one frame to count its work, and says what was found.
 pub(crate) fn run(args: &ExplainArgs) -> Result<Outcome> {
-    let job = Job::new(&args.job)?;
+    let means = Means::of(&args.job)?;
+    check_heard()?;
+    let job = Job::new(&args.job, means, &[])?;
     let control = interrupt::control();
-    let mut film = job.film();
+    let mut film = job.film()?;
     let Ok((_, stats)) = progress::while_showing(&control, || job.frame(&mut film, &control)) else {
         return Ok(Outcome::Interrupted);
     };
     let found = Found { needs: job.snapshot.needs(), ambient: ambient_lights(&job), job: &job, stats };
-    print(&if args.json { format!("{}\n", found.as_json()) } else { found.as_text() })?;
+    print_answer(&if args.json { format!("{}\n", found.as_json()) } else { found.as_text() })?;
     Ok(Outcome::Done)
 }
 

@@ -42,6 +42,9 @@ fn srgb_to_linear(encoded: f32) -> f32 {
 
 /// Reads a PNG or an EXR; the ending of the name decides.
 pub(crate) fn read_picture(path: &Path) -> Result<Stored> {
+    if std::fs::metadata(path).map_err(|error| unreadable(path, &error))?.is_dir() {
+        return Err(miette!("{} is a folder, not a picture", path.display()));
+    }
     let format = Format::of(path)?;
     let values = match format {
         Format::Png => png_values(path)?,

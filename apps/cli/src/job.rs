@@ -5,14 +5,37 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use catoptra_core::{Camera, EntityId, Integrator, Role, Scene};
+use catoptra_scene::SceneFile;
 use catoptra_tracer::{
     Backend, Cancelled, Control, Film, Instructions, Pattern, Pool, Region, Size, Snapshot, Stats, View,
     backend_named, backends, render,
 };
 use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
 
-use crate::args::JobArgs;
+use crate::args::{JobArgs, STANDARD};
+use crate::console::warn;
+use crate::destination::{Input, Output, check_apart};
+use crate::memory;
 use crate::suggest::unknown;
+
+/// How frames are made, whatever they show: the names that need no scene to be looked up.
+#[derive(Clone, Copy)]
+pub(crate) struct Means {
+    backend: &'static dyn Backend,
+    pattern: Pattern,
+    instructions: Option<Instructions>,
+}
+
+impl Means {
+    /// Looks up all names.
+    pub(crate) fn of(args: &JobArgs) -> Result<Self> {
+        Ok(Self {
+            backend: find_backend(&args.backend)?,
+            pattern: args.pattern.as_deref().map(find_pattern).transpose()?.unwrap_or_default(),
+            instructions: args.simd.as_deref().map(find_instructions).transpose()?,
+        })
+    }
+}
 
 /// All that frames are made from.
 pub(crate) struct Job {
@@ -30,35 +53,39 @@ pub(crate) struct Job {
 }
 
 impl Job {
-    /// Reads the scene and looks up all names.
-    pub(crate) fn new(args: &JobArgs) -> Result<Self> {
-        let backend = find_backend(&args.backend)?;
-        let (scene, _) = catoptra_scene::load(&args.scene)?;
+    /// Reads the scene, from whose meshes these outputs must differ.
+    pub(crate) fn new(args: &JobArgs, means: Means, outputs: &[Output<'_>]) -> Result<Self> {
+        let crop = args.crop.map(|crop| check_crop(crop, args.size)).transpose()?;
+        let pool = new_pool(args.threads)?;
+        memory::check_room(crop.map_or(args.size, |crop| crop.size))?;
+        let (scene, file) = load(&args.scene)?;
         let camera_id = find_camera(&scene, args.camera.as_deref())?;
         let view = View::of(&scene, placed_camera(&scene, camera_id)?, args.size).with_samples(args.samples);
         let named = args.integrator.as_deref().map(find_integrator).transpose()?;
         let view = View {
             integrator: named.unwrap_or(view.integrator),
             max_depth: args.max_depth.unwrap_or(view.max_depth),
-            crop: args.crop.map(|crop| check_crop(crop, args.size)).transpose()?,
-            pattern: find_pattern(&args.pattern)?,
+            crop,
+            pattern: means.pattern,
             seed: args.seed,
-            instructions: args.simd.as_deref().map(find_instructions).transpose()?,
+            instructions: means.instructions,
             ..view
         };
-        let pool = Pool::new(args.threads.map_or(0, usize::from)).into_diagnostic()?;
+        let meshes: Vec<Input> = file.mesh_paths().map(|path| ("the mesh", path)).collect();
+        check_apart(outputs, &meshes)?;
+        warn_of_idle(args);
         let started = Instant::now();
         let snapshot = Arc::new(Snapshot::extract(&scene, &pool));
         let build_ms = milliseconds_since(started);
         let camera_name = scene.name(camera_id).unwrap_or_default();
         let scene_name = file_name(&args.scene);
-        let tile = args.tile;
+        let (tile, backend) = (args.tile, means.backend);
         Ok(Self { scene, scene_name, camera_name, snapshot, build_ms, view, tile, backend, pool })
     }
 
     /// A film for its frames.
-    pub(crate) fn film(&self) -> Film {
-        Film::of_region(self.view.region(), self.tile)
+    pub(crate) fn film(&self) -> Result<Film> {
+        memory::film(self.view.region(), self.tile)
     }
 
     /// Traces one frame; how long it took from snapshot to film, and what was done.
@@ -67,6 +94,39 @@ impl Job {
         let stats = render(self.backend, &self.snapshot, &self.view, film, &self.pool, control)?;
         Ok((milliseconds_since(started), stats))
     }
+}
+
+/// Reads a scene; the meshes of one from standard input lie in the current folder.
+fn load(path: &Path) -> Result<(Scene, SceneFile)> {
+    Ok(if path == Path::new(STANDARD) {
+        catoptra_scene::load_from(std::io::stdin().lock(), Path::new("<stdin>"), Path::new(""))?
+    } else {
+        catoptra_scene::load(path)?
+    })
+}
+
+/// The file that a scene is read from.
+pub(crate) fn scene_input(scene: &Path) -> Input {
+    let scene = if scene == Path::new(STANDARD) { Path::new("/dev/stdin") } else { scene };
+    ("the scene", scene.to_owned())
+}
+
+/// Says which options change nothing.
+fn warn_of_idle(args: &JobArgs) {
+    if args.pattern.is_some() && args.samples == 1 {
+        warn(
+            "--pattern changes nothing: the one sample of a pixel lies in its middle (--samples asks for more)",
+        );
+    }
+    if args.simd.is_some() && args.backend != "wide" {
+        warn(&format!("--simd changes nothing: backend {} uses no vector instructions", args.backend));
+    }
+}
+
+/// The threads to trace with; one per core unless said.
+pub(crate) fn new_pool(threads: Option<u16>) -> Result<Pool> {
+    Pool::new(threads.map_or(0, usize::from))
+        .map_err(|error| miette!(help = "ask for fewer with --threads", "{error}"))
 }
 
 pub(crate) fn milliseconds_since(started: Instant) -> f64 {

@@ -4,6 +4,8 @@
 
 mod args;
 mod compare;
+mod console;
+mod destination;
 mod explain;
 mod input;
 mod interrupt;
@@ -13,16 +15,20 @@ mod memory;
 mod output;
 mod progress;
 mod render;
+#[cfg(unix)]
+mod signals;
 mod stats;
 mod suggest;
 mod words;
 
+use std::io::IsTerminal;
 use std::process::ExitCode;
 
 use clap::Parser;
-use miette::MietteHandlerOpts;
+use miette::{IntoDiagnostic, MietteHandlerOpts, Result};
 
 use args::{Cli, Command};
+use console::{print_answer, say};
 
 /// How a command that was understood has ended.
 enum Outcome {
@@ -32,24 +38,50 @@ enum Outcome {
 }
 
 fn main() -> ExitCode {
+    #[cfg(unix)]
+    signals::tame();
     // Long paths stay in one piece, so that tools can find them in the message.
     let plain = |_: &_| Box::new(MietteHandlerOpts::new().wrap_lines(false).build()) as Box<_>;
     if let Err(report) = miette::set_hook(Box::new(plain)) {
-        eprintln!("{report}");
+        say(&report.to_string());
     }
-    let outcome = match Cli::parse().command {
-        Command::Render(args) => render::run(&args),
-        Command::Explain(args) => explain::run(&args),
-        Command::Compare(args) => compare::run(&args),
-        Command::Lab(args) => lab::run(&args),
+    let outcome = match Cli::try_parse() {
+        Ok(cli) => run(cli.command),
+        Err(told) if told.use_stderr() => {
+            let _ = told.print();
+            return BAD.into();
+        }
+        Err(help) => show(&help),
     };
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::Differs) => ExitCode::from(1),
-        Ok(Outcome::Interrupted) => ExitCode::from(130),
+        Ok(Outcome::Interrupted) => interrupt::CODE.into(),
         Err(report) => {
-            eprintln!("{report:?}");
-            ExitCode::from(2)
+            say(&format!("{report:?}"));
+            BAD.into()
         }
     }
+}
+
+/// Exit code of bad usage and input.
+const BAD: u8 = 2;
+
+fn run(command: Command) -> Result<Outcome> {
+    match command {
+        Command::Render(args) => render::run(&args),
+        Command::Explain(args) => explain::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Lab(args) => lab::run(&args),
+    }
+}
+
+/// Shows the help or the version, in colours on a terminal.
+fn show(help: &clap::Error) -> Result<Outcome> {
+    if std::io::stdout().is_terminal() {
+        help.print().into_diagnostic()?;
+    } else {
+        print_answer(&help.render().to_string())?;
+    }
+    Ok(Outcome::Done)
 }

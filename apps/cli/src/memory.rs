@@ -1,27 +1,86 @@
-//! How much memory has this process needed at the most?
+//! How much memory is there for a picture, and how much has this process needed at the most?
+
+use catoptra_tracer::{Film, Size};
+use miette::{Report, Result, miette};
+
+use crate::words::bytes;
+
+/// What tracing needs beside the film, and writing the picture.
+const BESIDE: u64 = 16 << 20;
+
+/// Refuses a picture that memory cannot hold: by what the system says is free, and by asking for as much at once.
+pub(crate) fn check_room(size: Size) -> Result<()> {
+    let needed = Film::bytes_of(size) + BESIDE;
+    if let Some(free) = free_bytes().filter(|free| *free < needed) {
+        return Err(too_large(size, needed, &format!("only {} is free", bytes(free))));
+    }
+    let mut whole: Vec<u8> = Vec::new();
+    let reserved = usize::try_from(needed).is_ok_and(|needed| whole.try_reserve_exact(needed).is_ok());
+    if reserved { Ok(()) } else { Err(too_large(size, needed, "the system does not give as much")) }
+}
+
+/// A film of a part of a picture.
+pub(crate) fn film(region: catoptra_tracer::Region, tile: u32) -> Result<Film> {
+    Film::try_of_region(region, tile)
+        .map_err(|_| too_large(region.size, Film::bytes_of(region.size), "less is left"))
+}
+
+fn too_large(size: Size, needed: u64, why: &str) -> Report {
+    miette!(
+        help = "ask for fewer pixels with --size, or for a part of the picture with --crop",
+        "a picture of {}x{} pixels needs {} of memory, and {why}",
+        size.width,
+        size.height,
+        bytes(needed)
+    )
+}
+
+/// Bytes that programs can still get, from `/proc/meminfo`; `None` on systems without it.
+fn free_bytes() -> Option<u64> {
+    free_of(&std::fs::read_to_string("/proc/meminfo").ok()?)
+}
+
+fn free_of(info: &str) -> Option<u64> {
+    kibibytes(info, "MemAvailable:")?.checked_add(kibibytes(info, "SwapFree:").unwrap_or(0))
+}
 
 /// Peak resident memory in bytes, from `VmHWM` of `/proc/self/status`; `None` on systems without it.
 pub(crate) fn peak_bytes() -> Option<u64> {
-    peak_of(&std::fs::read_to_string("/proc/self/status").ok()?)
+    kibibytes(&std::fs::read_to_string("/proc/self/status").ok()?, "VmHWM:")
 }
 
-fn peak_of(status: &str) -> Option<u64> {
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+/// The bytes of a line of `/proc`, which counts in kibibytes.
+fn kibibytes(text: &str, name: &str) -> Option<u64> {
+    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
     let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
     kibibytes.checked_mul(1024)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::peak_of;
+    use super::*;
 
     #[test]
     fn the_line_of_the_peak_is_read() {
-        assert_eq!(peak_of("Name:\tx\nVmPeak:\t  9 kB\nVmHWM:\t  1234 kB\n"), Some(1234 * 1024));
+        assert_eq!(kibibytes("Name:\tx\nVmPeak:\t  9 kB\nVmHWM:\t  1234 kB\n", "VmHWM:"), Some(1234 * 1024));
     }
 
     #[test]
     fn a_status_without_it_has_none() {
-        assert_eq!(peak_of("Name:\tx\n"), None);
+        assert_eq!(kibibytes("Name:\tx\n", "VmHWM:"), None);
+    }
+
+    #[test]
+    fn free_is_what_is_available_and_swap() {
+        assert_eq!(free_of("MemFree: 1 kB\nMemAvailable:  20 kB\nSwapFree: 5 kB\n"), Some(25 * 1024));
+        assert_eq!(free_of("MemAvailable:  20 kB\n"), Some(20 * 1024));
+        assert_eq!(free_of("MemFree: 1 kB\n"), None);
+    }
+
+    #[test]
+    fn more_than_there_is_is_told_with_what_it_needs() {
+        let error = check_room(Size::new(1 << 29, 1 << 29)).unwrap_err().to_string();
+        assert!(error.contains("needs 5368709120.0 GiB of memory"), "{error}");
+        assert!(check_room(Size::new(64, 64)).is_ok());
     }
 }

@@ -1,13 +1,13 @@
 //! Where does a picture go, and how is it written so that no half of it is ever seen?
 
-use std::io::{Cursor, ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Cursor, Seek, Write};
+use std::path::Path;
 
 use catoptra_scene::atomic;
-use catoptra_scene::image::write_png;
-use catoptra_tracer::{Display, Film};
+use catoptra_scene::image::write_png_rows;
+use catoptra_tracer::{Display, Film, Size};
 use exr::prelude::WritableImage;
-use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
+use miette::{IntoDiagnostic, Report, Result, miette};
 
 /// Kinds of picture files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,48 +32,40 @@ impl Format {
             )),
             None => Err(miette!(
                 help = "give the name an ending: .png (8 bits, as displayed) or .exr (linear, 32 bits)",
-                "{} does not say which picture format to write",
+                "{} does not end in .png or .exr: its picture format is not known",
                 path.display()
             )),
         }
     }
 }
 
-/// Refuses a path that cannot be written, before time is spent on rendering.
-pub(crate) fn check_folder(path: &Path) -> Result<()> {
-    let folder = folder_of(path);
-    if !folder.is_dir() {
-        return Err(miette!(
-            help = "make it first, or write somewhere else",
-            "the folder {} of {} does not exist",
-            folder.display(),
-            path.display()
-        ));
-    }
-    if path.is_dir() {
-        return Err(miette!("{} is a folder, not a file", path.display()));
-    }
-    Ok(())
-}
-
-fn folder_of(path: &Path) -> PathBuf {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
-        _ => PathBuf::from("."),
-    }
-}
-
 /// Writes a film as the picture that the name asks for.
 pub(crate) fn write_film(path: &Path, film: &Film, display: Display) -> Result<()> {
+    let Size { width, height } = film.size();
     match Format::of(path)? {
         Format::Png => {
-            write_png(path, film.size().width, film.size().height, &display.rgb8(film)).into_diagnostic()
+            write_png_rows(path, width, height, |y, row| display.rgb8_row(film, y, row)).into_diagnostic()
         }
-        Format::Exr => write_file(path, &exr_bytes(film).map_err(|error| unwritable(path, &error))?),
+        Format::Exr => write_exr(path, film).map_err(|error| unwritable(path, &error)),
     }
 }
 
-fn exr_bytes(film: &Film) -> exr::error::Result<Vec<u8>> {
+/// An EXR is written with jumps back to its start. Where bytes go straight out, it is made in memory first.
+fn write_exr(path: &Path, film: &Film) -> io::Result<()> {
+    if !atomic::is_straight(path) {
+        return atomic::write(path, |out| encode_exr(film, out));
+    }
+    let mut bytes = Vec::new();
+    bytes.try_reserve(LARGEST_EXR_PIXEL * film.size().pixels())?;
+    let mut out = Cursor::new(bytes);
+    encode_exr(film, &mut out)?;
+    atomic::write(path, |file| file.write_all(out.get_ref()))
+}
+
+/// Bytes of a pixel that nothing can be saved of, and its share of what stands between rows.
+const LARGEST_EXR_PIXEL: usize = 13;
+
+fn encode_exr(film: &Film, out: impl Write + Seek) -> io::Result<()> {
     let size = film.size();
     let pixel = |place: exr::math::Vec2<usize>| {
         let [r, g, b] = film.radiance(place.x() as u32, place.y() as u32);
@@ -81,20 +73,10 @@ fn exr_bytes(film: &Film) -> exr::error::Result<Vec<u8>> {
     };
     let channels = exr::image::SpecificChannels::rgb(pixel);
     let image = exr::image::Image::from_channels((size.width as usize, size.height as usize), channels);
-    let mut bytes = Cursor::new(Vec::new());
-    image.write().non_parallel().to_buffered(&mut bytes)?;
-    Ok(bytes.into_inner())
-}
-
-/// Prints to standard output; a reader that has gone away, such as `head`, wants no more and is no error.
-pub(crate) fn print(text: &str) -> Result<()> {
-    let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(error).into_diagnostic().wrap_err("standard output cannot be written")
-        }
-        _ => Ok(()),
-    }
+    image.write().non_parallel().to_buffered(out).map_err(|error| match error {
+        exr::error::Error::Io(error) => error,
+        other => io::Error::other(other.to_string()),
+    })
 }
 
 /// Writes a whole file, or leaves what stood there; the error names it.

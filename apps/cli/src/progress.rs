@@ -23,7 +23,8 @@ pub(crate) fn while_showing<T>(control: &Control, work: impl FnOnce() -> T) -> T
     }
     let (finished, watch) = channel::<()>();
     std::thread::scope(|scope| {
-        scope.spawn(move || {
+        // Where the system gives no thread, the work goes on unshown.
+        let _shown = std::thread::Builder::new().spawn_scoped(scope, move || {
             let started = Instant::now();
             let mut bar = None;
             while watch.recv_timeout(BEAT) == Err(RecvTimeoutError::Timeout) {

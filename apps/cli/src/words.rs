@@ -42,7 +42,8 @@ pub(crate) fn bytes(count: u64) -> String {
     match count {
         0..1024 => format!("{count} bytes"),
         1024..1_048_576 => format!("{:.1} KiB", count as f64 / 1024.0),
-        _ => format!("{:.1} MiB", count as f64 / 1_048_576.0),
+        1_048_576..1_073_741_824 => format!("{:.1} MiB", count as f64 / 1_048_576.0),
+        _ => format!("{:.1} GiB", count as f64 / 1_073_741_824.0),
     }
 }
 
@@ -70,6 +71,9 @@ mod tests {
 
     #[test]
     fn memory_is_short_to_read() {
-        assert_eq!([5, 2048, 3_145_728].map(bytes), ["5 bytes", "2.0 KiB", "3.0 MiB"]);
+        assert_eq!(
+            [5, 2048, 3_145_728, 5_368_709_120].map(bytes),
+            ["5 bytes", "2.0 KiB", "3.0 MiB", "5.0 GiB"]
+        );
     }
 }

@@ -23,6 +23,7 @@ mod status;
 mod tracing;
 mod viewer;
 
+use std::io::Write as _;
 use std::process::ExitCode;
 use std::sync::Arc;
 
@@ -41,19 +42,38 @@ fn main() -> ExitCode {
     match run(Options::parse()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(why) => {
-            eprintln!("error: {why}");
+            // It is no further error if nobody hears it.
+            let _ = writeln!(std::io::stderr(), "error: {why}");
             ExitCode::from(2)
         }
     }
 }
 
+/// What the window library says, without the place in its own source that it names.
+fn reason(said: &str) -> &str {
+    let after_place = said.split_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
+    after_place.map_or(said, |(_, reason)| reason)
+}
+
 fn run(options: Options) -> Result<(), String> {
-    let events =
-        EventLoop::<Wake>::with_user_event().build().map_err(|why| format!("{NO_DISPLAY}\n({why})"))?;
-    let pool = Arc::new(Pool::new(options.threads).map_err(|e| e.to_string())?);
+    let events = EventLoop::<Wake>::with_user_event()
+        .build()
+        .map_err(|why| format!("{NO_DISPLAY}\n({})", reason(&why.to_string())))?;
+    let pool = Arc::new(Pool::new(options.threads.map_or(0, usize::from)).map_err(|e| e.to_string())?);
     let encoder = Pool::new(1).map_err(|e| e.to_string())?;
     let opened = loader::welcome(&pool)?;
     let mut app = App::new(options, opened, pool, encoder, events.create_proxy());
     events.run_app(&mut app).map_err(|e| e.to_string())?;
     app.failure.map_or(Ok(()), Err)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::reason;
+
+    #[test]
+    fn a_reason_names_no_source_file() {
+        assert_eq!(reason("os error at /build/x11/mod.rs:788: no X server: none"), "no X server: none");
+        assert_eq!(reason("no X server"), "no X server");
+    }
 }

@@ -13,9 +13,9 @@ const SIZES: std::ops::RangeInclusive<u32> = 1..=16384;
 pub(crate) struct Options {
     /// Scene file to open; without one a built-in scene is shown.
     pub(crate) file: Option<PathBuf>,
-    /// Threads that trace; 0 takes as many as the machine has.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(crate) threads: usize,
+    /// Threads that trace [default: one per core].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
     /// Size of the window's content in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub(crate) size: (u32, u32),
@@ -41,6 +41,15 @@ mod tests {
         assert_eq!(size("1280x720"), Ok((1280, 720)));
         for wrong in ["", "x", "5", "0x5", "5x", "-3x4", "99999x2", "4x4x4"] {
             assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn threads_are_as_many_as_can_be() {
+        let threads = |count| Options::try_parse_from(["catoptra-viewer", "--threads", count]);
+        assert_eq!(threads("8").unwrap().threads, Some(8));
+        for wrong in ["0", "1025", "99999999999", "-1", "x"] {
+            assert!(threads(wrong).is_err(), "{wrong}");
         }
     }
 

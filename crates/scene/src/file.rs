@@ -1,5 +1,7 @@
 //! How a scene and its text are held together: loading, following edits, saving.
 
+use std::fs::{File, Metadata};
+use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
 use catoptra_core::scene::Scene;
@@ -8,6 +10,7 @@ use catoptra_core::{Shape, Value};
 use crate::atomic;
 use crate::build::{self, Id};
 use crate::disk::{self, OnDisk};
+use crate::foreign;
 use crate::outline::Outline;
 use crate::printable;
 use crate::read::{self, LONGEST, Meshes};
@@ -36,28 +39,63 @@ pub struct SceneFile {
 #[diagnostic(code(catoptra::save))]
 pub struct SaveError {
     path: PathBuf,
-    #[source]
     cause: std::io::Error,
 }
 
-/// Reads a scene file. Meshes are looked for relative to its folder.
+/// Reads a scene file. Meshes are looked for relative to its folder; for what lies in none, such as a pipe or
+/// `/dev/stdin`, relative to the current one.
 ///
 /// # Errors
 /// A file that cannot be read or is no valid scene, with all that is wrong in it.
 pub fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
-    let unreadable = |cause| SceneTextError::unreadable(path, cause);
-    let length = std::fs::metadata(path).map_err(unreadable)?.len();
-    if length > LONGEST as u64 {
-        let message = format!("is longer than {} MiB, too long for scene text", LONGEST >> 20);
-        return Err(SceneTextError::unusable(path, message));
+    let unreadable = |cause| SceneTextError::unreadable(path, &cause);
+    let found = std::fs::metadata(path).map_err(unreadable)?;
+    if found.is_dir() {
+        return Err(SceneTextError::unusable(path, "is a folder, not a scene".to_owned()));
     }
-    let bytes = std::fs::read(path).map_err(|cause| SceneTextError::unreadable(path, cause))?;
-    let name = path.display().to_string();
-    let text = String::from_utf8(bytes).map_err(|e| not_utf8(&e, &name))?;
-    let (scene, mut file) = parse(&text, &name, Some(path.parent().unwrap_or(Path::new(""))))?;
+    let input = File::open(path).map_err(unreadable)?;
+    if is_device(&found) && !input.is_terminal() {
+        return Err(SceneTextError::unusable(path, "is a device, not a scene".to_owned()));
+    }
+    let lies_in_folder = found.is_file() && !atomic::is_descriptor(path);
+    let base = path.parent().filter(|_| lies_in_folder).unwrap_or(Path::new(""));
+    let (scene, mut file) = load_from(input, path, base)?;
     file.path = Some(path.to_owned());
-    file.stored = text;
+    file.stored.clone_from(&file.text);
     Ok((scene, file))
+}
+
+/// Reads a scene to the end of `input`, which `name` stands for in messages; `base` is the folder at which relative
+/// mesh paths start.
+///
+/// # Errors
+/// As for [`load`].
+pub fn load_from(input: impl Read, name: &Path, base: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
+    let mut bytes = Vec::new();
+    let read = input.take(LONGEST as u64 + 1).read_to_end(&mut bytes);
+    read.map_err(|cause| SceneTextError::unreadable(name, &cause))?;
+    if let Some((message, help)) = foreign::told(name, &bytes) {
+        return Err(SceneTextError::unusable(name, message).with_help(help));
+    }
+    if bytes.len() > LONGEST {
+        let message = format!("is longer than {} MiB, too long for scene text", LONGEST >> 20);
+        return Err(SceneTextError::unusable(name, message));
+    }
+    let name = name.display().to_string();
+    let text = String::from_utf8(bytes).map_err(|e| not_utf8(&e, &name))?;
+    parse(&text, &name, Some(base))
+}
+
+#[cfg(unix)]
+fn is_device(found: &Metadata) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+
+    found.file_type().is_char_device() || found.file_type().is_block_device()
+}
+
+#[cfg(not(unix))]
+fn is_device(_found: &Metadata) -> bool {
+    false
 }
 
 /// Reads scene text that `name` stands for in messages; `base` is the folder at which relative mesh paths start.
@@ -135,6 +173,11 @@ impl SceneFile {
     #[must_use]
     pub fn on_disk(&self) -> OnDisk {
         self.path.as_deref().map_or(OnDisk::Missing, |path| disk::compare(path, self.stored.as_bytes()))
+    }
+
+    /// Where the meshes lie that it names.
+    pub fn mesh_paths(&self) -> impl Iterator<Item = PathBuf> {
+        self.meshes.paths()
     }
 
     /// The text, as of the last [`Self::update`].

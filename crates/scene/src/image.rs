@@ -1,7 +1,7 @@
 //! How pictures go out to PNG files and come in from them.
 
 use std::fs::File;
-use std::io::{self, BufReader};
+use std::io::{self, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use crate::{atomic, printable};
@@ -69,21 +69,87 @@ const MOST_PIXELS: u64 = 1 << 28;
 /// # Errors
 /// A size without pixels, a number of bytes that does not fit the size, or a file that cannot be written.
 pub fn write_png(path: &Path, width: u32, height: u32, rgb8: &[u8]) -> Result<(), ImageError> {
-    let needed = 3 * u64::from(width) * u64::from(height);
-    if needed == 0 || needed != rgb8.len() as u64 {
+    if 3 * u64::from(width) * u64::from(height) != rgb8.len() as u64 {
         let message = format!("{width} x {height} pixels do not fit {} bytes", rgb8.len());
         return Err(ImageError::new(path, message));
     }
+    let mut rows = rgb8.chunks_exact(3 * width.max(1) as usize);
+    write_png_rows(path, width, height, |_, row| {
+        if let Some(given) = rows.next() {
+            row.copy_from_slice(given);
+        }
+    })
+}
+
+/// Writes an sRGB PNG without holding all of it in memory. The file appears whole or not at all.
+///
+/// `fill` is called for each row from the top, with its number and the `3 * width` bytes of its pixels to be set.
+///
+/// # Errors
+/// A size without pixels, or a file that cannot be written.
+pub fn write_png_rows(
+    path: &Path,
+    width: u32,
+    height: u32,
+    mut fill: impl FnMut(u32, &mut [u8]),
+) -> Result<(), ImageError> {
+    if width == 0 || height == 0 {
+        return Err(ImageError::new(path, format!("{width} x {height} pixels are no picture")));
+    }
     let written = atomic::write(path, |out| {
-        let mut encoder = png::Encoder::new(out, width, height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(rgb8)?;
-        writer.finish().map_err(io::Error::from)
+        let mut out = Checked { out, failed: None };
+        let encoded = encode(&mut out, width, height, &mut fill);
+        // The first refusal of the system says more than what the encoder makes of it, or does not make of it.
+        out.failed.map_or(encoded, Err)
     });
     written.map_err(|e| ImageError::new(path, format!("cannot be written: {e}")))
+}
+
+fn encode(out: impl Write, width: u32, height: u32, fill: &mut dyn FnMut(u32, &mut [u8])) -> io::Result<()> {
+    let mut encoder = png::Encoder::new(out, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    let mut writer = encoder.write_header()?;
+    let mut stream = writer.stream_writer_with_size(CHUNK)?;
+    let mut row = vec![0; 3 * width as usize];
+    for y in 0..height {
+        fill(y, &mut row);
+        stream.write_all(&row)?;
+    }
+    stream.finish()?;
+    writer.finish().map_err(io::Error::from)
+}
+
+/// Bytes of compressed data that are written at a time.
+const CHUNK: usize = 1 << 16;
+
+/// Remembers that a write has failed, since the encoder passes over that of its last chunk.
+struct Checked<W> {
+    out: W,
+    failed: Option<io::Error>,
+}
+
+impl<W: Write> Write for Checked<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.out.write(bytes).inspect_err(|e| {
+            if e.kind() != io::ErrorKind::Interrupted {
+                self.failed.get_or_insert(copy_of(e));
+            }
+        })
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush().inspect_err(|e| {
+            self.failed.get_or_insert(copy_of(e));
+        })
+    }
+}
+
+fn copy_of(error: &io::Error) -> io::Error {
+    error
+        .raw_os_error()
+        .map_or_else(|| io::Error::new(error.kind(), error.to_string()), io::Error::from_raw_os_error)
 }
 
 /// Reads a PNG of any colour type as 8-bit red, green, blue; transparency is dropped.
@@ -101,7 +167,13 @@ pub fn read_png(path: &Path) -> Result<Rgb8Image, ImageError> {
     let Some(size) = size else {
         return Err(fail(&format!("{width} x {height} pixels are more than 2^28")));
     };
-    let mut buffer = vec![0; size];
+    let mut buffer = Vec::new();
+    if buffer.try_reserve_exact(size).is_err() {
+        return Err(fail(&format!(
+            "{width} x {height} pixels need {size} bytes of memory, more than there is"
+        )));
+    }
+    buffer.resize(size, 0);
     let frame = reader.next_frame(&mut buffer).map_err(|e| fail(&e))?;
     buffer.truncate(frame.buffer_size());
     let bytes = match frame.color_type {

@@ -5,7 +5,7 @@
 //!   only what has changed. The grammar follows the lists of kinds in the core: a new shape, light or material is
 //!   read and written without a change here.
 //! * [`mesh`] reads triangle meshes, [`image`] reads and writes PNG pictures.
-//! * [`atomic`] writes any file whole or not at all, and [`words`] finds the word that a misspelt one was meant to be.
+//! * [`atomic`] writes any file whole or not at all, and says beforehand whether it can, and [`words`] finds the word that a misspelt one was meant to be.
 //!
 //! Whatever a file holds, reading it ends in a value or in an error that says what, where and what to do: never in a
 //! panic. Files are written whole or not at all.
@@ -16,6 +16,7 @@ mod build;
 mod disk;
 mod excerpt;
 mod file;
+mod foreign;
 pub mod image;
 pub mod mesh;
 mod outline;
@@ -29,6 +30,6 @@ pub mod words;
 mod write;
 
 pub use disk::OnDisk;
-pub use file::{SaveError, SceneFile, load, parse};
+pub use file::{SaveError, SceneFile, load, load_from, parse};
 pub use printable::printable;
 pub use report::{Complaint, SceneTextError};

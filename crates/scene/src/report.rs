@@ -103,18 +103,25 @@ pub struct SceneTextError {
     name: String,
     complaints: Vec<Complaint>,
     untold: usize,
-    /// Why the file cannot be read at all; there are no complaints then.
-    unreadable: Option<(String, Option<std::io::Error>)>,
+    /// Why the file cannot be read at all, and what to do about it; there are no complaints then.
+    unreadable: Option<(String, Option<String>)>,
 }
 
 impl SceneTextError {
-    pub(crate) fn unreadable(path: &Path, cause: std::io::Error) -> Self {
-        let message = format!("cannot be read: {cause}");
-        Self { unreadable: Some((message, Some(cause))), ..Self::named(path) }
+    pub(crate) fn unreadable(path: &Path, cause: &std::io::Error) -> Self {
+        Self::unusable(path, format!("cannot be read: {cause}"))
     }
 
     pub(crate) fn unusable(path: &Path, message: String) -> Self {
         Self { unreadable: Some((message, None)), ..Self::named(path) }
+    }
+
+    /// The same, with a hint.
+    pub(crate) fn with_help(mut self, help: String) -> Self {
+        if let Some((_, hint)) = &mut self.unreadable {
+            *hint = Some(help);
+        }
+        self
     }
 
     fn named(path: &Path) -> Self {
@@ -145,10 +152,13 @@ impl SceneTextError {
         &self.complaints
     }
 
-    /// The first complaint's hint.
+    /// The first complaint's hint, or what to do about the file.
     #[must_use]
     pub fn hint(&self) -> Option<&str> {
-        self.complaints.first().and_then(Complaint::hint)
+        match &self.unreadable {
+            Some((_, help)) => help.as_deref(),
+            None => self.complaints.first().and_then(Complaint::hint),
+        }
     }
 }
 
@@ -166,11 +176,7 @@ impl fmt::Display for SceneTextError {
     }
 }
 
-impl std::error::Error for SceneTextError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        self.unreadable.as_ref().and_then(|(_, cause)| cause.as_ref()).map(|cause| cause as _)
-    }
-}
+impl std::error::Error for SceneTextError {}
 
 impl Diagnostic for SceneTextError {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
@@ -178,7 +184,7 @@ impl Diagnostic for SceneTextError {
     }
 
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.complaints.first().and_then(Diagnostic::help)
+        self.hint().map(|help| Box::new(help) as Box<dyn fmt::Display>)
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {

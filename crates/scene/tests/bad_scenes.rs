@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use catoptra_scene::{SceneTextError, load, parse};
+use catoptra_scene::{SceneTextError, load, load_from, parse};
 
 /// A bad text, the line and column of the complaint, and parts of the message and of the hint.
 struct Case(&'static str, (usize, usize), &'static str, &'static str);
@@ -335,9 +335,42 @@ fn a_file_longer_than_any_scene_is_refused_unread() {
 
 #[test]
 fn a_missing_file_and_a_folder_say_why() {
-    for path in ["/no/such/scene.kdl", "/"] {
+    for (path, why) in [("/no/such/scene.kdl", "cannot be read: "), ("/", "is a folder")] {
         let Err(error) = load(Path::new(path)) else { panic!("was read") };
-        assert!(error.to_string().starts_with(&format!("{path}: cannot be read: ")), "{error}");
+        assert!(error.to_string().starts_with(&format!("{path}: {why}")), "{error}");
         assert_eq!((error.line(), error.file()), (None, Path::new(path)));
+        // A report adds the sources of an error to its message, which tells the cause already.
+        assert!(std::error::Error::source(&error).is_none());
     }
+}
+
+#[test]
+fn what_is_no_scene_is_told_whatever_its_size() {
+    let error = written(&b"v 0 0 1\n".repeat(3 << 20));
+    assert!(error.to_string().ends_with("bad.kdl: is a mesh, not a scene"), "{error}");
+    assert!(error.hint().is_some_and(|hint| hint.contains("name it in a scene")), "{error}");
+    assert!(written(b"\x89PNG\r\n\x1a\n\0").to_string().contains("is a picture"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_device_is_no_scene() {
+    let Err(error) = load(Path::new("/dev/zero")) else { panic!("was read") };
+    assert!(error.to_string().contains("is a device"), "{error}");
+}
+
+#[test]
+fn a_scene_is_read_from_any_input_and_finds_its_meshes_in_the_folder_given() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    let text = "matte \"w\" { color 1 }\nmesh \"m\" material=\"w\" { file \"m.obj\" }\n";
+    let (_, file) = load_from(text.as_bytes(), Path::new("<stdin>"), folder.path()).unwrap();
+    assert_eq!(file.path(), None);
+    assert_eq!(file.mesh_paths().collect::<Vec<_>>(), [folder.path().join("m.obj")]);
+    let Err(error) = load_from(&b"?"[..], Path::new("<stdin>"), folder.path()) else { panic!("was read") };
+    assert!(error.to_string().starts_with("<stdin>:1:"), "{error}");
+    let Err(error) = load_from(std::io::repeat(b' '), Path::new("<stdin>"), folder.path()) else {
+        panic!("was read")
+    };
+    assert!(error.to_string().contains("longer than 16 MiB"), "{error}");
 }

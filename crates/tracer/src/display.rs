@@ -71,6 +71,16 @@ impl Display {
         });
     }
 
+    /// One row of pixels as red, green, blue bytes.
+    ///
+    /// # Panics
+    /// A row outside the picture.
+    pub fn rgb8_row(self, film: &Film, y: u32, out: &mut [u8]) {
+        for (x, pixel) in (0..film.size().width).zip(out.chunks_exact_mut(3)) {
+            pixel.copy_from_slice(&film.radiance(x, y).map(|v| self.byte(v)));
+        }
+    }
+
     /// All pixels as red, green, blue bytes, row by row.
     #[must_use]
     pub fn rgb8(self, film: &Film) -> Vec<u8> {

@@ -39,20 +39,33 @@ pub struct Tile {
 /// Bits of red, green and blue.
 type Light = [u32; 3];
 
+/// Bytes of a pixel: light, depth and surface.
+const PIXEL_BYTES: u64 = 20;
+
+/// There is no memory for a film.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("a film of {}x{} pixels needs {bytes} bytes of memory, more than there is", size.width, size.height)]
+pub struct NoRoom {
+    size: Size,
+    bytes: u64,
+}
+
 impl Tile {
-    fn new(x: u32, y: u32, width: u32, height: u32) -> Self {
+    /// A black one, where there is memory for it.
+    fn new(x: u32, y: u32, width: u32, height: u32) -> Option<Self> {
         let pixels = (width.div_ceil(BLOCK) * height.div_ceil(BLOCK)) as usize * BLOCK_PIXELS;
-        Self {
+        let light = || Column::try_filled(pixels, 0.0);
+        Some(Self {
             x,
             y,
             width,
             height,
-            radiance: std::array::from_fn(|_| Column::filled(pixels, 0.0)),
-            depth: Column::filled(pixels, f32::INFINITY),
-            surface: Column::filled(pixels, NOTHING),
+            radiance: [light()?, light()?, light()?],
+            depth: Column::try_filled(pixels, f32::INFINITY)?,
+            surface: Column::try_filled(pixels, NOTHING)?,
             blank: Some([0; 3]),
             before: None,
-        }
+        })
     }
 
     /// Says that the tile is traced anew.
@@ -93,12 +106,18 @@ impl Film {
     pub const TILE: u32 = 32;
 
     /// A black film.
+    ///
+    /// # Panics
+    /// Where there is no memory for it, as in all but [`try_of_region`](Self::try_of_region).
     #[must_use]
     pub fn new(size: Size) -> Self {
         Self::with_tiles(size, Self::TILE)
     }
 
     /// A black film with tiles of `edge` pixels, rounded up to a multiple of 4; what is traced does not depend on it.
+    ///
+    /// # Panics
+    /// Where there is no memory for it.
     #[must_use]
     pub fn with_tiles(size: Size, edge: u32) -> Self {
         Self::of_region(size.into(), edge)
@@ -106,16 +125,41 @@ impl Film {
 
     /// A black film of a part of a picture, such as [`View::region`](crate::View::region); pixels are counted from its
     /// upper left corner. Tiles are as in [`with_tiles`](Self::with_tiles).
+    ///
+    /// # Panics
+    /// Where there is no memory for it.
     #[must_use]
     pub fn of_region(region: Region, edge: u32) -> Self {
+        match Self::try_of_region(region, edge) {
+            Ok(film) => film,
+            Err(error) => panic!("{error}"),
+        }
+    }
+
+    /// The same, for sizes that need not fit in memory.
+    ///
+    /// # Errors
+    /// Where there is no memory for it.
+    pub fn try_of_region(region: Region, edge: u32) -> Result<Self, NoRoom> {
         let Region { x: left, y: top, size } = region;
         let edge = edge.clamp(BLOCK, 1 << 16).next_multiple_of(BLOCK);
+        let no_room = NoRoom { size, bytes: Self::bytes_of(size) };
         let starts = |length: u32| (0..length).step_by(edge as usize);
-        let tiles = starts(size.height)
-            .flat_map(|y| starts(size.width).map(move |x| (x, y)))
-            .map(|(x, y)| Tile::new(left + x, top + y, edge.min(size.width - x), edge.min(size.height - y)))
-            .collect();
-        Self { region, edge, tiles, entities: Arc::default() }
+        let mut tiles = Vec::new();
+        let count = starts(size.width).len() * starts(size.height).len();
+        tiles.try_reserve_exact(count).map_err(|_| no_room)?;
+        for (x, y) in starts(size.height).flat_map(|y| starts(size.width).map(move |x| (x, y))) {
+            let tile = Tile::new(left + x, top + y, edge.min(size.width - x), edge.min(size.height - y));
+            tiles.push(tile.ok_or(no_room)?);
+        }
+        Ok(Self { region, edge, tiles, entities: Arc::default() })
+    }
+
+    /// Bytes of memory that a film of so many pixels takes.
+    #[must_use]
+    pub fn bytes_of(size: Size) -> u64 {
+        let side = |length: u32| u64::from(length.next_multiple_of(BLOCK));
+        (side(size.width) * side(size.height)).saturating_mul(PIXEL_BYTES)
     }
 
     /// Its size.
@@ -223,6 +267,24 @@ mod tests {
                 assert!(i < tile.depth.len() && seen.insert((tile.x, tile.y, i)), "({x}, {y}) at {edge}");
             }
         }
+    }
+
+    #[test]
+    fn a_film_that_fits_no_memory_is_an_error() {
+        // Its list of tiles alone is larger than any address space.
+        let error = Film::try_of_region(Size::new(1 << 29, 1 << 29).into(), BLOCK).err();
+        assert!(error.is_some_and(|error| error.to_string().contains("bytes of memory")));
+    }
+
+    #[test]
+    fn bytes_are_those_of_the_columns() {
+        let size = Size::new(45, 38);
+        let film = Film::with_tiles(size, 16);
+        let columns = film
+            .tiles
+            .iter()
+            .map(|tile| 4 * tile.depth.len() + 4 * tile.surface.len() + 12 * tile.radiance[0].len());
+        assert_eq!(columns.sum::<usize>() as u64, Film::bytes_of(size));
     }
 
     #[test]

@@ -56,7 +56,7 @@ pub use accel::{MeshTree, Preset};
 pub use backend::{Backend, backend_named, backends};
 pub use control::Control;
 pub use display::Display;
-pub use film::{Film, Tile};
+pub use film::{Film, NoRoom, Tile};
 pub use frame::Frame;
 pub use instructions::Instructions;
 pub use pattern::Pattern;

@@ -1,20 +1,19 @@
 //! `catoptra lab answer`: what does the tracer answer to a file of hard cases, and `catoptra lab score`: how much of
 //! that is wrong?
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use catoptra_lab::stress::{
     Asked, Cases, StressError, answer, read_answers, read_cases, read_results, results_text, score,
 };
-use catoptra_scene::atomic;
-use catoptra_tracer::Pool;
 use clap::Args;
-use miette::{IntoDiagnostic, Result, miette};
+use miette::{Result, miette};
 
 use crate::Outcome;
-use crate::job::find_backend;
-use crate::output::print;
+use crate::console::print;
+use crate::destination::{check_apart, check_writable};
+use crate::job::{find_backend, new_pool};
+use crate::output::write_file;
 
 #[derive(Args)]
 pub(crate) struct AnswerArgs {
@@ -43,12 +42,13 @@ pub(crate) struct ScoreArgs {
 /// Answers all cases and writes the results.
 pub(crate) fn run(args: &AnswerArgs) -> Result<Outcome> {
     let backend = find_backend(&args.backend)?;
+    let outputs = [("RESULTS", args.results.as_path())];
+    check_apart(&outputs, &[("the case file", args.cases.clone())])?;
+    check_writable(&outputs)?;
     let cases = load_cases(&args.cases)?;
-    let pool = Pool::new(args.threads.map_or(0, usize::from)).into_diagnostic()?;
+    let pool = new_pool(args.threads)?;
     let replies = answer(&cases, Asked { backend, pool: &pool });
-    let text = results_text(replies);
-    let written = atomic::write(&args.results, |file| file.write_all(text.as_bytes()));
-    written.map_err(|error| miette!("{} cannot be written: {error}", args.results.display()))?;
+    write_file(&args.results, results_text(replies).as_bytes())?;
     Ok(Outcome::Done)
 }
 

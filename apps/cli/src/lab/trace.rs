@@ -16,8 +16,8 @@ use clap::Args;
 use miette::{IntoDiagnostic, Report, Result, miette};
 
 use crate::Outcome;
-use crate::job::{find_backend, milliseconds_since};
-use crate::output::print;
+use crate::console::{check_heard, print_answer};
+use crate::job::{find_backend, milliseconds_since, new_pool};
 use crate::suggest::unknown;
 
 #[derive(Args)]
@@ -47,8 +47,9 @@ pub(crate) struct TraceArgs {
 pub(crate) fn run(args: &TraceArgs) -> Result<Outcome> {
     let backend = find_backend(&args.backend)?;
     let preset = find_preset(&args.preset)?;
+    check_heard()?;
     let rays = read_rays(&args.rays)?;
-    let pool = Pool::new(args.threads.map_or(0, usize::from)).into_diagnostic()?;
+    let pool = new_pool(args.threads)?;
     let scene = scene_of(&args.mesh)?;
     let (mut snapshot, mut build_ms) = build(&scene, preset, &pool);
     for _ in 1..args.repeat.min(BUILDS) {
@@ -63,7 +64,7 @@ pub(crate) fn run(args: &TraceArgs) -> Result<Outcome> {
     let (hits, sum) = traced.sums(args.any);
     let triangles: usize = snapshot.meshes().iter().map(|m| m.mesh().triangles().len()).sum();
     let bytes: usize = snapshot.meshes().iter().map(|m| m.bytes() + mesh_bytes(m.mesh())).sum();
-    print(&format!(
+    print_answer(&format!(
         "{} {} {} {} {} threads {}: best {:.2} Mrays/s median {:.2} Mrays/s rays {} hits {hits} sum_t {sum:.9e} \
          {} build {build_ms:.2} ms {:.1} bytes/triangle\n",
         args.mesh.display(),

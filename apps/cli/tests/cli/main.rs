@@ -2,7 +2,13 @@
 
 mod compare;
 mod explain;
+#[cfg(unix)]
+mod files;
+mod input;
 mod lab;
+#[cfg(unix)]
+mod printing;
 mod program;
 mod render;
 mod usage;
+mod warnings;

@@ -1,7 +1,7 @@
 //! Runs the program as a user would, and says what came of it.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use tempfile::TempDir;
 
@@ -14,10 +14,20 @@ pub(crate) struct Ran {
 
 /// Runs `catoptra` in a folder.
 pub(crate) fn catoptra(folder: &Path, arguments: &[&str]) -> Ran {
-    let output = Command::new(env!("CARGO_BIN_EXE_catoptra"))
-        .args(arguments)
-        .current_dir(folder)
+    ran(Command::new(env!("CARGO_BIN_EXE_catoptra")).args(arguments).current_dir(folder))
+}
+
+/// Runs a line of shell in a folder, in which `$catoptra` is the program.
+#[cfg(unix)]
+pub(crate) fn shell(folder: &Path, line: &str) -> Ran {
+    ran(Command::new("sh").args(["-c", line]).current_dir(folder))
+}
+
+fn ran(command: &mut Command) -> Ran {
+    let output = command
         .env("NO_COLOR", "1")
+        .env("catoptra", env!("CARGO_BIN_EXE_catoptra"))
+        .stdin(Stdio::null())
         .output()
         .expect("the program starts");
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");

@@ -28,18 +28,15 @@ pub struct MeshError {
     path: PathBuf,
     place: Place,
     message: String,
-    #[source]
-    cause: Option<std::io::Error>,
 }
 
 impl MeshError {
     pub(super) fn new(path: &Path, fault: Fault) -> Self {
-        Self { path: path.to_owned(), place: fault.place, message: fault.message, cause: None }
+        Self { path: path.to_owned(), place: fault.place, message: fault.message }
     }
 
-    pub(super) fn unreadable(path: &Path, cause: std::io::Error) -> Self {
-        let message = format!("cannot be read: {cause}");
-        Self { path: path.to_owned(), place: Place::File, message, cause: Some(cause) }
+    pub(super) fn unreadable(path: &Path, cause: &std::io::Error) -> Self {
+        Self::new(path, Fault::new(Place::File, format!("cannot be read: {cause}")))
     }
 
     /// The file.

@@ -28,7 +28,7 @@ pub const ENDINGS: &[&str] = &["ply", "obj"];
 /// A file that cannot be read, has an ending not in [`ENDINGS`], or is no valid mesh.
 pub fn read(path: &Path) -> Result<TriangleMesh, MeshError> {
     let format = format_of(path).map_err(|fault| MeshError::new(path, fault))?;
-    let bytes = std::fs::read(path).map_err(|e| MeshError::unreadable(path, e))?;
+    let bytes = std::fs::read(path).map_err(|e| MeshError::unreadable(path, &e))?;
     parse(&bytes, format).map_err(|fault| MeshError::new(path, fault))
 }
 

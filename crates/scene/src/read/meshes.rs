@@ -26,14 +26,25 @@ impl Meshes {
         if let Some(known) = self.known.get(path) {
             return known.clone().map(|mesh| MeshSource { path: path.to_owned(), mesh });
         }
-        let file = match &self.base {
-            Some(base) => base.join(path),
-            None if Path::new(path).is_absolute() => PathBuf::from(path),
-            None => return Err(format!("{path}: the scene lies in no folder from which to find it")),
+        let Some(file) = self.place(path) else {
+            return Err(format!("{path}: the scene lies in no folder from which to find it"));
         };
         let found = mesh::read(&file).map(Arc::new).map_err(|e| e.to_string());
         self.known.insert(path.to_owned(), found.clone());
         found.map(|mesh| MeshSource { path: path.to_owned(), mesh })
+    }
+
+    /// Where a mesh lies.
+    fn place(&self, path: &str) -> Option<PathBuf> {
+        match &self.base {
+            Some(base) => Some(base.join(path)),
+            None => Some(PathBuf::from(path)).filter(|path| path.is_absolute()),
+        }
+    }
+
+    /// Where all that are known lie.
+    pub(crate) fn paths(&self) -> impl Iterator<Item = PathBuf> {
+        self.known.keys().filter_map(|path| self.place(path))
     }
 
     /// Takes a mesh as read.

@@ -9,11 +9,12 @@ use aligned_vec::AVec;
 pub(crate) struct Column<T>(AVec<T>);
 
 impl<T: Clone> Column<T> {
-    /// So many of one value.
-    pub(crate) fn filled(length: usize, value: T) -> Self {
+    /// So many of one value, where there is memory for them.
+    pub(crate) fn try_filled(length: usize, value: T) -> Option<Self> {
         let mut column = Self::default();
+        column.0.try_reserve_exact(length).ok()?;
         column.resize(length, value);
-        column
+        Some(column)
     }
 
     /// Cuts off or adds as many of a value as make up a length.
@@ -50,8 +51,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn more_than_there_is_gives_no_column() {
+        assert!(Column::try_filled(1 << 58, 1.0_f32).is_none());
+    }
+
+    #[test]
     fn a_column_begins_with_a_cache_line_however_it_has_grown() {
-        let mut columns: Vec<Column<f32>> = (0..9).map(|i| Column::filled(i, 1.0)).collect();
+        let mut columns: Vec<Column<f32>> = (0..9).filter_map(|i| Column::try_filled(i, 1.0)).collect();
         for column in &mut columns {
             for length in [17, 300, 5000] {
                 column.resize(length, 2.0);

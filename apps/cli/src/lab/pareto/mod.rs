@@ -18,8 +18,10 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr};
 
 use crate::Outcome;
-use crate::job::find_backend;
-use crate::output::{print, write_file};
+use crate::console::print;
+use crate::destination::check_folder;
+use crate::job::{find_backend, new_pool};
+use crate::output::write_file;
 
 #[derive(Args)]
 pub(crate) struct ParetoArgs {
@@ -76,9 +78,15 @@ pub(super) struct Way {
     errors: Vec<f64>,
 }
 
+/// Names of what is written beside the pictures.
+const TABLE: &str = "pareto.csv";
+const PAGE: &str = "ACCURACY.md";
+
 /// Answers every question and writes what was found.
 pub(crate) fn run(args: &ParetoArgs) -> Result<Outcome> {
-    let pool = Pool::new(usize::from(args.threads)).into_diagnostic()?;
+    let folder = &args.out;
+    check_folder(folder, &[TABLE, PAGE])?;
+    let pool = new_pool(Some(args.threads))?;
     let lab = Lab { pool, wide: find_backend("wide")? };
     let mut questions = Vec::new();
     for ask in QUESTIONS {
@@ -88,15 +96,14 @@ pub(crate) fn run(args: &ParetoArgs) -> Result<Outcome> {
         print(&format!("{}: {:.1} s\n", names.join(", "), started.elapsed().as_secs_f64()))?;
         questions.extend(answered);
     }
-    let folder = &args.out;
     std::fs::create_dir_all(folder)
         .into_diagnostic()
         .wrap_err_with(|| format!("the folder {} cannot be made", folder.display()))?;
     for question in &questions {
         write_file(&folder.join(format!("{}.svg", question.name)), question.svg()?.as_bytes())?;
     }
-    write_file(&folder.join("pareto.csv"), page::csv(&questions).as_bytes())?;
-    write_file(&folder.join("ACCURACY.md"), page::markdown(&questions, &lab).as_bytes())?;
+    write_file(&folder.join(TABLE), page::csv(&questions).as_bytes())?;
+    write_file(&folder.join(PAGE), page::markdown(&questions, &lab).as_bytes())?;
     print(&format!("written to {}\n", folder.display()))?;
     Ok(Outcome::Done)
 }

@@ -1,0 +1,76 @@
+//! How does the program talk? Answers go to standard output and must arrive; what else there is to say goes to standard
+//! error, and it is no error if nobody hears it.
+
+use std::fs::File;
+use std::io::{self, ErrorKind, Write};
+
+use miette::{Result, miette};
+
+/// Prints to standard output. A reader that has gone away, such as `head`, wants no more and is no error.
+pub(crate) fn print(text: &str) -> Result<()> {
+    let printed =
+        standard_output().and_then(|mut out| out.write_all(text.as_bytes()).and_then(|()| out.flush()));
+    match printed {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(miette!("standard output cannot be written: {error}"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints what is the only fruit of a command.
+pub(crate) fn print_answer(text: &str) -> Result<()> {
+    check_heard()?;
+    print(text)
+}
+
+/// Refuses to work for an answer that nobody can get, as standard output was closed when the program began.
+pub(crate) fn check_heard() -> Result<()> {
+    match standard_output() {
+        Ok(out) if !stands_in(&out) => Ok(()),
+        _ => Err(miette!("standard output is closed: there is nowhere to print the answer")),
+    }
+}
+
+/// Says something on standard error.
+pub(crate) fn say(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
+/// Says that something was asked for which changes nothing.
+pub(crate) fn warn(text: &str) {
+    say(&format!("warning: {text}"));
+}
+
+/// Standard output as a file, whose errors are not passed over as those of [`std::io::Stdout`] are in part.
+#[cfg(unix)]
+fn standard_output() -> io::Result<File> {
+    use std::os::fd::AsFd;
+
+    io::stdout().as_fd().try_clone_to_owned().map(File::from)
+}
+
+/// Whether it is the `/dev/null` that Rust's start-up code opens, for reading and writing, where there was nothing.
+///
+/// A shell's `> /dev/null` is opened for writing only. A few programs that start others pass on the same as Rust opens;
+/// so this is asked only where nothing but the printed answer could have been wanted.
+#[cfg(unix)]
+fn stands_in(out: &File) -> bool {
+    use std::os::unix::fs::MetadataExt;
+
+    use rustix::fs::{OFlags, fcntl_getfl};
+
+    let both_ways = fcntl_getfl(out).is_ok_and(|flags| flags.contains(OFlags::RDWR));
+    let (Ok(out), Ok(null)) = (out.metadata(), std::fs::metadata("/dev/null")) else { return false };
+    both_ways && out.rdev() == null.rdev() && out.rdev() != 0
+}
+
+#[cfg(not(unix))]
+fn standard_output() -> io::Result<io::Stdout> {
+    Ok(io::stdout())
+}
+
+#[cfg(not(unix))]
+fn stands_in(_out: &io::Stdout) -> bool {
+    false
+}
