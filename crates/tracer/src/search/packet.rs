@@ -136,6 +136,7 @@ pub(crate) fn nearly_unit_rays<S: Simd>(s: S, origin: F3<S>, direction: F3<S>) -
 
 /// What to add to a reach where coordinates are relative to an origin other than the frame's: there they are rounded more
 /// coarsely.
+#[inline]
 pub(crate) fn drift(origin: DVec3) -> f32 {
     origin.abs().element_sum() as f32 * WORLD_DRIFT
 }

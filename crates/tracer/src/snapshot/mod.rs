@@ -83,6 +83,7 @@ impl Snapshot {
 
     /// All shapes, in the order of their entities' ids.
     #[must_use]
+    #[inline]
     pub fn prims(&self) -> &[Prim] {
         &self.prims
     }
@@ -143,6 +144,7 @@ impl Snapshot {
     }
 
     /// The shapes as the SIMD kernels read them.
+    #[inline]
     pub(crate) fn columns(&self) -> &Columns {
         &self.index.columns
     }
@@ -160,11 +162,13 @@ impl Snapshot {
     }
 
     /// The materials as the SIMD backend reads them.
+    #[inline]
     pub(crate) fn material_rows(&self) -> &[MaterialRow] {
         &self.material_rows
     }
 
     /// The lights as the SIMD backend reads them.
+    #[inline]
     pub(crate) fn light_rows(&self) -> &[LightRow] {
         &self.light_rows
     }
