@@ -18,20 +18,8 @@ pub use phong::Phong;
 use glam::DVec3;
 
 use crate::lane::Constant3;
+pub use crate::lobe::ShadingPoint;
 use crate::{Coefficient, Field, FieldKind, Lane, Triple, Value};
-
-/// Where and from where a surface is seen.
-#[derive(Debug, Clone, Copy)]
-pub struct ShadingPoint<L: Lane> {
-    /// The point, metres, relative to the origin that the material has been told of; see [`Surface::relative_to`].
-    pub position: Triple<L>,
-    /// Unit normal on the viewer's side.
-    pub normal: Triple<L>,
-    /// Unit vector to the viewer.
-    pub to_viewer: Triple<L>,
-    /// Metres to the viewer.
-    pub distance: L,
-}
 
 /// What the integrator asks of a material.
 pub trait Surface {

@@ -185,6 +185,10 @@ impl<S: Simd> LaneMask for M<S> {
     fn any(self) -> bool {
         self.0.any_true()
     }
+    #[inline(always)]
+    fn count(self) -> u64 {
+        M::count(self)
+    }
 }
 
 impl<S: Simd> M<S> {
