@@ -3,7 +3,11 @@
 mod column;
 mod double;
 mod level;
+#[cfg(test)]
+mod lobe_tests;
+mod precise;
 mod prefetch;
+mod storable;
 mod vectors;
 
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -14,10 +18,12 @@ use fearless_simd::prelude::*;
 pub(crate) use column::Column;
 pub(crate) use double::D;
 pub(crate) use level::{Work, at_level, outlined};
+pub(crate) use precise::{Precise, narrow3, pick3};
 pub(crate) use prefetch::prefetch;
+pub(crate) use storable::storable;
 pub(crate) use vectors::{
-    D3, F3, LaneVectors, compress_wide3, compress3, cross, load_wide3, load3, magnitude, narrow3, pick3,
-    splat_wide, splat3, store_wide3, store3, vector_of, widen3,
+    D3, F3, LaneVectors, compress_wide3, compress3, cross, load_wide3, load3, magnitude, splat_wide, splat3,
+    store_wide3, store3, vector_of, widen3,
 };
 
 /// `f32` in every lane.
