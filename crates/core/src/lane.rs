@@ -32,11 +32,16 @@ impl Coefficient {
 pub trait LaneMask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
     /// Whether it holds for any lane.
     fn any(self) -> bool;
+    /// How many lanes it holds for.
+    fn count(self) -> u64;
 }
 
 impl LaneMask for bool {
     fn any(self) -> bool {
         self
+    }
+    fn count(self) -> u64 {
+        u64::from(self)
     }
 }
 

@@ -2,10 +2,14 @@
 
 use glam::DVec3;
 
+use crate::{Arithmetic, Triple};
+
 /// A direction of any length mirrored about a unit normal, whichever way that points.
+#[inline(always)]
 #[must_use]
-pub fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
-    direction - normal * (2.0 * direction.dot(normal))
+pub fn reflect<T: Arithmetic>(direction: Triple<T>, normal: Triple<T>) -> Triple<T> {
+    let along = direction.dot(normal);
+    normal.scale_add(-(along + along), direction)
 }
 
 /// A unit direction refracted by a surface whose unit `normal` points to the side that it comes from; `ratio` is the
@@ -42,6 +46,6 @@ mod tests {
     fn beyond_the_critical_angle_everything_is_reflected() {
         let flat = DVec3::new(0.8, -0.6, 0.0);
         assert_eq!(refract(flat, DVec3::Y, 1.5), None);
-        assert_eq!(reflect(flat, DVec3::Y), DVec3::new(0.8, 0.6, 0.0));
+        assert_eq!(reflect(flat.into(), DVec3::Y.into()), Triple::new(0.8, 0.6, 0.0));
     }
 }

@@ -200,7 +200,8 @@ fn seen_from(degrees: f64) -> ShadingPoint<f64> {
 /// What is shown of one unit of irradiance from `light` degrees, seen from `viewer` degrees.
 fn shown(material: &Material, viewer: f64, light: f64) -> DVec3 {
     let towards = off_normal(light);
-    vector(material.under_light(&seen_from(viewer), Triple::from(towards), towards.y))
+    let at = &seen_from(viewer);
+    vector(material.lobes(at).evaluate(at, Triple::from(towards), towards.y))
 }
 
 fn phong(model: &str, shininess: f64) -> Material {
@@ -227,8 +228,8 @@ fn reflectance(material: &Material, light: f64) -> DVec3 {
             let viewer = DVec3::new(polar.sin() * cos, polar.cos(), polar.sin() * sin);
             let at = ShadingPoint { to_viewer: Triple::from(viewer), ..seen_from(0.0) };
             let towards = off_normal(light);
-            let brdf = vector(material.under_light(&at, Triple::from(towards), towards.y)) / towards.y;
-            sum += brdf * polar.cos() * polar.sin();
+            let shown = vector(material.lobes(&at).evaluate(&at, Triple::from(towards), towards.y));
+            sum += shown / towards.y * polar.cos() * polar.sin();
         }
     }
     sum * (FRAC_PI_2 / f64::from(rings)) * (2.0 * PI / f64::from(sectors))
@@ -243,8 +244,8 @@ fn a_matte_surface_shows_the_cosine_over_pi_from_any_side() {
             assert!(shown(&matte, viewer, degrees).distance(expected) < 1e-15, "{viewer} {degrees}");
         }
     }
-    assert_eq!(vector(matte.under_ambient(&seen_from(0.0))), DVec3::new(1.0, 0.5, 0.0));
-    assert_eq!(vector(matte.own(&seen_from(0.0))), DVec3::ZERO);
+    assert_eq!(vector(matte.lobes(&seen_from(0.0)).ambient), DVec3::new(1.0, 0.5, 0.0));
+    assert_eq!(vector(matte.lobes(&seen_from(0.0)).emission), DVec3::ZERO);
 }
 
 #[test]
@@ -270,7 +271,7 @@ fn classic_phong_shows_diffuse_and_highlight_at_known_angles() {
                 "n {shininess}, {light}° {viewer}°: {got}, not {expected}"
             );
         }
-        assert_eq!(vector(phong.under_ambient(&seen_from(0.0))), DVec3::new(0.2, 0.4, 0.0));
+        assert_eq!(vector(phong.lobes(&seen_from(0.0)).ambient), DVec3::new(0.2, 0.4, 0.0));
     }
 }
 
@@ -330,8 +331,8 @@ fn checker_squares_alternate_through_the_origin_and_below_it() {
         for y in [-3.0, 0.0, 7.0] {
             let at = ShadingPoint { position: Triple::new(x, y, z), ..seen_from(0.0) };
             let expected = DVec3::splat(white);
-            assert_eq!(vector(checker.under_ambient(&at)), expected, "({x}, {y}, {z})");
-            let lit = vector(checker.under_light(&at, Triple::from(DVec3::Y), 0.5));
+            assert_eq!(vector(checker.lobes(&at).ambient), expected, "({x}, {y}, {z})");
+            let lit = vector(checker.lobes(&at).evaluate(&at, Triple::from(DVec3::Y), 0.5));
             assert!(lit.distance(expected * 0.5 / PI) < 1e-15, "({x}, {y}, {z})");
         }
     }
@@ -343,7 +344,8 @@ fn checker_colours_are_those_given() {
     let values = Values::new().with("color", Value::Color(one)).with("other", Value::Color(other));
     let checker = material("checker", &values);
     let at = |x| {
-        vector(checker.under_ambient(&ShadingPoint { position: Triple::new(x, 0.0, 0.5), ..seen_from(0.0) }))
+        let at = ShadingPoint { position: Triple::new(x, 0.0, 0.5), ..seen_from(0.0) };
+        vector(checker.lobes(&at).ambient)
     };
     assert_eq!((at(0.5), at(1.5)), (DVec3::new(0.4, 0.5, 0.6), DVec3::new(0.1, 0.2, 0.3)));
 }
@@ -358,36 +360,58 @@ fn colour_and_depth_follow_the_formula() {
             let at = ShadingPoint { normal: Triple::from(normal), distance, ..seen_from(0.0) };
             let shade = 255.0 - (distance * 255.0 / 30.0).min(255.0);
             let expected = (color * (normal * 10.0 + shade) / 255.0).max(DVec3::ZERO);
-            let got = vector(depth.own(&at));
+            let got = vector(depth.lobes(&at).emission);
             assert!(got.distance(expected) < 1e-14, "{normal} {distance}: {got}, not {expected}");
         }
     }
 }
 
 #[test]
-fn what_answers_no_light_shows_none() {
+fn what_is_not_lit_shows_no_light() {
     let white = || Values::new().with("color", Value::Color(Rgb::WHITE));
     for kind in ["depth", "mirror"] {
         let material = material(kind, &white());
-        assert!(!material.answers_light());
+        assert!(!material.lobe_kinds().is_lit());
         assert_eq!(shown(&material, 30.0, 10.0), DVec3::ZERO);
-        assert_eq!(vector(material.under_ambient(&seen_from(0.0))), DVec3::ZERO);
+        assert_eq!(vector(material.lobes(&seen_from(0.0)).ambient), DVec3::ZERO);
     }
-    assert!(material("matte", &white()).answers_light());
+    assert!(material("matte", &white()).lobe_kinds().is_lit());
 }
 
 #[test]
 fn a_mirror_reflects_all_in_its_colour_and_others_nothing_unless_told() {
+    let share_and_tint = |material: &Material| {
+        let lobes = material.lobes(&seen_from(30.0));
+        (lobes.share, lobes.mirror.map(|mirror| vector(mirror.tint)))
+    };
     let mirror = material("mirror", &Values::new().with("color", Value::Color(Rgb::new(1.0, 0.5, 0.0))));
-    assert_eq!(mirror.reflectiveness().wide, 1.0);
-    assert_eq!(mirror.reflection_color().rgb(), Rgb::new(1.0, 0.5, 0.0));
-    assert_eq!(vector(mirror.own(&seen_from(0.0))), DVec3::ZERO);
+    assert_eq!(share_and_tint(&mirror), (0.0, Some(DVec3::new(1.0, 0.5, 0.0))));
+    let half = mirror.with("reflectiveness", Value::Number(0.5)).unwrap();
+    assert_eq!(share_and_tint(&half), (0.5, Some(DVec3::new(0.5, 0.25, 0.0))));
+    let black = mirror.with("color", Value::Color(Rgb::BLACK)).unwrap();
+    assert_eq!(share_and_tint(&black), (0.0, None));
     for kind in Material::KINDS.iter().filter(|kind| kind.name != "mirror") {
         let color = || Value::Color(Rgb::WHITE);
         let values = Values::new().with("color", color()).with("diffuse", color());
-        assert_eq!((kind.make)(&values).unwrap().reflectiveness().wide, 0.0, "{}", kind.name);
+        assert_eq!(share_and_tint(&(kind.make)(&values).unwrap()), (1.0, None), "{}", kind.name);
         let told = (kind.make)(&values.with("reflectiveness", Value::Number(0.25))).unwrap();
-        assert_eq!(told.reflectiveness().wide, 0.25, "{}", kind.name);
-        assert_eq!(told.reflection_color().rgb(), Rgb::WHITE, "{}", kind.name);
+        assert_eq!(share_and_tint(&told), (0.75, Some(DVec3::splat(0.25))), "{}", kind.name);
+    }
+}
+
+#[test]
+fn which_lobes_there_are_does_not_depend_on_the_point() {
+    for kind in Material::KINDS {
+        let color = || Value::Color(Rgb::new(0.5, 0.25, 0.0));
+        let values = Values::new().with("color", color()).with("diffuse", color());
+        for reflectiveness in [0.0, 0.5, 1.0] {
+            let material =
+                (kind.make)(&values.clone().with("reflectiveness", Value::Number(reflectiveness))).unwrap();
+            for (x, degrees, distance) in [(0.0, 0.0, 1.0), (0.7, 60.0, 1e3), (-1e3, 89.0, f64::INFINITY)] {
+                let at = ShadingPoint { position: Triple::new(x, 0.0, 0.3), distance, ..seen_from(degrees) };
+                let (here, anywhere) = (material.lobes(&at).kinds(), material.lobe_kinds());
+                assert_eq!(here, anywhere, "{} {reflectiveness}", kind.name);
+            }
+        }
     }
 }

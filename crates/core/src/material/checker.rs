@@ -2,11 +2,13 @@
 
 use glam::DVec3;
 
-use super::{REFLECTIVENESS, ShadingPoint, Surface};
+use super::{MirrorShare, Surface};
 use crate::lane::Constant3;
 use crate::numeric::{PATTERN_ERROR, PATTERN_SHIFT};
 use crate::part::Given;
-use crate::{Coefficient, Field, FieldKind, InvalidPart, Lane, Part, Rgb, Triple, Value, Values};
+use crate::{
+    Coefficient, Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, Triple, Value, Values,
+};
 
 /// Matte; `color` where `|⌊x·scale⌋ + ⌊z·scale⌋|` is odd, `other` where it is even. On any shape, by position.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,7 +18,7 @@ pub struct Checker {
     scale: Coefficient,
     /// Cell numbers along x and z at the origin of the positions that are asked about, less a multiple of two.
     phase: [Coefficient; 2],
-    reflectiveness: Coefficient,
+    mirror: MirrorShare,
 }
 
 impl Checker {
@@ -51,7 +53,7 @@ impl Part for Checker {
         Field::required("other", FieldKind::Color, "", "Albedo of the even squares.")
             .or(|| Value::Color(Rgb::BLACK)),
         Field::required("scale", FieldKind::Length, "1/m", "Squares per metre.").or(|| Value::Number(1.0)),
-        REFLECTIVENESS,
+        MirrorShare::FIELD,
     ];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
@@ -60,7 +62,7 @@ impl Part for Checker {
             other: given.color("other")?.into(),
             scale: Coefficient::new(given.positive("scale")?),
             phase: [Coefficient::new(PATTERN_SHIFT); 2],
-            reflectiveness: Coefficient::new(given.fraction("reflectiveness")?),
+            mirror: MirrorShare::given(given, Rgb::WHITE)?,
         })
     }
 
@@ -69,22 +71,19 @@ impl Part for Checker {
             .with("color", Value::Color(self.color.rgb()))
             .with("other", Value::Color(self.other.rgb()))
             .with("scale", Value::Number(self.scale.wide))
-            .with("reflectiveness", Value::Number(self.reflectiveness.wide))
+            .with("reflectiveness", self.mirror.value())
     }
 }
 
 impl Surface for Checker {
     #[inline(always)]
-    fn albedo<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
+    fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L> {
         let [x, z] = self.cells(at);
         let cell = x.floor() + z.floor();
         let half = cell * cell.number(0.5);
         let odd = cell.number(0.25).less(half - half.floor());
-        Triple::select(odd, Triple::of(cell, &self.color), Triple::of(cell, &self.other))
-    }
-
-    fn reflectiveness(&self) -> Coefficient {
-        self.reflectiveness
+        let albedo = Triple::select(odd, Triple::of(cell, &self.color), Triple::of(cell, &self.other));
+        self.mirror.over(Lobes::matte(albedo))
     }
 
     fn relative_to(&self, origin: DVec3) -> Self {

@@ -1,9 +1,11 @@
 //! Colour that fades to black with distance, tinted by the normal; needs no light.
 
-use super::{REFLECTIVENESS, ShadingPoint, Surface};
+use super::{MirrorShare, Surface};
 use crate::lane::Constant3;
 use crate::part::Given;
-use crate::{Coefficient, Field, FieldKind, InvalidPart, Lane, Part, Rgb, Triple, Value, Values};
+use crate::{
+    Coefficient, Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, Triple, Value, Values,
+};
 
 /// Shows `color * (10 n + 255 − min(distance * 255 / range, 255)) / 255` per channel, at least 0, where `n` is the
 /// unit normal on the viewer's side.
@@ -12,7 +14,7 @@ pub struct Depth {
     color: Constant3,
     range: f64,
     inverse_range: Coefficient,
-    reflectiveness: Coefficient,
+    mirror: MirrorShare,
 }
 
 /// How much of a unit normal shows: 10 of 255.
@@ -26,7 +28,7 @@ impl Part for Depth {
         Field::required("color", FieldKind::Color, "", "What is seen close by."),
         Field::required("range", FieldKind::Length, "m", "Distance at which it has faded to black.")
             .or(|| Value::Number(30.0)),
-        REFLECTIVENESS,
+        MirrorShare::FIELD,
     ];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
@@ -35,7 +37,7 @@ impl Part for Depth {
             color: given.color("color")?.into(),
             range,
             inverse_range: Coefficient::new(1.0 / range),
-            reflectiveness: Coefficient::new(given.fraction("reflectiveness")?),
+            mirror: MirrorShare::given(given, Rgb::WHITE)?,
         })
     }
 
@@ -43,7 +45,7 @@ impl Part for Depth {
         Values::new()
             .with("color", Value::Color(self.color.rgb()))
             .with("range", Value::Number(self.range))
-            .with("reflectiveness", Value::Number(self.reflectiveness.wide))
+            .with("reflectiveness", self.mirror.value())
     }
 }
 
@@ -61,19 +63,12 @@ impl Depth {
 
 impl Surface for Depth {
     #[inline(always)]
-    fn own<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
+    fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L> {
         let (zero, one) = (at.distance.number(0.0), at.distance.number(1.0));
         let near = one - (at.distance * at.distance.of(self.inverse_range)).min(one);
         let shown = at.normal.scale_add(at.distance.of(TINT), Triple::splat(near));
         let shown = Triple::new(shown.x.max(zero), shown.y.max(zero), shown.z.max(zero));
-        shown.times(Triple::of(at.distance, &self.color))
-    }
-
-    fn answers_light(&self) -> bool {
-        false
-    }
-
-    fn reflectiveness(&self) -> Coefficient {
-        self.reflectiveness
+        let emission = shown.times(Triple::of(at.distance, &self.color));
+        self.mirror.over(Lobes { emission, ..Lobes::none(at.distance) })
     }
 }

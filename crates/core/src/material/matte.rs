@@ -1,15 +1,15 @@
 //! The matte surface: light leaves alike in all directions (Lambert 1760).
 
-use super::{REFLECTIVENESS, ShadingPoint, Surface};
+use super::{MirrorShare, Surface};
 use crate::lane::Constant3;
 use crate::part::Given;
-use crate::{Coefficient, Field, FieldKind, InvalidPart, Lane, Part, Rgb, Triple, Value, Values};
+use crate::{Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, Triple, Value, Values};
 
 /// Lambert surface with the BRDF `color / π`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Matte {
     color: Constant3,
-    reflectiveness: Coefficient,
+    mirror: MirrorShare,
 }
 
 impl Matte {
@@ -27,28 +27,23 @@ impl Part for Matte {
     const DOC: &'static str = "A surface that scatters light alike in all directions.";
     const FIELDS: &'static [Field] = &[
         Field::required("color", FieldKind::Color, "", "Share of light that is scattered (albedo)."),
-        REFLECTIVENESS,
+        MirrorShare::FIELD,
     ];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
-        let reflectiveness = Coefficient::new(given.fraction("reflectiveness")?);
-        Ok(Self { color: given.color("color")?.into(), reflectiveness })
+        Ok(Self { color: given.color("color")?.into(), mirror: MirrorShare::given(given, Rgb::WHITE)? })
     }
 
     fn values(&self) -> Values {
         Values::new()
             .with("color", Value::Color(self.color.rgb()))
-            .with("reflectiveness", Value::Number(self.reflectiveness.wide))
+            .with("reflectiveness", self.mirror.value())
     }
 }
 
 impl Surface for Matte {
     #[inline(always)]
-    fn albedo<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
-        Triple::of(at.distance, &self.color)
-    }
-
-    fn reflectiveness(&self) -> Coefficient {
-        self.reflectiveness
+    fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L> {
+        self.mirror.over(Lobes::matte(Triple::of(at.distance, &self.color)))
     }
 }

@@ -1,15 +1,14 @@
 //! The mirror: shows what it reflects and nothing of its own.
 
-use super::Surface;
-use crate::lane::Constant3;
+use super::{MirrorShare, Surface};
 use crate::part::Given;
-use crate::{Coefficient, Field, FieldKind, InvalidPart, Part, Rgb, Value, Values};
+use crate::{Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, Value, Values};
 
 /// Perfect mirror, tinted by a colour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mirror {
-    color: Constant3,
-    reflectiveness: Coefficient,
+    color: Rgb,
+    mirror: MirrorShare,
 }
 
 impl Mirror {
@@ -28,37 +27,23 @@ impl Part for Mirror {
     const FIELDS: &'static [Field] = &[
         Field::required("color", FieldKind::Color, "", "Share of light that is reflected, by channel.")
             .or(|| Value::Color(Rgb::WHITE)),
-        Field::required(
-            "reflectiveness",
-            FieldKind::Fraction,
-            "",
-            "Share of what is seen; the rest is black.",
-        )
-        .or(|| Value::Number(1.0)),
+        Field { doc: "Share of what is seen; the rest is black.", ..MirrorShare::FIELD }
+            .or(|| Value::Number(1.0)),
     ];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
-        let reflectiveness = Coefficient::new(given.fraction("reflectiveness")?);
-        Ok(Self { color: given.color("color")?.into(), reflectiveness })
+        let color = given.color("color")?;
+        Ok(Self { color, mirror: MirrorShare::given(given, color)? })
     }
 
     fn values(&self) -> Values {
-        Values::new()
-            .with("color", Value::Color(self.color.rgb()))
-            .with("reflectiveness", Value::Number(self.reflectiveness.wide))
+        Values::new().with("color", Value::Color(self.color)).with("reflectiveness", self.mirror.value())
     }
 }
 
 impl Surface for Mirror {
-    fn answers_light(&self) -> bool {
-        false
-    }
-
-    fn reflectiveness(&self) -> Coefficient {
-        self.reflectiveness
-    }
-
-    fn reflection_color(&self) -> Constant3 {
-        self.color
+    #[inline(always)]
+    fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L> {
+        self.mirror.over(Lobes::none(at.distance))
     }
 }

@@ -1,12 +1,13 @@
 //! Which materials there are, and what a material must answer.
 //!
-//! A material says how much of arriving light leaves towards the viewer and how much of what it mirrors; it never
-//! asks what arrives. A new material is one file here, its `mod` line and its name in the list below.
+//! A material says in which [lobes](crate::lobe) light leaves it towards the viewer; it never asks what arrives. A new
+//! material is one file here, its `mod` line and its name in the list below.
 
 mod checker;
 mod depth;
 mod matte;
 mod mirror;
+mod mirror_share;
 mod phong;
 
 pub use checker::Checker;
@@ -17,66 +18,14 @@ pub use phong::Phong;
 
 use glam::DVec3;
 
-use crate::lane::Constant3;
-use crate::{Coefficient, Field, FieldKind, Lane, Triple, Value};
-
-/// Where and from where a surface is seen.
-#[derive(Debug, Clone, Copy)]
-pub struct ShadingPoint<L: Lane> {
-    /// The point, metres, relative to the origin that the material has been told of; see [`Surface::relative_to`].
-    pub position: Triple<L>,
-    /// Unit normal on the viewer's side.
-    pub normal: Triple<L>,
-    /// Unit vector to the viewer.
-    pub to_viewer: Triple<L>,
-    /// Metres to the viewer.
-    pub distance: L,
-}
+use crate::{Lane, LobeKinds, Lobes, ShadingPoint};
+use mirror_share::MirrorShare;
 
 /// What the integrator asks of a material.
 pub trait Surface {
-    /// Radiance shown without any light's help.
-    #[inline(always)]
-    fn own<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
-        Triple::splat(at.distance.number(0.0))
-    }
-
-    /// Radiance shown for each unit of ambient radiance: as a rule, the [albedo](Self::albedo).
-    #[inline(always)]
-    fn under_ambient<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
-        self.albedo(at)
-    }
-
-    /// Share of arriving light that is sent on alike in all directions (albedo): radiance over irradiance, times π.
-    #[inline(always)]
-    fn albedo<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
-        Triple::splat(at.distance.number(0.0))
-    }
-
-    /// Whether it sends on more in some directions than in others.
-    fn is_glossy(&self) -> bool {
-        false
-    }
-
-    /// What it sends on more than [`albedo`](Self::albedo) says: radiance for each unit of irradiance (at normal
-    /// incidence) from the direction `towards`, a unit vector whose `cosine` to the normal is positive.
-    #[inline(always)]
-    fn gloss<L: Lane>(&self, at: &ShadingPoint<L>, _towards: Triple<L>, _cosine: L) -> Triple<L> {
-        Triple::splat(at.distance.number(0.0))
-    }
-
-    /// Whether lights make any difference to it.
-    fn answers_light(&self) -> bool {
-        true
-    }
-
-    /// Share of what is seen that is reflected, 0..=1; the rest is the surface's own look.
-    fn reflectiveness(&self) -> Coefficient;
-
-    /// What reflected light is multiplied by, beside the reflectiveness.
-    fn reflection_color(&self) -> Constant3 {
-        crate::Rgb::WHITE.into()
-    }
+    /// How light leaves it where and from where it is seen. Which lobes there are depends on the material alone, how
+    /// strong they are on the point.
+    fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L>;
 
     /// The same material for positions that are counted from `origin`, a point of the scene.
     #[must_use]
@@ -125,79 +74,27 @@ crate::part::parts! {
 }
 
 impl Material {
-    /// See [`Surface::own`].
+    /// See [`Surface::lobes`].
     #[inline(always)]
-    pub fn own<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
-        each_material!(self, material => material.own(at))
+    pub fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L> {
+        each_material!(self, material => material.lobes(at))
     }
 
-    /// See [`Surface::under_ambient`].
+    /// What is made of its lobes. The work is compiled for each kind of material, so lobes that the kind lacks cost nothing,
+    /// and only what it needs is asked of `at`.
     #[inline(always)]
-    pub fn under_ambient<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
-        each_material!(self, material => material.under_ambient(at))
-    }
-
-    /// See [`Surface::albedo`].
-    #[inline(always)]
-    pub fn albedo<L: Lane>(&self, at: &ShadingPoint<L>) -> Triple<L> {
-        each_material!(self, material => material.albedo(at))
-    }
-
-    /// See [`Surface::is_glossy`].
-    #[inline]
-    #[must_use]
-    pub fn is_glossy(&self) -> bool {
-        each_material!(self, material => material.is_glossy())
-    }
-
-    /// See [`Surface::gloss`].
-    #[inline(always)]
-    pub fn gloss<L: Lane>(&self, at: &ShadingPoint<L>, towards: Triple<L>, cosine: L) -> Triple<L> {
-        each_material!(self, material => material.gloss(at, towards, cosine))
-    }
-
-    /// Radiance shown of itself, under ambient radiance, and of light that gives so much irradiance in all: all but the
-    /// [gloss](Self::gloss). Only what the kind of material needs is asked of `at`.
-    #[inline(always)]
-    pub fn shown<L: Lane>(
+    pub fn visit_lobes<L: Lane, T>(
         &self,
         at: impl Fn() -> ShadingPoint<L>,
-        ambient: Triple<L>,
-        irradiance: Triple<L>,
-    ) -> Triple<L> {
-        each_material!(self, material => {
-            let at = &at();
-            let own = material.under_ambient(at).times_add(ambient, material.own(at));
-            material.albedo(at).scale(ambient.x.of(LAMBERT)).times_add(irradiance, own)
-        })
+        work: impl FnOnce(Lobes<L>) -> T,
+    ) -> T {
+        each_material!(self, material => work(material.lobes(&at())))
     }
 
-    /// Radiance shown for each unit of irradiance (at normal incidence) from the direction `towards`, a unit vector
-    /// whose `cosine` to the normal is positive: the BRDF times the cosine.
-    #[inline(always)]
-    pub fn under_light<L: Lane>(&self, at: &ShadingPoint<L>, towards: Triple<L>, cosine: L) -> Triple<L> {
-        self.albedo(at).scale(cosine * cosine.of(LAMBERT)) + self.gloss(at, towards, cosine)
-    }
-
-    /// See [`Surface::answers_light`].
-    #[inline]
+    /// Which lobes it has, anywhere.
     #[must_use]
-    pub fn answers_light(&self) -> bool {
-        each_material!(self, material => material.answers_light())
-    }
-
-    /// See [`Surface::reflectiveness`].
-    #[inline]
-    #[must_use]
-    pub fn reflectiveness(&self) -> Coefficient {
-        each_material!(self, material => material.reflectiveness())
-    }
-
-    /// See [`Surface::reflection_color`].
-    #[inline]
-    #[must_use]
-    pub fn reflection_color(&self) -> Constant3 {
-        each_material!(self, material => material.reflection_color())
+    pub fn lobe_kinds(&self) -> LobeKinds {
+        self.lobes(&ShadingPoint::HEAD_ON).kinds()
     }
 }
 
@@ -228,14 +125,3 @@ impl Material {
         each_material!(self, material => material.reduced(position))
     }
 }
-
-const REFLECTIVENESS: Field = Field::required(
-    "reflectiveness",
-    FieldKind::Fraction,
-    "",
-    "Share of what is seen that is reflected; the rest is the surface's own look.",
-)
-.or(|| Value::Number(0.0));
-
-/// 1/π: what a Lambert surface of albedo 1 sends on, per unit of irradiance.
-const LAMBERT: Coefficient = Coefficient::new(std::f64::consts::FRAC_1_PI);

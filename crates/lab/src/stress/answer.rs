@@ -67,13 +67,13 @@ impl Staged<'_> {
                 let light = DVec3::from(light.map(f64::from));
                 Reply::Occluded(hit.is_none_or(|(place, t)| self.is_hidden(ray, place, t, light)))
             }
-            Question::Mirrors(count) => Reply::Path(self.follow(ray, hit, count, reflect)),
+            Question::Mirrors(count) => Reply::Path(self.follow(ray, hit, count, mirrored)),
             Question::Glass(count, index) => {
                 let index = f64::from(index);
                 // From the side that the normal points to into the glass, or out of it.
                 let bend = |d: DVec3, n: DVec3| {
                     let (n, ratio) = if d.dot(n) < 0.0 { (n, 1.0 / index) } else { (-n, index) };
-                    refract(d, n, ratio).unwrap_or_else(|| reflect(d, n))
+                    refract(d, n, ratio).unwrap_or_else(|| mirrored(d, n))
                 };
                 Reply::Path(self.follow(ray, hit, count, bend))
             }
@@ -140,4 +140,9 @@ fn span_of(case: &Case) -> [f64; 2] {
         Question::Nearest { min, max } => [min.into(), max.into()],
         _ => [Span::AHEAD.min, Span::AHEAD.max],
     }
+}
+
+/// A direction mirrored about a unit normal.
+fn mirrored(direction: DVec3, normal: DVec3) -> DVec3 {
+    reflect(direction.into(), normal.into()).into()
 }

@@ -70,7 +70,8 @@ impl TilePlan {
         }
         for bounds in points {
             let material = snapshot.prims()[bounds.prim as usize].material;
-            if snapshot.material_rows()[material as usize].reflects && !self.dark.contains(&bounds.prim) {
+            let row = &snapshot.material_rows()[material as usize];
+            if row.lobes.mirror && !self.dark.contains(&bounds.prim) {
                 self.dark.push(bounds.prim);
             }
         }

@@ -5,6 +5,7 @@ use catoptra_core::Rgb;
 use super::walker::{CameraRay, Walker};
 use super::{Integrate, IntegratorVisitor, Search, visit};
 use crate::film::NOTHING;
+use crate::lanes::storable;
 use crate::sampler::Sampler;
 use crate::{Frame, Hit, Stats, Tile};
 
@@ -65,16 +66,10 @@ fn finish(tile: &mut Tile, grid: u32) -> u64 {
     let mut not_finite = 0;
     for column in &mut tile.radiance {
         for light in column.iter_mut() {
-            let finite = light.is_finite();
-            *light = if finite {
-                *light * share
-            } else if *light > 0.0 {
-                f32::MAX
-            } else {
-                0.0
-            };
-            not_finite += u32::from(!finite);
+            let (kept, broken) = storable(f64::from(*light));
+            *light = if broken { kept as f32 } else { *light * share };
+            not_finite += u64::from(broken);
         }
     }
-    u64::from(not_finite)
+    not_finite
 }

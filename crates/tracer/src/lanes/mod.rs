@@ -3,7 +3,11 @@
 mod column;
 mod double;
 mod level;
+#[cfg(test)]
+mod lobe_tests;
+mod precise;
 mod prefetch;
+mod storable;
 mod vectors;
 mod word;
 
@@ -15,10 +19,12 @@ use fearless_simd::prelude::*;
 pub(crate) use column::Column;
 pub(crate) use double::D;
 pub(crate) use level::{Work, at_level, outlined};
+pub(crate) use precise::{Precise, narrow3, pick3};
 pub(crate) use prefetch::prefetch;
+pub(crate) use storable::storable;
 pub(crate) use vectors::{
-    D3, F3, LaneVectors, compress_wide3, compress3, cross, load_wide3, load3, magnitude, narrow3, pick3,
-    splat_wide, splat3, store_wide3, store3, vector_of, widen3,
+    D3, F3, LaneVectors, compress_wide3, compress3, cross, load_wide3, load3, magnitude, splat_wide, splat3,
+    store_wide3, store3, vector_of, widen3,
 };
 pub(crate) use word::{HALVES, Word, share_of_one};
 
@@ -186,6 +192,10 @@ impl<S: Simd> LaneMask for M<S> {
     #[inline(always)]
     fn any(self) -> bool {
         self.0.any_true()
+    }
+    #[inline(always)]
+    fn count(self) -> u64 {
+        M::count(self)
     }
 }
 

@@ -100,26 +100,10 @@ pub(crate) fn vector_of<S: Simd>(v: &D3<S>, lane: usize) -> DVec3 {
     DVec3::new(v.x.lane(lane), v.y.lane(lane), v.z.lane(lane))
 }
 
-/// Rounded to `f32`.
-#[inline(always)]
-pub(crate) fn narrow3<S: Simd>(v: D3<S>) -> F3<S> {
-    Triple::new(v.x.narrow(), v.y.narrow(), v.z.narrow())
-}
-
 /// In `f64`, exactly.
 #[inline(always)]
 pub(crate) fn widen3<S: Simd>(v: F3<S>) -> D3<S> {
     Triple::new(v.x.widen(), v.y.widen(), v.z.widen())
-}
-
-/// `if_true` where the mask holds, else `if_false`.
-#[inline(always)]
-pub(crate) fn pick3<S: Simd>(mask: M<S>, if_true: D3<S>, if_false: D3<S>) -> D3<S> {
-    Triple::new(
-        D::pick(mask, if_true.x, if_false.x),
-        D::pick(mask, if_true.y, if_false.y),
-        D::pick(mask, if_true.z, if_false.z),
-    )
 }
 
 /// Sum of the magnitudes of the coordinates.

@@ -24,18 +24,18 @@ pub(crate) struct Chunk<S: Simd> {
     pub(crate) normal: [F3<S>; CHUNK],
     /// Unit normals to shade with, on the viewer's side, where any shape has others.
     pub(crate) smooth: [F3<S>; CHUNK],
-    /// Unit vectors to the viewer, where a material is glossy.
+    /// Unit vectors to the viewer, where a material has glossy lobes.
     pub(crate) to_viewer: [F3<S>; CHUNK],
     /// Lanes that have met something, by material.
     pub(crate) groups: [Groups; CHUNK],
-    /// Lanes whose materials answer lights.
+    /// Lanes whose materials are lit.
     pub(crate) lit: [M<S>; CHUNK],
-    /// Whether any material of a packet is glossy.
+    /// Whether any material of a packet has glossy lobes.
     pub(crate) glossy: [bool; CHUNK],
     /// Light that arrives from all sides, weighed by the cosine: irradiance.
     pub(crate) irradiance: [F3<S>; CHUNK],
-    /// Radiance shown by gloss.
-    pub(crate) gloss: [F3<S>; CHUNK],
+    /// Radiance shown by glossy lobes.
+    pub(crate) specular: [F3<S>; CHUNK],
 }
 
 impl<S: Simd> Chunk<S> {
@@ -55,7 +55,7 @@ impl<S: Simd> Chunk<S> {
             lit: [none; CHUNK],
             glossy: [false; CHUNK],
             irradiance: [dark; CHUNK],
-            gloss: [dark; CHUNK],
+            specular: [dark; CHUNK],
         }
     }
 }

@@ -17,7 +17,7 @@ struct AddLight<'t, 'a, S: Simd, B> {
     shader: &'t mut Shader<'a, S>,
     batch: &'t B,
     count: usize,
-    /// How many of their lanes answer lights.
+    /// How many of their lanes are lit.
     lit: u64,
     /// Which light.
     light: usize,
@@ -41,7 +41,7 @@ impl<S: Simd, B: Batch<S>> LightVisitor for AddLight<'_, '_, S, B> {
     }
 }
 
-/// How many lanes that answer lights lie in a light's cone, and how many of those face it.
+/// How many lanes that are lit lie in a light's cone, and how many of those face it.
 #[derive(Default)]
 struct Faced {
     in_cone: u64,
@@ -71,7 +71,7 @@ impl<S: Simd, B: Batch<S>> AddLight<'_, '_, S, B> {
         for packet in 0..self.count.min(CHUNK) {
             if self.shader.chunk.glossy[packet] {
                 let facing = face(self.shader.chunk, light, packet, false, &mut Faced::default());
-                self.shader.add_gloss(packet, &facing, facing.lanes, color);
+                self.shader.add_specular(packet, &facing, facing.lanes, color);
             }
         }
         faced
@@ -94,7 +94,7 @@ impl<S: Simd, B: Batch<S>> AddLight<'_, '_, S, B> {
             let irradiance = &mut self.shader.chunk.irradiance[packet];
             *irradiance = color.scale_add(arriving, *irradiance);
             if self.shader.chunk.glossy[packet] {
-                self.shader.add_gloss(packet, &facing, reached, color);
+                self.shader.add_specular(packet, &facing, reached, color);
             }
         }
         faced
@@ -153,23 +153,27 @@ impl<S: Simd> Shader<'_, S> {
         !shadow || (self.plan.occluders[light].is_empty() && general.is_empty())
     }
 
-    /// Adds the gloss of the lanes that a light reaches.
+    /// Adds what glossy lobes show of a light in the lanes that it reaches.
     #[inline(always)]
-    fn add_gloss(&mut self, packet: usize, facing: &Facing<S>, reached: M<S>, color: F3<S>) {
+    fn add_specular(&mut self, packet: usize, facing: &Facing<S>, reached: M<S>, color: F3<S>) {
         let zero = F::splat(self.s, 0.0);
         let light = color.scale(F::pick(reached, facing.arrival.strength, zero));
         let materials = self.search.snapshot.material_rows();
         let (at, groups) = (self.shading_point(packet), &self.chunk.groups[packet]);
-        let mut sum = self.chunk.gloss[packet];
+        let mut sum = self.chunk.specular[packet];
         for group in 0..groups.len() {
             let (mask, material) = groups.get(self.s, group);
-            let material = &materials[material].material;
-            if material.is_glossy() {
-                let gloss = material.gloss(&at, facing.arrival.towards, facing.cosine);
-                sum = F3::select(mask, gloss.times_add(light, sum), sum);
+            let shown = materials[material].material.visit_lobes(
+                #[inline(always)]
+                || at,
+                #[inline(always)]
+                |lobes| lobes.glossy(&at, facing.arrival.towards, facing.cosine),
+            );
+            if let Some(shown) = shown {
+                sum = F3::select(mask, shown.times_add(light, sum), sum);
             }
         }
-        self.chunk.gloss[packet] = sum;
+        self.chunk.specular[packet] = sum;
     }
 
     /// Lanes whose way to a light is blocked.

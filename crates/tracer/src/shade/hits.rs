@@ -113,20 +113,20 @@ impl<S: Simd> Shader<'_, S> {
         self.chunk.at[slot] = at;
         self.chunk.best[slot] = *best;
         self.chunk.irradiance[slot] = dark;
-        self.chunk.gloss[slot] = dark;
+        self.chunk.specular[slot] = dark;
         self.chunk.glossy[slot] = false;
         self.chunk.groups[slot].clear();
     }
 
-    /// Adds lanes by their material; returns those that answer lights.
+    /// Adds lanes by their material; returns those that are lit.
     #[inline(always)]
     pub(crate) fn add_material_group(&mut self, mask: M<S>, prim: u32, slot: usize) -> M<S> {
         let snapshot = self.search.snapshot;
         let material = snapshot.prims()[prim as usize].material;
         self.chunk.groups[slot].add(mask.bits(), material);
         let row = &snapshot.material_rows()[material as usize];
-        if row.answers_light {
-            self.chunk.glossy[slot] |= row.material.is_glossy();
+        if row.lobes.is_lit() {
+            self.chunk.glossy[slot] |= row.lobes.is_glossy();
             mask
         } else {
             self.search.stats.skipped.unlit_material += mask.count() * snapshot.light_rows().len() as u64;

@@ -1,7 +1,7 @@
-//! Surfaces to light: what the lanes of a packet show of their surfaces' own look under the light that has arrived.
+//! Surfaces to light: what the lanes of a packet show under the light that has arrived, beside what they mirror.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, Lane, LaneMask, Material, Rgb};
+use catoptra_core::{Arithmetic, LaneMask, Material, Rgb};
 use fearless_simd::Simd;
 
 use super::{Shader, dark};
@@ -34,10 +34,10 @@ impl<S: Simd> Shader<'_, S> {
     #[inline(always)]
     fn show_group(&mut self, batch: &impl Batch<S>, slot: usize, group: usize, shown: F3<S>) -> F3<S> {
         let (mask, material) = self.chunk.groups[slot].get(self.s, group);
-        if !self.search.snapshot.material_rows()[material].reflects {
+        if !self.search.snapshot.material_rows()[material].lobes.mirror {
             self.search.stats.skipped.not_reflective += mask.count();
         }
-        F3::select(mask, self.own_look(batch, slot, (mask, material)), shown)
+        F3::select(mask, self.base(batch, slot, (mask, material)), shown)
     }
 
     /// What the lanes of further materials show. Most packets meet one material; see [`outlined`].
@@ -56,9 +56,9 @@ impl<S: Simd> Shader<'_, S> {
         )
     }
 
-    /// The own look of the lanes of `mask`, which have one material, in the share that is not reflected.
+    /// What the base of the lanes of `mask`, which have one material, shows in its share.
     #[inline(always)]
-    fn own_look(&mut self, batch: &impl Batch<S>, slot: usize, (mask, material): (M<S>, usize)) -> F3<S> {
+    fn base(&mut self, batch: &impl Batch<S>, slot: usize, (mask, material): (M<S>, usize)) -> F3<S> {
         let snapshot = self.search.snapshot;
         let row = &snapshot.material_rows()[material];
         if row.is_pattern {
@@ -70,11 +70,16 @@ impl<S: Simd> Shader<'_, S> {
         }
         let ambient = F3::of(F::splat(self.s, 0.0), snapshot.ambient_light());
         let irradiance = self.chunk.irradiance[slot];
-        let mut shown = row.material.shown(|| self.shading_point(slot), ambient, irradiance);
+        let (mut shown, share) = row.material.visit_lobes(
+            #[inline(always)]
+            || self.shading_point(slot),
+            #[inline(always)]
+            |lobes| (lobes.without_glossy(ambient, irradiance), lobes.share),
+        );
         if self.chunk.glossy[slot] {
-            shown = shown + self.chunk.gloss[slot];
+            shown = shown + self.chunk.specular[slot];
         }
-        if row.reflects { shown.scale(ambient.x.of(row.kept)) } else { shown }
+        shown.scale(share)
     }
 
     /// Where `f32` cannot tell on which side of a pattern's edge a point lies, takes one for it that `f64` has found to

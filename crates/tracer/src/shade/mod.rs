@@ -7,6 +7,7 @@ mod groups;
 mod hits;
 mod look;
 mod reflect;
+mod rules;
 
 use fearless_simd::Simd;
 
@@ -17,6 +18,7 @@ use crate::search::Searcher;
 use crate::stream::{LaneBounds, Queue};
 
 pub(crate) use chunk::Chunk;
+pub(crate) use rules::{MirrorNormals, goes_on, mirror_direction};
 
 /// Gathers the light of packets, a chunk of them at a time.
 pub(crate) struct Shader<'a, S: Simd> {

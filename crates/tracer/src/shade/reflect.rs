@@ -1,10 +1,11 @@
 //! Where the packets of a chunk send their rays on: mirrored, from their points in `f64`.
 
-use catoptra_core::{Lane, LaneMask};
+use catoptra_core::LaneMask;
 use fearless_simd::Simd;
 
 use super::Shader;
-use crate::lanes::{D3, F, F3, M, U, narrow3, outlined, pick3};
+use super::rules::{MirrorNormals, goes_on, mirror_direction};
+use crate::lanes::{F3, M, U, narrow3, outlined};
 use crate::stream::{Batch, QueuedRays};
 
 impl<S: Simd> Shader<'_, S> {
@@ -28,26 +29,21 @@ impl<S: Simd> Shader<'_, S> {
     /// Finds which lanes of a packet send rays on, and how much of their light counts.
     #[inline(always)]
     fn reflections(&mut self, batch: &impl Batch<S>, slot: usize, depth: u32) -> (M<S>, F3<S>) {
-        let view = self.view;
         let arriving = batch.weights(self.s, self.chunk.at[slot]);
         let (mut on, mut weights) = (M::splat(self.s, false), arriving);
         for group in 0..self.chunk.groups[slot].len() {
             let (mask, material) = self.chunk.groups[slot].get(self.s, group);
-            let row = &self.search.snapshot.material_rows()[material];
-            if !row.reflects {
-                continue;
-            }
-            let weight = arriving.times(F3::of(arriving.x, &row.tint));
-            let largest = weight.x.max(weight.y).max(weight.z);
-            let positive = mask & F::splat(self.s, 0.0).less(largest);
-            self.search.stats.skipped.not_reflective += (mask & !positive).count();
-            if depth >= view.max_depth {
-                self.search.stats.skipped.depth_limit += positive.count();
-                continue;
-            }
-            let faint = positive & largest.less(F::splat(self.s, view.weight_cutoff));
-            self.search.stats.skipped.weight_cutoff += faint.count();
-            on = on | self.lead_somewhere(positive & !faint, self.chunk.best[slot].prim);
+            let mirror = self.search.snapshot.material_rows()[material].material.visit_lobes(
+                #[inline(always)]
+                || self.shading_point(slot),
+                #[inline(always)]
+                |lobes| lobes.mirror,
+            );
+            let Some(mirror) = mirror else { continue };
+            let weight = arriving.times(mirror.tint);
+            let skipped = &mut self.search.stats.skipped;
+            let traced = goes_on(mask, weight, depth, self.view, skipped);
+            on = on | self.lead_somewhere(traced, self.chunk.best[slot].prim);
             weights = F3::select(mask, weight, weights);
         }
         (on, weights)
@@ -60,14 +56,13 @@ impl<S: Simd> Shader<'_, S> {
         let best = self.chunk.best[slot];
         let refined = self.search.refine_every(packet, &best, lanes);
         let (_, d) = packet.precise_unit(self.s);
-        let geometric = mirrored(d, refined.normal);
-        let direction = if self.search.snapshot.columns().smooth {
-            let smooth = mirrored(d, refined.shading);
-            let above = F::splat(self.s, 0.0).less(narrow3(smooth).dot(self.chunk.normal[slot]));
-            pick3(above, smooth, geometric)
-        } else {
-            geometric
+        let smooth = self.search.snapshot.columns().smooth;
+        let normals = MirrorNormals {
+            geometric: refined.normal,
+            shading: smooth.then_some(refined.shading),
+            facing: self.chunk.normal[slot],
         };
+        let direction = mirror_direction(d, &normals);
         self.sent.add(lanes, best.prim, &[narrow3(refined.point), narrow3(direction)]);
         let rays = QueuedRays {
             origin: refined.point,
@@ -90,11 +85,4 @@ impl<S: Simd> Shader<'_, S> {
         self.search.stats.skipped.nothing_ahead += lanes.count() - on.count();
         on
     }
-}
-
-/// A direction mirrored about a unit normal.
-#[inline(always)]
-fn mirrored<S: Simd>(d: D3<S>, n: D3<S>) -> D3<S> {
-    let along = d.dot(n);
-    n.scale_add(-(along + along), d)
 }

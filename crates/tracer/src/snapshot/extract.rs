@@ -79,7 +79,7 @@ impl Extraction {
             frame,
             preset,
             constants: [ambient.into(), background.into()],
-            has_mirrors: material_rows.iter().any(|row| row.reflects),
+            has_mirrors: material_rows.iter().any(|row| row.lobes.mirror),
             material_rows,
             light_rows: lights.iter().map(|light| LightRow::new(light, origin - frame, &planes)).collect(),
             has_cones: lights.iter().any(Light::has_cone),

@@ -2,7 +2,7 @@
 
 use catoptra_core::geometry::Plane;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Coefficient, Constant3, Light, Material, Placement, Ray, Rgb, Span};
+use catoptra_core::{Light, LobeKinds, Material, Placement, Ray, Span};
 
 use crate::kernel::End;
 use crate::numeric::magnitude_of;
@@ -11,28 +11,16 @@ use crate::numeric::magnitude_of;
 #[derive(Debug, Clone)]
 pub(crate) struct MaterialRow {
     pub(crate) material: Material,
-    /// Reflectiveness times colour of reflection.
-    pub(crate) tint: Constant3,
-    /// Share that is not reflected.
-    pub(crate) kept: Coefficient,
-    pub(crate) answers_light: bool,
-    /// Whether it reflects anything.
-    pub(crate) reflects: bool,
-    /// Whether its look jumps from one position to the next.
+    /// Which lobes it has.
+    pub(crate) lobes: LobeKinds,
+    /// Whether its look jumps from one position to the next, and is seen.
     pub(crate) is_pattern: bool,
 }
 
 impl MaterialRow {
     pub(crate) fn new(material: &Material) -> Self {
-        let reflected = material.reflectiveness().wide;
-        Self {
-            material: material.clone(),
-            tint: (material.reflection_color().rgb() * reflected).into(),
-            kept: Coefficient::new(1.0 - reflected),
-            answers_light: material.answers_light() && reflected < 1.0,
-            reflects: reflected > 0.0 && material.reflection_color().rgb() != Rgb::BLACK,
-            is_pattern: material.is_pattern() && reflected < 1.0,
-        }
+        let lobes = material.lobe_kinds();
+        Self { material: material.clone(), lobes, is_pattern: material.is_pattern() && lobes.base }
     }
 }
 

@@ -47,7 +47,7 @@ impl Snapshot {
                 + size_of_val(&self.index.tree.nodes[..])
                 + size_of_val(&self.index.tree.order[..]),
             with_kernel: self.prims.len() - self.index.columns.without_kernel(),
-            reflects: self.materials.iter().any(|m| m.reflectiveness().wide > 0.0),
+            reflects: self.has_mirrors,
             shadowing_lights: self.lights.iter().filter(|l| l.shadow()).count(),
             ambient: self.ambient.max_channel() > 0.0,
         }

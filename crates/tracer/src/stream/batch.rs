@@ -7,7 +7,7 @@ use fearless_simd::Simd;
 
 use super::{CameraPackets, Queue};
 use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING};
-use crate::lanes::{Column, F, F3, M, U, load3, magnitude, store3};
+use crate::lanes::{Column, F, F3, M, U, load3, magnitude, storable, store3};
 use crate::search::{Hits, Packet, PreciseRays};
 use crate::{Region, Tile};
 
@@ -74,25 +74,23 @@ impl<S: Simd> Part<'_, S> {
     }
 }
 
-/// Stores the lanes that are finite; others, which are counted, become the largest number where they are past every
-/// number, and 0 where they are none.
+/// Stores what is [storable] of the lanes; those that are not finite are counted.
 #[inline(always)]
 fn store_finite<S: Simd>(s: S, light: F3<S>, radiance: &mut [Column<f32>; 3], at: usize) -> u64 {
     store3(light, radiance, at);
     // Where a number is not finite, the sum is not; the other way round it may be only the sum.
     let all_finite = magnitude(light).less(F::splat(s, f32::INFINITY));
-    if (!all_finite).any() { store_only_finite(s, light, radiance, at) } else { 0 }
+    if (!all_finite).any() { store_only_finite(light, radiance, at) } else { 0 }
 }
 
 #[cold]
 #[inline(never)]
-fn store_only_finite<S: Simd>(s: S, light: F3<S>, radiance: &mut [Column<f32>; 3], at: usize) -> u64 {
+fn store_only_finite<S: Simd>(light: F3<S>, radiance: &mut [Column<f32>; 3], at: usize) -> u64 {
     let mut not_finite = 0;
     for (pixels, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
-        let finite = light.abs().less(F::splat(s, f32::INFINITY));
-        let (zero, most) = (F::splat(s, 0.0), F::splat(s, f32::MAX));
-        F::pick(finite, light, F::pick(zero.less(light), most, zero)).store(&mut pixels[at..]);
-        not_finite += (!finite).count();
+        let (kept, broken) = storable(light);
+        kept.store(&mut pixels[at..]);
+        not_finite += broken.count();
     }
     not_finite
 }
@@ -212,8 +210,7 @@ impl<S: Simd> Batch<S> for Queue {
             let pixel = pixel.lane(lane) as usize;
             for (pixels, light) in tile.radiance.iter_mut().zip([light.x, light.y, light.z]) {
                 let sum = pixels[pixel] + light.lane(lane);
-                let nearest = if sum > 0.0 { f32::MAX } else { 0.0 };
-                pixels[pixel] = if sum.is_finite() { sum } else { nearest };
+                pixels[pixel] = if sum.is_finite() { sum } else { storable(f64::from(sum)).0 as f32 };
                 not_finite += u64::from(!sum.is_finite());
             }
         }

@@ -1,75 +1,63 @@
-//! Whitted's integrator, one path at a time in `f64`. As every surface sends on at most
-//! one ray, the recursion is a loop that carries the weight of what is still to come.
+//! Whitted's integrator, one path at a time in `f64`. As every surface sends on at most one ray, the recursion is a loop
+//! that carries the weight of what is still to come.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arrival, Light, Ray, Rgb, Span, Triple};
+use catoptra_core::{Arrival, Light, Lobes, Ray, Rgb, Span, Triple};
 
 use crate::Hit;
 use crate::integrator::Search;
 use crate::integrator::walker::{Meeting, Walker};
+use crate::shade::{MirrorNormals, goes_on, mirror_direction};
 
 impl<S: Search> Walker<'_, S> {
     /// The light that arrives along a ray from the camera, and what the ray meets first.
     pub(super) fn follow(&mut self, mut ray: Ray) -> (Rgb, Option<Hit>) {
         let snapshot = self.frame.snapshot;
-        let (mut light, mut weight) = (Rgb::BLACK, Rgb::WHITE);
+        let (mut light, mut weight) = (Rgb::BLACK, Triple::splat(1.0));
         let (mut first, mut leaving) = (None, None);
         self.stats.rays.primary += 1;
         for depth in 0.. {
             let Some(hit) = self.search.nearest(snapshot, &ray, Span::AHEAD, leaving) else {
-                light += weight * snapshot.background();
+                light += rgb(weight) * snapshot.background();
                 break;
             };
             if depth == 0 {
                 first = Some(hit);
             }
             let meeting = self.meet(hit, ray);
-            let reflected = meeting.material.reflectiveness().wide;
-            if reflected < 1.0 {
-                light += weight * (1.0 - reflected) * self.local(&meeting);
+            let lobes = meeting.material.lobes(&meeting.shading);
+            if lobes.share > 0.0 {
+                light += rgb(weight) * lobes.share * self.local(&meeting, &lobes);
             }
-            weight = weight * meeting.material.reflection_color().rgb() * reflected;
-            if !self.goes_on(weight, depth) {
+            let skipped = &mut self.stats.skipped;
+            let Some(mirror) = lobes.mirror else {
+                skipped.not_reflective += 1;
+                break;
+            };
+            weight = weight.times(mirror.tint);
+            if !goes_on(true, weight, depth, self.frame.view, skipped) {
                 break;
             }
             self.stats.rays.reflection += 1;
-            ray = mirror(&meeting);
+            ray = mirrored(&meeting);
             leaving = Some(hit.place);
         }
         (light, first)
     }
 
-    /// Whether a reflection of that weight is traced.
-    fn goes_on(&mut self, weight: Rgb, depth: u32) -> bool {
-        let skipped = &mut self.stats.skipped;
-        let reason = if !(weight.max_channel() > 0.0) {
-            &mut skipped.not_reflective
-        } else if depth >= self.frame.view.max_depth {
-            &mut skipped.depth_limit
-        } else if weight.max_channel() < f64::from(self.frame.view.weight_cutoff) {
-            &mut skipped.weight_cutoff
-        } else {
-            return true;
-        };
-        *reason += 1;
-        false
-    }
-
-    /// The surface's own look: what it shows of itself, of ambient light, and of each light that reaches it.
-    fn local(&mut self, meeting: &Meeting<'_>) -> Rgb {
+    /// What the base shows of itself, of ambient light, and of each light that reaches it.
+    fn local(&mut self, meeting: &Meeting<'_>, lobes: &Lobes<f64>) -> Rgb {
         let snapshot = self.frame.snapshot;
-        let at = &meeting.shading;
-        let ambient: Rgb = rgb(meeting.material.under_ambient(at)) * snapshot.ambient();
-        let mut light = rgb(meeting.material.own(at)) + ambient;
-        if !meeting.material.answers_light() {
+        let mut light = rgb(lobes.unlit(Triple::of(lobes.share, snapshot.ambient_light())));
+        if !lobes.is_lit() {
             self.stats.skipped.unlit_material += snapshot.lights().len() as u64;
             return light;
         }
         for lamp in snapshot.lights() {
             let arrival = lamp.arriving::<f64>(meeting.point.into());
             if let Some(cosine) = self.arrives(meeting, lamp, &arrival) {
-                light += rgb(meeting.material.under_light(at, arrival.towards, cosine))
-                    * rgb(lamp.irradiance(&arrival));
+                let shown = lobes.evaluate(&meeting.shading, arrival.towards, cosine);
+                light += rgb(shown.times(lamp.irradiance(&arrival)));
             }
         }
         light
@@ -97,7 +85,7 @@ impl<S: Search> Walker<'_, S> {
     }
 }
 
-/// The way from a point to a light.
+/// The segment from a point to a light.
 fn shadow_ray(point: DVec3, lamp: &Light) -> Option<(Ray, Span)> {
     match lamp.position() {
         Some(position) => Some((Ray::new(point, position - point), Span::TO_LIGHT)),
@@ -105,13 +93,11 @@ fn shadow_ray(point: DVec3, lamp: &Light) -> Option<(Ray, Span)> {
     }
 }
 
-/// The mirrored ray. Where a smoothed normal would send it through the surface, the surface's own normal is taken.
-fn mirror(meeting: &Meeting<'_>) -> Ray {
-    let d = meeting.ray.direction;
-    let about = |n: DVec3| d - n * (2.0 * d.dot(n));
-    let smooth = about(meeting.shading.normal.into());
-    let direction = if smooth.dot(meeting.normal) > 0.0 { smooth } else { about(meeting.normal) };
-    Ray::new(meeting.point, direction)
+fn mirrored(meeting: &Meeting<'_>) -> Ray {
+    let normal = meeting.normal.into();
+    let normals = MirrorNormals { geometric: normal, shading: Some(meeting.shading.normal), facing: normal };
+    let direction = mirror_direction(meeting.ray.direction.into(), &normals);
+    Ray::new(meeting.point, direction.into())
 }
 
 fn rgb(light: Triple<f64>) -> Rgb {
