@@ -3,8 +3,6 @@
 mod column;
 mod double;
 mod level;
-#[cfg(test)]
-mod lobe_tests;
 mod precise;
 mod prefetch;
 mod storable;

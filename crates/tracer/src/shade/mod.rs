@@ -5,6 +5,8 @@ mod direct_light;
 mod filled;
 mod groups;
 mod hits;
+#[cfg(test)]
+mod lobe_tests;
 mod look;
 mod reflect;
 mod rules;

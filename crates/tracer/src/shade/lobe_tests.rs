@@ -5,7 +5,7 @@ use catoptra_core::lobe::{Diffuse, Phong, PhongModel, PhongShape};
 use catoptra_core::{Scatter, ShadingPoint, Triple};
 use fearless_simd::{Level, Simd};
 
-use super::{F, F3, Work, at_level};
+use crate::lanes::{F, F3, Work, at_level};
 use crate::random::Random;
 
 /// How far directions may lie apart: where 1 − x² is taken of an x near 1, half of the digits are lost.
