@@ -21,6 +21,17 @@ impl<L: Lane> Diffuse<L> {
     pub fn brdf(&self) -> Triple<L> {
         self.albedo.scale(self.albedo.x.of(LAMBERT))
     }
+
+    /// A unit vector on the side of a unit normal, chosen by two numbers in 0..1 with a density of its cosine to the normal
+    /// over π, and that cosine: points spread evenly over the unit disk, raised to the half sphere (Malley's method).
+    #[inline(always)]
+    #[must_use]
+    pub fn direction(normal: Triple<L>, u: [L; 2]) -> (Triple<L>, L) {
+        let disk = Disk::at(u);
+        let zero = disk.radius.number(0.0);
+        let cosine = (zero.number(1.0) - disk.radius * disk.radius).max(zero).sqrt();
+        (about(normal, disk.raised(disk.radius, cosine)), cosine)
+    }
 }
 
 impl<L: Lane> Scatter<L> for Diffuse<L> {
@@ -34,18 +45,11 @@ impl<L: Lane> Scatter<L> for Diffuse<L> {
         cosine * cosine.of(LAMBERT)
     }
 
-    /// By the cosine: points spread evenly over the unit disk, raised to the half sphere (Malley's method).
     #[inline(always)]
     fn sample(&self, at: &ShadingPoint<L>, u: [L; 2]) -> Sample<L> {
-        let disk = Disk::at(u);
-        let zero = disk.radius.number(0.0);
-        let cosine = (zero.number(1.0) - disk.radius * disk.radius).max(zero).sqrt();
-        Sample {
-            towards: about(at.normal, disk.raised(disk.radius, cosine)),
-            cosine,
-            pdf: cosine * cosine.of(LAMBERT),
-            lanes: zero.less(cosine),
-        }
+        let (towards, cosine) = Self::direction(at.normal, u);
+        let lanes = cosine.number(0.0).less(cosine);
+        Sample { towards, cosine, pdf: cosine * cosine.of(LAMBERT), lanes }
     }
 }
 

@@ -3,7 +3,6 @@
 //! An integrator says what light arrives along a camera ray. A new one is its name in `catoptra_core`'s list, one file
 //! here, its `mod` line and its name in the list below.
 
-mod hemisphere;
 mod occlusion;
 mod pixels;
 mod search;

@@ -123,8 +123,8 @@ impl<S: Simd> Searcher<'_, S> {
         for &row in &occluders.planes {
             let plane = &columns.planes[row as usize];
             let blocking = rays.blocked_by_plane(self.s, plane, row);
-            let allowed = open & !rays.leaving.from(self.s, plane.prim, 0);
-            open = self.close(segments, rays, open, allowed, (plane.prim, Some(0)), blocking);
+            let lanes = open & !rays.leaving.from(self.s, plane.prim, 0);
+            open = self.close(segments, rays, open, plane.prim, Obstacle { blocking, facet: Some(0), lanes });
         }
         for &prim in &columns.general_unbounded {
             open = self.close_exactly(segments, rays, open, open, (prim, None));
@@ -161,15 +161,15 @@ impl<S: Simd> Searcher<'_, S> {
         segments: &impl Segments<S>,
         rays: &ShadowRays<'_, S>,
         open: M<S>,
-        allowed: M<S>,
-        surface: (u32, Option<u32>),
-        blocking: Blocking<S>,
+        prim: u32,
+        obstacle: Obstacle<S>,
     ) -> M<S> {
         self.stats.tests.shapes += F::<S>::LANES as u64;
-        let undecided = allowed & blocking.undecided;
-        let left = open & !(allowed & blocking.blocked & !undecided);
+        let Obstacle { blocking, facet, lanes } = obstacle;
+        let undecided = lanes & blocking.undecided;
+        let left = open & !(lanes & blocking.blocked & !undecided);
         if CERTAIN && undecided.any() {
-            self.close_exactly(segments, rays, left, undecided, surface)
+            self.close_exactly(segments, rays, left, undecided, (prim, facet))
         } else {
             left
         }
@@ -246,8 +246,8 @@ impl<S: Simd, G: Segments<S>> KernelVisitor for OccludeBy<'_, '_, '_, S, G> {
             &tried,
             #[inline(always)]
             |obstacle: Obstacle<S>| {
-                let lanes = open & obstacle.lanes;
-                open = search.close(segments, &rays, open, lanes, (prim, obstacle.facet), obstacle.blocking);
+                let obstacle = Obstacle { lanes: open & obstacle.lanes, ..obstacle };
+                open = search.close(segments, &rays, open, prim, obstacle);
             },
         );
         open

@@ -3,12 +3,12 @@
 
 use std::cell::RefCell;
 
+use catoptra_core::lobe::Diffuse;
 use catoptra_core::{Lane, LaneMask};
 use fearless_simd::{Level, Simd};
 
 use super::DIRECTION;
 use crate::cull::{Candidates, Frustum};
-use crate::integrator::hemisphere::cosine_weighted;
 use crate::kernel::mesh::Visits;
 use crate::lanes::{F, F3, M, U, Work, at_level, narrow3, outlined, share_of_one, splat3, widen3};
 use crate::sampler::Sampler;
@@ -135,7 +135,8 @@ impl<S: Simd> OcclusionTracer<'_, S> {
         let facing = |v: F3<S>| F3::select(away, F3::new(-v.x, -v.y, -v.z), v);
         let [x, y] = camera.pixels_of_picture(s, packet.at);
         let numbers = Sampler::new(self.frame.view.seed, x, y).pair(U::splat(s, sample), DIRECTION);
-        let direction = cosine_weighted(facing(narrow3(refined.shading)), numbers.map(share_of_one));
+        let normal = facing(narrow3(refined.shading));
+        let (direction, _) = Diffuse::direction(normal, numbers.map(share_of_one));
         let above = lanes & F::splat(s, 0.0).less(direction.dot(facing(geometric)));
         self.search.stats.skipped.below_surface += lanes.count() - above.count();
         self.queue.push(

@@ -1,12 +1,12 @@
 //! Ambient occlusion, one path at a time in `f64`.
 
 use catoptra_core::glam::DVec3;
+use catoptra_core::lobe::Diffuse;
 use catoptra_core::{Ray, Rgb, Span};
 
 use super::DIRECTION;
 use crate::Hit;
 use crate::integrator::Search;
-use crate::integrator::hemisphere::cosine_weighted;
 use crate::integrator::walker::{CameraRay, Meeting, Walker};
 use crate::sampler::share;
 
@@ -19,8 +19,8 @@ impl<S: Search> Walker<'_, S> {
         };
         let meeting = self.meet(hit, camera.ray);
         let numbers = camera.sampler.pair(camera.sample, DIRECTION).map(share);
-        let direction = cosine_weighted(meeting.shading.normal, numbers).into();
-        let light = if self.sees_sky(&meeting, direction) { Rgb::WHITE } else { Rgb::BLACK };
+        let (direction, _) = Diffuse::direction(meeting.shading.normal, numbers);
+        let light = if self.sees_sky(&meeting, direction.into()) { Rgb::WHITE } else { Rgb::BLACK };
         (light, Some(hit))
     }
 
