@@ -243,8 +243,9 @@ fn a_crop_has_the_bits_of_the_whole_picture() {
     }
 }
 
-/// One pixel in a thousand may see another surface or another sky.
-const RATES: Rates = Rates { surfaces: 1e-3, colors: 1e-3 };
+/// One pixel in a thousand may see another surface, one in a hundred another sky: where a row of samples lies exactly where
+/// a wall stands on the floor, as in `directional.kdl`, the last bit of a point decides what hides the sky from it.
+const RATES: Rates = Rates { surfaces: 1e-3, colors: 1e-2 };
 
 #[test]
 fn every_backend_shows_shares_of_the_sky_and_those_of_the_oracle_on_every_scene() {

@@ -75,6 +75,12 @@ pub(crate) const EDGE_ERROR: f32 = 24.0 * U;
 /// coordinates), with room to spare.
 pub(crate) const PLAN_MARGIN: f64 = 1.0 / (1_u64 << 18) as f64;
 
+/// Share of the way from a light by which points are taken to lie nearer to its cone than they do. `f32` knows the cosine
+/// of a point's angle to the axis to 20 u, below 2⁻¹⁹ (six roundings of each coordinate of a unit vector, whose difference
+/// to another is up to 2 long, and four of half its square, up to 2): for a cone of all but a full turn, whose rim is a
+/// small circle round the axis, that is an angle of up to √(2 · 2⁻¹⁹).
+pub(crate) const CONE_MARGIN: f64 = 1.0 / (1_u32 << 9) as f64;
+
 /// Far ends of box intervals are stretched by 1 + 2γ₃ (Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013), with two
 /// more roundings for a direction that was itself converted and scaled, and one for the box that was widened: 1 + 2γ₆.
 pub(crate) const BOX_STRETCH: f32 = 1.0 + 12.0 * U / (1.0 - 6.0 * U);

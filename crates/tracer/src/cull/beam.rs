@@ -13,11 +13,11 @@ use crate::snapshot::{Ball, Columns};
 pub(crate) struct Beam {
     /// Which shape they leave.
     pub(crate) prim: u32,
-    center: DVec3,
-    half: DVec3,
+    pub(super) center: DVec3,
+    pub(super) half: DVec3,
     /// Middle of the unit directions.
-    axis: DVec3,
-    half_spread: DVec3,
+    pub(super) axis: DVec3,
+    pub(super) half_spread: DVec3,
 }
 
 /// Where the rays of a beam meet a plane.
@@ -132,6 +132,7 @@ impl Beam {
         let behind = row.distance - row.normal.dot(self.center);
         let slope = row.normal.dot(self.axis);
         let margin = PLAN_MARGIN * (row.distance.abs() + self.center.abs().element_sum());
+        let margin = margin + row.distance_error();
         let (off, lean) = (size.dot(self.half) + margin, size.dot(self.half_spread));
         if (behind > off && slope < -lean) || (behind < -off && slope > lean) {
             return Crosses::Never;

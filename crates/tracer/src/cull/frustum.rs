@@ -72,9 +72,17 @@ impl Frustum {
         Beam::new(NOTHING, Aabb::of([self.eye]), Aabb::of(self.corners.map(|corner| corner / length)))
     }
 
-    /// 1 / t of a plane along the four corners.
+    /// How far the eye lies on the side of a plane that its normal does not point to, to a share of [`PLAN_MARGIN`]; `None`
+    /// where that is not known so well.
+    fn behind(&self, row: &PlaneRow) -> Option<f64> {
+        let behind = row.distance - row.normal.dot(self.eye);
+        let error = row.distance_error() + PLAN_MARGIN * PLAN_MARGIN * self.eye.abs().element_sum();
+        (behind.abs() * PLAN_MARGIN > error).then_some(behind)
+    }
+
+    /// 1 / t of a plane along the four corners; NaN where the eye lies in it, as far as that is known.
     pub(crate) fn inverse_t(&self, row: &PlaneRow) -> [f64; 4] {
-        let inverse = 1.0 / (row.distance - row.normal.dot(self.eye));
+        let inverse = self.behind(row).map_or(f64::NAN, f64::recip);
         let (normal, [a, b, c, d]) = (row.normal, &self.corners);
         [
             normal.dot(*a) * inverse,
@@ -115,12 +123,16 @@ impl Frustum {
             return Coverage::Nothing;
         }
         let [a, b, c] = corners;
-        let turn = a.cross(b).dot(c).signum();
+        let volume = a.cross(b).dot(c);
+        // The eye may lie on the other side of so flat a face, as its corners are rounded.
+        if !(volume.abs() > margin * size * size) {
+            return Coverage::Part;
+        }
         let longest = self.corners.iter().map(|corner| corner.length()).fold(0.0, f64::max);
         let margin = margin * size * longest;
         let mut all = true;
         for side in [a.cross(b), b.cross(c), c.cross(a)] {
-            let off = self.corners.map(|corner| turn * side.dot(corner));
+            let off = self.corners.map(|corner| volume.signum() * side.dot(corner));
             if off.iter().all(|off| *off < -margin) {
                 return Coverage::Nothing;
             }
@@ -185,7 +197,6 @@ impl Frustum {
 
     /// Whether a plane cannot stand between the eye and a place.
     pub(crate) fn is_free_of(&self, row: &PlaneRow, place: &PointBounds) -> bool {
-        let behind = row.distance - row.normal.dot(self.eye);
-        behind != 0.0 && !place.may_lie_beyond(row, behind)
+        self.behind(row).is_some_and(|behind| !place.may_lie_beyond(row, behind))
     }
 }

@@ -7,6 +7,8 @@ mod darkness;
 mod frustum;
 mod plan;
 mod point_bounds;
+#[cfg(test)]
+mod properties;
 
 pub(crate) use beam::Beam;
 pub(crate) use candidates::Candidates;

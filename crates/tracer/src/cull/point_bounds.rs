@@ -4,7 +4,7 @@ use catoptra_core::Aabb;
 use catoptra_core::glam::DVec3;
 
 use crate::kernel::PlaneRow;
-use crate::numeric::PLAN_MARGIN;
+use crate::numeric::{CONE_MARGIN, PLAN_MARGIN};
 use crate::snapshot::{Ball, LightRow};
 
 /// A box round the points that are seen of one shape.
@@ -32,12 +32,14 @@ impl PointBounds {
         let middle = row.distance - row.normal.dot(self.center);
         let spread = row.normal.abs().dot(self.half);
         let least = if behind > 0.0 { middle - spread } else { -middle - spread };
-        !(least > PLAN_MARGIN * (row.distance.abs() + self.center.abs().element_sum()))
+        let margin = PLAN_MARGIN * (row.distance.abs() + self.center.abs().element_sum());
+        !(least > margin + row.distance_error())
     }
 
     /// Whether anything may arrive from a light.
     pub(crate) fn is_reached_by(&self, light: &LightRow) -> bool {
-        light.light.may_reach(self.center, self.radius * (1.0 + PLAN_MARGIN))
+        let farthest = light.place.distance(self.center) + self.radius;
+        light.light.may_reach(self.center, self.radius * (1.0 + PLAN_MARGIN) + CONE_MARGIN * farthest)
     }
 
     /// Whether the ways from the points to a light may meet a ball.

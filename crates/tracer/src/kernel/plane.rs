@@ -42,6 +42,12 @@ impl PlaneRow {
         }
     }
 
+    /// How far `distance` may be off, as `f64` loses digits where the sum that makes it cancels.
+    pub(crate) fn distance_error(&self) -> f64 {
+        let cancelled = self.reach - magnitude_of(self.normal * self.distance) + self.reach * f32::EPSILON;
+        f64::from(cancelled.max(0.0) * POINT_ERROR)
+    }
+
     /// Signed distances of the origins from the plane, positive on the side the normal does not point to, and the
     /// bound on their error.
     #[inline(always)]
