@@ -138,11 +138,7 @@ fn not_utf8(error: &std::string::FromUtf8Error, name: &str) -> SceneTextError {
     let text = String::from_utf8_lossy(error.as_bytes());
     let mut complaints = Complaints::new();
     let message = format!("byte {valid} of the file is no UTF-8 text");
-    let help = match error.as_bytes() {
-        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "this looks like UTF-16: save the file as UTF-8",
-        _ => "save the file as UTF-8",
-    };
-    complaints.add_with(valid..valid + 3, message, help);
+    complaints.add_with(valid..valid + 3, message, "save the file as UTF-8");
     complaints.into_error(name, &text)
 }
 

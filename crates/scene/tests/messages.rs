@@ -151,7 +151,7 @@ fn text_of_sixteen_bits_is_named() {
     let wide: Vec<u8> = "\u{feff}matte \"w\"".encode_utf16().flat_map(u16::to_le_bytes).collect();
     std::fs::write(&path, wide).unwrap();
     let Err(error) = catoptra_scene::load(&path) else { panic!("was read") };
-    assert!(error.hint().unwrap().contains("UTF-16"), "{error}");
+    assert!(error.to_string().contains("UTF-16") && error.hint().unwrap().contains("UTF-8"), "{error}");
     // Without its mark it is text with a NUL behind every letter.
     let wide: String = "matte \"w\" { color 1 1 1 }".chars().flat_map(|c| [c, '\0']).collect();
     let error = refused(&wide);
