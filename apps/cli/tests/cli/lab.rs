@@ -84,3 +84,23 @@ fn case_files_that_are_none_are_refused_by_line() {
     assert_refused(folder.path(), &["lab", "answer", "none.cases", "out"], &["none.cases"]);
     assert!(!folder.path().join("out").exists());
 }
+
+/// A floor, seen from above, and three lights: in the floor's own plane, below it, above it.
+const LIGHT_IN_A_PLANE: &str = "STRESS 1\nS 1 1 open\n\
+    P 00000000 00000000 00000000 00000000 3f800000 00000000\n\
+    W 1 in 1 00000000 3f800000 00000000 3f000000 bf800000 00000000 40400000 00000000 3f800000\n\
+    W 2 below 1 00000000 3f800000 00000000 3f000000 bf800000 00000000 40400000 bf800000 3f800000\n\
+    W 3 above 1 00000000 3f800000 00000000 3f000000 bf800000 00000000 40400000 3f800000 3f800000\n";
+
+#[test]
+fn a_segment_within_a_plane_does_not_hit_it() {
+    let folder = folder();
+    std::fs::write(folder.path().join("some.cases"), LIGHT_IN_A_PLANE).expect("cases are written");
+    for backend in ["wide", "scalar", "oracle"] {
+        let ran = catoptra(folder.path(), &["lab", "answer", "some.cases", "out", "--backend", backend]);
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        let answers = std::fs::read_to_string(folder.path().join("out")).expect("answers");
+        let answers: Vec<&str> = answers.lines().filter(|line| line.starts_with(char::is_numeric)).collect();
+        assert_eq!(answers, ["1 0", "2 1", "3 0"], "{backend}");
+    }
+}

@@ -2,7 +2,7 @@
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::optics::{reflect, refract};
-use catoptra_core::{Crossing, Ray, Span};
+use catoptra_core::{Crossing, Ray, Shape, Span};
 use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
 use catoptra_tracer::{Backend, Pool, Snapshot, SurfaceId};
 
@@ -91,10 +91,9 @@ impl Staged<'_> {
 
     /// Whether a light is on the other side of the surface than the ray comes from, or something stands before it.
     fn is_hidden(&self, ray: &Ray, place: SurfaceId, t: f64, light: DVec3) -> bool {
-        let Some(crossing) = self.crossing(ray, place, t) else { return true };
         let point = ray.at(t);
         let towards = light - point;
-        if towards.dot(crossing.normal) * ray.direction.dot(crossing.normal) >= 0.0 {
+        if self.faces_away(ray, place, t, light) {
             return true;
         }
         let mut ways = RayList::new();
@@ -103,6 +102,18 @@ impl Staged<'_> {
         let mut hidden = Vec::new();
         find_occluded(self.asked.backend, self.snapshot, &ways, &mut hidden, self.asked.pool);
         hidden.contains(&true)
+    }
+
+    /// Whether a light is on the other side of the surface than the ray comes from. One that lies in a plane is on neither: a
+    /// segment within a plane does not hit it.
+    fn faces_away(&self, ray: &Ray, place: SurfaceId, t: f64, light: DVec3) -> bool {
+        if let Shape::Plane(plane) = &self.snapshot.prims()[place.prim as usize].shape {
+            let side = |point: DVec3| plane.side_of(self.snapshot.own_ray(&Ray::new(point, DVec3::X)).origin);
+            let of_light = side(light);
+            return of_light.is_ne() && of_light != side(ray.origin);
+        }
+        let Some(crossing) = self.crossing(ray, place, t) else { return true };
+        (light - ray.at(t)).dot(crossing.normal) * ray.direction.dot(crossing.normal) >= 0.0
     }
 
     /// Follows a ray over `count` surfaces, each of which turns its unit direction.
