@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use catoptra_core::srgb_decoded;
 use catoptra_lab::Picture;
 use catoptra_scene::image::read_png;
 use exr::prelude::{ReadChannels, ReadLayers};
@@ -28,16 +29,11 @@ impl Stored {
         }
         let decoded = |x: u32, y: u32| {
             let at = y as usize * self.values.width() as usize + x as usize;
-            self.values.pixels()[at].map(srgb_to_linear)
+            self.values.pixels()[at].map(|encoded| srgb_decoded(f64::from(encoded)) as f32)
         };
         Picture::painted(self.values.width(), self.values.height(), decoded)
             .unwrap_or_else(|_| self.values.clone())
     }
-}
-
-/// The sRGB transfer function, IEC 61966-2-1, from the encoded value to light.
-fn srgb_to_linear(encoded: f32) -> f32 {
-    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
 /// Reads a PNG or an EXR; the ending of the name decides.
@@ -81,15 +77,4 @@ fn exr_values(path: &Path) -> Result<Picture> {
 
 fn unreadable(path: &Path, reason: &dyn std::fmt::Display) -> Report {
     miette!("{} cannot be read: {reason}", path.display())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::srgb_to_linear;
-
-    #[test]
-    fn srgb_keeps_black_and_white_and_darkens_the_middle() {
-        assert_eq!((srgb_to_linear(0.0), srgb_to_linear(1.0)), (0.0, 1.0));
-        assert!((srgb_to_linear(0.5) - 0.214_041).abs() < 1e-6);
-    }
 }

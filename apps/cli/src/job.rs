@@ -4,11 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use catoptra_core::{Camera, EntityId, Integrator, Role, Scene};
+use catoptra_core::{Camera, EntityId, Role, Scene};
 use catoptra_scene::SceneFile;
 use catoptra_tracer::{
     Backend, Cancelled, Control, Film, Instructions, Pattern, Pool, Region, Size, Snapshot, Stats, View,
-    backend_named, backends, render,
+    render,
 };
 use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
 
@@ -16,6 +16,8 @@ use crate::args::{JobArgs, STANDARD};
 use crate::console::warn;
 use crate::destination::{Input, Output, check_apart};
 use crate::memory;
+use crate::names::{find_backend, find_instructions, find_integrator, find_pattern};
+use crate::pool::{milliseconds_since, new_pool};
 use crate::suggest::unknown;
 
 /// How frames are made, whatever they show: the names that need no scene to be looked up.
@@ -123,44 +125,8 @@ fn warn_of_idle(args: &JobArgs) {
     }
 }
 
-/// The threads to trace with; one per core unless said.
-pub(crate) fn new_pool(threads: Option<u16>) -> Result<Pool> {
-    Pool::new(threads.map_or(0, usize::from))
-        .map_err(|error| miette!(help = "ask for fewer with --threads", "{error}"))
-}
-
-pub(crate) fn milliseconds_since(started: Instant) -> f64 {
-    started.elapsed().as_secs_f64() * 1e3
-}
-
 fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
-}
-
-pub(crate) fn find_backend(name: &str) -> Result<&'static dyn Backend> {
-    let names = || backends().iter().map(|backend| backend.name()).collect::<Vec<_>>();
-    backend_named(name).ok_or_else(|| unknown("backend", name, &names()))
-}
-
-fn find_integrator(name: &str) -> Result<Integrator> {
-    Integrator::named(name).ok_or_else(|| unknown("integrator", name, Integrator::NAMES))
-}
-
-fn find_pattern(name: &str) -> Result<Pattern> {
-    let names: Vec<&str> = Pattern::ALL.iter().map(|pattern| pattern.name()).collect();
-    Pattern::named(name).ok_or_else(|| unknown("pattern of samples", name, &names))
-}
-
-/// The instructions of that name; an error where there are none such, or not on this CPU.
-fn find_instructions(name: &str) -> Result<Instructions> {
-    let here: Vec<&str> = Instructions::all().into_iter().map(Instructions::name).collect();
-    Instructions::named(name).ok_or_else(|| {
-        if Instructions::NAMES.contains(&name) {
-            miette!(help = format!("it has: {}", here.join(", ")), "this CPU has no {name}")
-        } else {
-            unknown("level of instructions", name, &here)
-        }
-    })
 }
 
 /// A crop that lies within the picture.

@@ -12,7 +12,9 @@ mod interrupt;
 mod job;
 mod lab;
 mod memory;
+mod names;
 mod output;
+mod pool;
 mod progress;
 mod render;
 #[cfg(unix)]

@@ -96,3 +96,30 @@ impl Div<f64> for Rgb {
         self.map(|v| v / k)
     }
 }
+
+/// The sRGB transfer function (IEC 61966-2-1) from linear light to the encoded value, for 0..=1.
+#[must_use]
+pub fn srgb_encoded(linear: f64) -> f64 {
+    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// The sRGB transfer function (IEC 61966-2-1) from the encoded value to linear light, for 0..=1.
+#[must_use]
+pub fn srgb_decoded(encoded: f64) -> f64 {
+    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_srgb_curve_keeps_black_and_white_and_is_undone() {
+        assert_eq!([0.0, 1.0].map(srgb_decoded), [0.0, 1.0]);
+        assert!((srgb_decoded(0.5) - 0.214_041).abs() < 1e-6);
+        for i in 0..=1000 {
+            let light = f64::from(i) / 1000.0;
+            assert!((srgb_decoded(srgb_encoded(light)) - light).abs() < 1e-6, "{light}");
+        }
+    }
+}

@@ -29,7 +29,7 @@ pub mod scene;
 
 pub use bounds::Aabb;
 pub use camera::{Aim, Camera, Raster};
-pub use color::Rgb;
+pub use color::{Rgb, srgb_decoded, srgb_encoded};
 pub use error::InvalidPart;
 pub use geometry::{Geometry, Shape, TriangleMesh};
 pub use glam;

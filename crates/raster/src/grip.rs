@@ -99,9 +99,9 @@ fn nearest_on_ring(stage: &Stage<'_>, cone: &Cone, half: f64, pointer: (f64, f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::overlay::OverlayStyle;
     use crate::projection::Projection;
     use crate::sample;
+    use crate::style::OverlayStyle;
     use catoptra_core::scene::Scene;
 
     fn stage(scene: &Scene) -> Stage<'_> {

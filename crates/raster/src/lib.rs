@@ -23,11 +23,13 @@ mod projection;
 mod sample;
 mod sight;
 mod stage;
+mod style;
 mod tint;
 
 pub use depth::DepthField;
 pub use grip::{Ring, RingGrip};
 pub use layer::{Layer, blend_over};
-pub use overlay::{Overlay, OverlayStyle};
+pub use overlay::Overlay;
 pub use projection::{Projected, Projection};
+pub use style::OverlayStyle;
 pub use tiny_skia::{IntRect, Pixmap};

@@ -8,52 +8,9 @@ use crate::layer::Layer;
 use crate::projection::Projection;
 use crate::sight::Sight;
 use crate::stage::Stage;
+use crate::style::OverlayStyle;
 use catoptra_core::Camera;
 use catoptra_core::scene::{EntityId, Scene};
-
-/// Which gizmos are shown, and how large.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct OverlayStyle {
-    /// The ground grid at height 0.
-    pub grid: bool,
-    /// The axes of the world.
-    pub axes: bool,
-    /// Marks of point, spot and directional lights.
-    pub lights: bool,
-    /// Cones of spot lights.
-    pub cones: bool,
-    /// Bounds of what is selected.
-    pub selection: bool,
-    /// Frusta of the scene's cameras.
-    pub cameras: bool,
-    /// Pixels in a pixel of an ordinary display: 2 doubles all widths and marks. Held to 0.25 to 16; NaN counts as 1.
-    pub scale: f32,
-}
-
-impl Default for OverlayStyle {
-    /// Everything, for a display of scale 1.
-    fn default() -> Self {
-        Self { grid: true, axes: true, lights: true, cones: true, selection: true, cameras: true, scale: 1.0 }
-    }
-}
-
-impl OverlayStyle {
-    /// Nothing at all; a start for `OverlayStyle { axes: true, ..OverlayStyle::NONE }`.
-    pub const NONE: Self = Self {
-        grid: false,
-        axes: false,
-        lights: false,
-        cones: false,
-        selection: false,
-        cameras: false,
-        scale: 1.0,
-    };
-
-    /// The scale within its range.
-    pub(crate) fn scale(&self) -> f32 {
-        if self.scale.is_nan() { 1.0 } else { self.scale.clamp(0.25, 16.0) }
-    }
-}
 
 /// All that is drawn over one traced picture; what it shows can be clicked and dragged where it shows it.
 #[derive(Debug, Clone, Copy)]

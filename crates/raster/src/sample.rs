@@ -1,6 +1,7 @@
 //! A scene with something for every gizmo, for tests.
 
-use crate::overlay::{Overlay, OverlayStyle};
+use crate::overlay::Overlay;
+use crate::style::OverlayStyle;
 use catoptra_core::glam::DVec3;
 use catoptra_core::scene::{EntityId, Scene};
 use catoptra_core::{Camera, Kind, Light, Material, Rgb, Shape, Value, Values};

@@ -1,7 +1,7 @@
 //! What do gizmos see of the scene?
 
-use crate::overlay::OverlayStyle;
 use crate::projection::Projection;
+use crate::style::OverlayStyle;
 use crate::tint::Tint;
 use catoptra_core::glam::DVec3;
 use catoptra_core::scene::{EntityId, Role, Scene};

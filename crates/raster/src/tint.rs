@@ -1,6 +1,6 @@
 //! In which colour is a gizmo drawn?
 
-use catoptra_core::Rgb;
+use catoptra_core::{Rgb, srgb_encoded};
 use tiny_skia::Color;
 
 /// A display colour, sRGB encoded, without opacity.
@@ -29,7 +29,7 @@ impl Tint {
             return Tint(150, 150, 150);
         }
         let channel = |value: f64| {
-            let encoded = srgb((value / brightest).clamp(0.0, 1.0));
+            let encoded = srgb_encoded((value / brightest).clamp(0.0, 1.0));
             (255.0 * (encoded + (1.0 - encoded) * 0.125)).round() as u8
         };
         Tint(channel(power.r), channel(power.g), channel(power.b))
@@ -49,11 +49,6 @@ impl Tint {
         let alpha = (255.0 * opacity.clamp(0.0, 1.0)).round() as u8;
         Color::from_rgba8(self.0, self.1, self.2, alpha)
     }
-}
-
-/// The transfer curve of IEC 61966-2-1, for values from 0 to 1.
-fn srgb(linear: f64) -> f64 {
-    if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
 #[cfg(test)]

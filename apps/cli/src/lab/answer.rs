@@ -12,8 +12,9 @@ use miette::{Result, miette};
 use crate::Outcome;
 use crate::console::print;
 use crate::destination::{check_apart, check_writable};
-use crate::job::{find_backend, new_pool};
+use crate::names::find_backend;
 use crate::output::write_file;
+use crate::pool::new_pool;
 
 #[derive(Args)]
 pub(crate) struct AnswerArgs {

@@ -17,7 +17,8 @@ use miette::{IntoDiagnostic, Report, Result, miette};
 
 use crate::Outcome;
 use crate::console::{check_heard, print_answer};
-use crate::job::{find_backend, milliseconds_since, new_pool};
+use crate::names::find_backend;
+use crate::pool::{milliseconds_since, new_pool};
 use crate::suggest::unknown;
 
 #[derive(Args)]

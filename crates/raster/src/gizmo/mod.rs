@@ -12,8 +12,8 @@ mod mark;
 mod point_light;
 
 use crate::canvas::Canvas;
-use crate::overlay::OverlayStyle;
 use crate::stage::Stage;
+use crate::style::OverlayStyle;
 use catoptra_core::glam::DVec3;
 use catoptra_core::scene::EntityId;
 

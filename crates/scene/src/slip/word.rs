@@ -1,6 +1,7 @@
 //! What does KDL take a word for: a number, a name, a keyword, a property?
 
 use super::number::is_number;
+use catoptra_core::srgb_decoded;
 
 /// Words that need a `#` in KDL.
 pub(super) const KEYWORDS: &[&str] = &["true", "false", "null", "nan", "inf", "-inf"];
@@ -53,8 +54,7 @@ pub(super) fn color(word: &str) -> Option<String> {
     let channel = |i: usize| {
         let value = u8::from_str_radix(&digits[i * width..(i + 1) * width], 16).ok()?;
         let encoded = f64::from(value) / if width == 1 { 15.0 } else { 255.0 };
-        let linear = if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) };
-        Some(crate::write::number((linear * 1000.0).round() / 1000.0))
+        Some(crate::write::number((srgb_decoded(encoded) * 1000.0).round() / 1000.0))
     };
     Some([channel(0)?, channel(1)?, channel(2)?].join(" "))
 }

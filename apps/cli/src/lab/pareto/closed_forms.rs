@@ -8,7 +8,7 @@ use catoptra_tracer::{Control, Film, Size, Snapshot, View, render};
 use miette::{IntoDiagnostic, Result, miette};
 
 use super::{Lab, Question, Way, parsed};
-use crate::job::find_backend;
+use crate::names::find_backend;
 
 const SIZE: Size = Size::new(200, 150);
 

@@ -20,8 +20,9 @@ use miette::{IntoDiagnostic, Result, WrapErr};
 use crate::Outcome;
 use crate::console::print;
 use crate::destination::check_folder;
-use crate::job::{find_backend, new_pool};
+use crate::names::find_backend;
 use crate::output::write_file;
+use crate::pool::new_pool;
 
 #[derive(Args)]
 pub(crate) struct ParetoArgs {

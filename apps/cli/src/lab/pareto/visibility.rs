@@ -12,7 +12,7 @@ use catoptra_tracer::query::{HitList, RayList, find_nearest};
 use miette::{IntoDiagnostic, Result};
 
 use super::{Lab, Question, Way};
-use crate::job::find_backend;
+use crate::names::find_backend;
 
 /// Pairs of a ray and a triangle of each sort.
 const PAIRS: usize = 100_000;
