@@ -105,14 +105,14 @@ const W: f64 = catoptra_core::numeric::UNIT_ROUNDOFF_F64;
 ///
 /// Edge and corner are differences, off by uL and uP. A component of their cross product is off by 2 (uL·P + L·uP) from
 /// those and by 3uLP from two products and a difference: 7uLP; the sum of three products adds γ₃·2LP: 13u, rounded up.
-pub(crate) const MEET_EDGE_ERROR: f64 = 16.0 * W;
+pub(crate) const PRECISE_EDGE_ERROR: f64 = 16.0 * W;
 
 /// Error of a slope `(e × f) · d` in `f64`, relative to |d|₁ L²: 13u as above, rounded up.
-pub(crate) const MEET_SLOPE_ERROR: f64 = 16.0 * W;
+pub(crate) const PRECISE_SLOPE_ERROR: f64 = 16.0 * W;
 
 /// Error of `(e × f) · p` in `f64`, relative to L² P: 7u in each of three components, 2u for each of the corner's, and
 /// γ₃·6 for the sum of products: 45u, rounded up.
-pub(crate) const MEET_TOP_ERROR: f64 = 48.0 * W;
+pub(crate) const PRECISE_TOP_ERROR: f64 = 48.0 * W;
 
 /// Error of where an edge from a to b crosses a plane, in `f64` relative to |a| + |b|: three differences, a product and a
 /// quotient of the share that is at most 1 (5u), the sum (u); rounded up for the sum that widens by it.
@@ -120,11 +120,11 @@ pub(crate) const CLIP_ERROR: f64 = 8.0 * W;
 
 /// How far a box is widened for one ray, per metre of the origin's largest coordinate: the origin is rounded once, and
 /// once more when it is widened.
-pub(crate) const LONE_PAD: f32 = 4.0 * U;
+pub(crate) const SINGLE_RAY_PAD: f32 = 4.0 * U;
 
-/// What an origin that is off by a metre counts among the coordinates that the bounds of a lone ray go by: they hold a
+/// What an origin that is off by a metre counts among the coordinates that the bounds of a single ray go by: they hold a
 /// rounding of it, u of its largest coordinate along every axis.
-pub(crate) const LONE_OFF: f32 = 1.0 / U;
+pub(crate) const SINGLE_RAY_OFF: f32 = 1.0 / U;
 
 /// Error of an edge value of sheared corners: X (a X + b H) + (c H)², X the largest sheared coordinate, H the largest
 /// coordinate of a corner plus that of the origin. These are a, b and c.
@@ -133,54 +133,54 @@ pub(crate) const LONE_OFF: f32 = 1.0 / U;
 /// where the shear takes at most all of it over; the shear is itself rounded, uH, and so is the sheared coordinate:
 /// η = u (X + 5H). Each of an edge value's two products is off by 2Xη + η², and they are rounded together by 3uX²:
 /// 4uX² + 20uXH + 3uX² + 2η². In η², X counts where it is below H u; above it 2η² adds less than u (X² + XH).
-pub(crate) const LONE_SPREAD: f32 = 9.0 * U;
-/// As [`LONE_SPREAD`].
-pub(crate) const LONE_SHARE: f32 = 24.0 * U;
-/// As [`LONE_SPREAD`].
-pub(crate) const LONE_FLOOR: f32 = 12.0 * U;
+pub(crate) const SINGLE_RAY_SPREAD: f32 = 9.0 * U;
+/// As [`SINGLE_RAY_SPREAD`].
+pub(crate) const SINGLE_RAY_SHARE: f32 = 24.0 * U;
+/// As [`SINGLE_RAY_SPREAD`].
+pub(crate) const SINGLE_RAY_FLOOR: f32 = 12.0 * U;
 
-/// Error of the depth z of a crossing along a lone ray, beside the [`LONE_SHARE`] of H that corners are off by (6u), their
+/// Error of the depth z of a crossing along a single ray, beside the [`SINGLE_RAY_SHARE`] of H that corners are off by (6u), their
 /// differences, products and sum, at most 2H each (6u), a sum of edge values, a quotient and a product (8u) and the last sum
 /// (u): in units of E D / A, E the error of an edge value, D the corners' spread along the ray, A the three edge values' sum.
 ///
 /// A is off by 3E, so where it is beyond twice this many E three quarters of it are certain; of the depth's two terms each
 /// is off by ED and A's own error by 3ED: 5ED over three quarters of A, rounded up.
 /// Products that underflow are off by at most 2⁻¹⁴⁹ each, which the least normal number added to them has room for.
-pub(crate) const LONE_STEEP: f32 = 8.0;
+pub(crate) const SINGLE_RAY_STEEP: f32 = 8.0;
 
 /// Error of `t` from that depth, relative to itself: two roundings; and of a `t` that is rounded to `f32`, of the ends of a
 /// stretch, and of a sum of these: rounded up.
-pub(crate) const LONE_DEPTH: f32 = 8.0 * U;
+pub(crate) const SINGLE_RAY_DEPTH: f32 = 8.0 * U;
 
 /// Error of the slopes of rays through one point: computed in `f64` and rounded once; they are below 2.
-pub(crate) const FAN_SLOPE: f32 = 2.0 * U;
+pub(crate) const BUNDLE_SLOPE: f32 = 2.0 * U;
 
 /// How far a box is widened for rays through one point, per metre of the largest coordinates of mesh and point together:
 /// subtraction, point and slope are off by at most 2u, u and 2u of it, and the product with a slope below 2 by 2u more;
 /// doubled for the slope.
-pub(crate) const FAN_PAD: f32 = 16.0 * U;
+pub(crate) const BUNDLE_PAD: f32 = 16.0 * U;
 
 /// How far the slopes at which a box is seen may be off: those that rays below 2 are compared with, by a difference, a
 /// quotient's and a product's roundings, 3u of 2; rounded up.
-pub(crate) const FAN_BOX: f32 = 8.0 * U;
+pub(crate) const BUNDLE_BOX: f32 = 8.0 * U;
 
 /// Error of n·(u, v, 1), n = e × p, of rays through one point, relative to the sum of its products' sizes: edge and corner
 /// are rounded differences, a product and a component of n are rounded, as are the slopes, and two fused products: 7u,
 /// rounded up. A box of slopes has room for as much again: its middle and its half are rounded, two fused products and a
 /// sum each.
-pub(crate) const FAN_EDGE: f32 = 8.0 * U;
+pub(crate) const BUNDLE_EDGE: f32 = 8.0 * U;
 
 /// Error of n·(u, v, 1) whose n was computed in `f64`, relative to |n|·(|u|, |v|, 1): n and the slopes are rounded once,
 /// and two fused products; rounded up.
-pub(crate) const FAN_PLANE: f32 = 5.0 * U;
+pub(crate) const BUNDLE_PLANE: f32 = 5.0 * U;
 
 /// Error of `(e × f) · p`, relative to the sum of its products' sizes: 3u and 4u in the two products of a component, u in
 /// the corner's, and three sums of products; rounded up.
-pub(crate) const FAN_TOP: f32 = 8.0 * U;
+pub(crate) const BUNDLE_TOP: f32 = 8.0 * U;
 
 /// Error of a depth from roundings alone, relative to itself: a quotient of two rounded numbers, and sums with bounds;
 /// rounded up.
-pub(crate) const FAN_DEPTH: f32 = 8.0 * U;
+pub(crate) const BUNDLE_DEPTH: f32 = 8.0 * U;
 
 /// Error of top₁ n₂ − top₂ n₁ in `f64`, relative to each product: two roundings of products and one of a difference;
 /// rounded up.
@@ -193,11 +193,11 @@ pub(crate) const ORDER_SHEAR: f64 = 256.0 * W;
 
 /// How far lines may pass a point by to be taken for lines through it, per metre that they run: ends of rays that were
 /// given in `f32` lie within a few roundings of each other.
-pub(crate) const FAN_SPREAD: f32 = 64.0 * U;
+pub(crate) const BUNDLE_SPREAD: f32 = 64.0 * U;
 
 /// Most that slopes of rays may be to be traced together: so far below 2 that no error takes them there, which all bounds of
 /// rays through one point rest on.
-pub(crate) const FAN_STEEP: f32 = 1.9;
+pub(crate) const BUNDLE_STEEP: f32 = 1.9;
 
 /// Most that the `t` of a triangle may be off, relative to itself, for its plane to be taken at its word: a 64th of what
 /// `f32` can hold.

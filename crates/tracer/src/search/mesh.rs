@@ -10,7 +10,7 @@ use super::hits::Hits;
 use super::packet::{Packet, PreciseRays, drift};
 use crate::SurfaceId;
 use crate::accel::WIDTH;
-use crate::kernel::mesh::{Bundle, ClosestHit, FanRays, LaneTriangles, Lines, RaySetup};
+use crate::kernel::mesh::{BundledRays, ClosestHit, LaneTriangles, Lines, RayBundle, RaySetup};
 use crate::lanes::{Bits, D, D3, F, M, U, outlined, splat_wide};
 use crate::numeric::{BOUNDS_ERROR, END_ERROR, POINT_ERROR};
 use crate::snapshot::{Affine, Instance};
@@ -46,14 +46,14 @@ impl<S: Simd> Searcher<'_, S> {
         let mut exact = ClosestOfPacket { snapshot, mesh, prim: instance.prim, packet, before: &before };
         let (origin, direction) = self.own_lines(packet, instance);
         let lines = Lines { origin, direction, live: packet.live };
-        let mut rays = [FanRays::nothing(self.s)];
-        let slots = if let Some(bundle) = Bundle::of(self.s, &mut rays, |_| lines, self.reach(instance)) {
+        let mut rays = [BundledRays::nothing(self.s)];
+        let slots = if let Some(bundle) = RayBundle::of(self.s, &mut rays, |_| lines, self.reach(instance)) {
             // From metres to depth.
             let scale = rays[0].scale * packet.inverse_length;
             let (begin, end) = (self.begin(packet, scale), self.end(best, scale));
             rays[0].start(self.s, begin, end, packet.leaving.facets_of(self.s, instance.prim));
-            bundle.fan.search(self.s, &instance.tree.tree, self.visits, &mut rays, &mut exact);
-            self.stats.settled += rays[0].settled;
+            bundle.common_origin.search(self.s, &instance.tree.tree, self.visits, &mut rays, &mut exact);
+            self.stats.settled += rays[0].decided;
             rays[0].slot
         } else {
             self.search_each(packet, &lines, best, instance, &mut exact)

@@ -38,10 +38,10 @@ impl<S: Simd> Searcher<'_, S> {
         let Some(mesh) = snapshot.mesh_at(instance.prim) else { return open };
         let tree = &instance.tree.tree;
         let mut exact = AnyInTheWay { snapshot, mesh, prim: instance.prim, segments, leaving: rays.leaving };
-        let slots = if let Some((fan, mut bundle)) = segments.bundle(self, rays, open, instance) {
-            fan.search(self.s, tree, self.visits, &mut bundle, &mut exact);
-            self.stats.settled += bundle[0].settled;
-            bundle[0].slot
+        let slots = if let Some((common_origin, mut bundle)) = segments.bundle(self, rays, open, instance) {
+            common_origin.search(self.s, tree, self.visits, &mut bundled, &mut exact);
+            self.stats.settled += bundled[0].decided;
+            bundled[0].slot
         } else {
             let (setup, live) = segments.single_rays(self, rays, open, instance, mesh);
             let leaving = rays.leaving.facets_of(self.s, instance.prim);

@@ -8,7 +8,7 @@ use super::Searcher;
 use crate::Snapshot;
 use crate::cull::Candidates;
 use crate::film::NOTHING;
-use crate::kernel::mesh::{Fan, FanRays, RaySetup};
+use crate::kernel::mesh::{BundledRays, CommonOrigin, RaySetup};
 use crate::kernel::{Blocking, Kernel, Leaving, Obstacle, PlaneRow, Rays, Target, Tried};
 use crate::lanes::{Bits, F, M, U};
 use crate::numeric::CERTAIN;
@@ -53,7 +53,7 @@ pub(crate) trait Segments<S: Simd> {
         rays: &ShadowRays<'_, S>,
         open: M<S>,
         instance: &Instance,
-    ) -> Option<(Fan, [FanRays<S>; 1])>;
+    ) -> Option<(CommonOrigin, [BundledRays<S>; 1])>;
 
     /// The open ones as single rays in the mesh's own space, and which of them are rays at all.
     fn single_rays(

@@ -9,7 +9,7 @@ use super::mesh::ends_of_segments;
 use super::occluded::{Segments, ShadowRays};
 use super::packet::{Packet, PreciseRays};
 use crate::Snapshot;
-use crate::kernel::mesh::{Bundle, Fan, FanRays, Lines, RaySetup};
+use crate::kernel::mesh::{BundledRays, CommonOrigin, Lines, RayBundle, RaySetup};
 use crate::lanes::{F, M};
 use crate::snapshot::Instance;
 
@@ -29,18 +29,18 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for OwnSegments<'_, S, P> {
         rays: &ShadowRays<'_, S>,
         open: M<S>,
         instance: &Instance,
-    ) -> Option<(Fan, [FanRays<S>; 1])> {
+    ) -> Option<(CommonOrigin, [BundledRays<S>; 1])> {
         let s = search.s;
         let [start, end] = self.0.precise.ends(s, self.0.at);
         let (start, end) = (instance.own_points(s, start), instance.own_points(s, end));
         let ahead = Lines { origin: start, direction: end - start, live: open };
         let back = Lines { origin: end, direction: start - end, live: open };
-        let (mut bundled, reach) = ([FanRays::nothing(s)], search.reach(instance));
-        let bundle = Bundle::of(s, &mut bundled, |_| ahead, reach)
-            .or_else(|| Bundle::of(s, &mut bundled, |_| back, reach))?;
+        let (mut bundled, reach) = ([BundledRays::nothing(s)], search.reach(instance));
+        let bundle = RayBundle::of(s, &mut bundled, |_| ahead, reach)
+            .or_else(|| RayBundle::of(s, &mut bundled, |_| back, reach))?;
         let [begin, end] = ends_of_segments(s, bundled[0].scale, bundle.slack);
         bundled[0].start(s, begin, end, rays.leaving.facets_of(s, instance.prim));
-        Some((bundle.fan.for_any(), bundled))
+        Some((bundle.common_origin.for_any(), bundled))
     }
 
     #[inline(always)]

@@ -9,9 +9,9 @@ use super::occluded::{Segments, ShadowRays};
 use super::packet::{Packet, PreciseRays};
 use crate::Snapshot;
 use crate::kernel::Leaving;
-use crate::kernel::mesh::{Bundle, Fan, FanRays, Lines, RaySetup};
+use crate::kernel::mesh::{BundledRays, CommonOrigin, Lines, RayBundle, RaySetup};
 use crate::lanes::{D3, F, M, pick3, splat_wide, widen3};
-use crate::numeric::{END_ERROR, FAN_STEEP, POINT_ERROR, START_ERROR};
+use crate::numeric::{BUNDLE_STEEP, END_ERROR, POINT_ERROR, START_ERROR};
 use crate::snapshot::{Instance, LightRow};
 
 /// Segments from the surfaces that the rays of a packet meet to a light.
@@ -38,7 +38,7 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
         rays: &ShadowRays<'_, S>,
         open: M<S>,
         instance: &Instance,
-    ) -> Option<(Fan, [FanRays<S>; 1])> {
+    ) -> Option<(CommonOrigin, [BundledRays<S>; 1])> {
         if self.light.at_infinity {
             return None;
         }
@@ -46,15 +46,15 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
         let common = instance.own_points(s, splat_wide(s, self.light.place));
         let (start, off) = self.own_starts(search, rays, open, instance);
         let lines = Lines { origin: common, direction: start - common, live: open };
-        let mut bundled = [FanRays::nothing(s)];
-        let bundle = Bundle::of(s, &mut bundled, |_| lines, search.reach(instance))?;
+        let mut bundled = [BundledRays::nothing(s)];
+        let bundle = RayBundle::of(s, &mut bundled, |_| lines, search.reach(instance))?;
         let (scale, zero) = (bundled[0].scale, F::splat(s, 0.0));
         let error = scale.mul_add(F::splat(s, END_ERROR), off);
         let leaving = rays.leaving.facets_of(s, instance.prim);
         bundled[0].start(s, [zero, zero], [scale, error], leaving);
         let steep = bundled[0].error_where_off(s, off);
         // So close to the lamp that nothing is known of slopes, each goes its own way.
-        (steep < 2.0 - FAN_STEEP).then(|| (bundle.fan.for_any().with_slopes_off(steep), bundled))
+        (steep < 2.0 - BUNDLE_STEEP).then(|| (bundle.common_origin.for_any().with_slopes_off(steep), bundled))
     }
 
     #[inline(always)]

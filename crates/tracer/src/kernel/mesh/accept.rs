@@ -6,13 +6,13 @@ use fearless_simd::prelude::*;
 
 use super::edges::Prepared;
 use super::planes::Crossing;
-use super::{Edges, ExactResolver, Fan, FanRays, Settled, settle};
+use super::{BundledRays, CommonOrigin, Decision, Edges, ExactResolver, decide};
 use crate::accel::{WIDTH, WideTree};
 use crate::kernel::bound;
 use crate::lanes::{Bits, F, M, U, outlined};
-use crate::numeric::FAN_SLOPE;
+use crate::numeric::BUNDLE_SLOPE;
 
-impl<S: Simd> FanRays<S> {
+impl<S: Simd> BundledRays<S> {
     /// Takes over a triangle in some lanes.
     #[inline(always)]
     fn take(&mut self, s: S, lanes: M<S>, slot: u32, crossing: &Crossing<S>, any: bool) {
@@ -25,7 +25,7 @@ impl<S: Simd> FanRays<S> {
     }
 }
 
-impl Fan {
+impl CommonOrigin {
     /// Takes over a triangle where it is nearer; whether it is for any ray.
     #[inline(always)]
     pub(super) fn accept<S: Simd>(
@@ -33,7 +33,7 @@ impl Fan {
         s: S,
         (tree, prepared): (&WideTree, &Prepared),
         (slot, facet): (u32, u32),
-        (rays, packet): (&mut FanRays<S>, usize),
+        (rays, packet): (&mut BundledRays<S>, usize),
         exact: &mut dyn ExactResolver,
     ) -> bool {
         let at = slot as usize % WIDTH;
@@ -42,7 +42,7 @@ impl Fan {
         let (a, b, c) = (edge(a), edge(b), edge(c));
         let error = bound(s, F::splat(s, prepared.edge_error[at]));
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        let candidate = rays.live & !(low.less(-error) & error.less(high)) & !rays.left.is(facet);
+        let candidate = rays.live & !(low.less(-error) & error.less(high)) & !rays.leaving.is(facet);
         if !candidate.any() {
             return false;
         }
@@ -54,7 +54,7 @@ impl Fan {
             rays.take(s, take, slot, &crossing, self.any);
         }
         if open.any() {
-            self.settle(tree, [open.bits(), inside.bits()], (slot, facet), (rays, packet), exact);
+            self.decide(tree, [open.bits(), inside.bits()], (slot, facet), (rays, packet), exact);
         }
         (take | open).any()
     }
@@ -62,30 +62,30 @@ impl Fan {
     /// Decides what `f32` leaves open; some pass within all edges for certain.
     #[cold]
     #[inline(never)]
-    fn settle<S: Simd>(
+    fn decide<S: Simd>(
         &self,
         tree: &WideTree,
         [open, inside]: [u64; 2],
         (slot, facet): (u32, u32),
-        (rays, packet): (&mut FanRays<S>, usize),
+        (rays, packet): (&mut BundledRays<S>, usize),
         exact: &mut dyn ExactResolver,
     ) {
         // Where only edges are open, depths have said what they can.
         let open =
-            if open & inside == 0 { open } else { self.settle_depths(tree, [open, inside], slot, rays) };
+            if open & inside == 0 { open } else { self.decide_by_depths(tree, [open, inside], slot, rays) };
         for lane in Bits(open) {
             let other = rays.slot.lane(lane);
             let held = (other != u32::MAX).then(|| tree.facet(other));
             if held == Some(facet) {
                 continue;
             }
-            rays.settled += 1;
+            rays.decided += 1;
             let edges = if inside >> lane & 1 == 1 { Edges::Inside } else { Edges::Open };
             let Some(t) = self.nearer(tree, (lane, edges), (slot, facet), (rays, packet), exact) else {
                 continue;
             };
             let z = t as f32 * rays.scale.lane(lane);
-            let error = z.abs() * (FAN_SLOPE + FAN_SLOPE);
+            let error = z.abs() * (BUNDLE_SLOPE + BUNDLE_SLOPE);
             rays.end[0].set(lane, z - error);
             rays.end[1].set(lane, z + error);
             rays.slot.set(lane, slot);
@@ -96,12 +96,12 @@ impl Fan {
     }
 
     /// Decides by depths from `f64` planes; the lanes that those leave open.
-    fn settle_depths<S: Simd>(
+    fn decide_by_depths<S: Simd>(
         &self,
         tree: &WideTree,
         [open, inside]: [u64; 2],
         slot: u32,
-        rays: &mut FanRays<S>,
+        rays: &mut BundledRays<S>,
     ) -> u64 {
         let s = rays.slot.0.token();
         let corners = tree.triangle(slot);
@@ -138,20 +138,20 @@ impl Fan {
         tree: &WideTree,
         (lane, edges): (usize, Edges),
         (slot, facet): (u32, u32),
-        (rays, packet): (&FanRays<S>, usize),
+        (rays, packet): (&BundledRays<S>, usize),
         exact: &mut dyn ExactResolver,
     ) -> Option<f64> {
         let of_all = packet * F::<S>::LANES + lane;
         let (ray, span) = exact.ray(of_all)?;
         let other = Some(rays.slot.lane(lane)).filter(|&slot| slot != u32::MAX);
         // Two roundings of a sum and a quotient, towards smaller numbers.
-        let least = rays.end[0].lane(lane) * (1.0 - 4.0 * FAN_SLOPE);
+        let least = rays.end[0].lane(lane) * (1.0 - 4.0 * BUNDLE_SLOPE);
         let before = if self.any { f64::INFINITY } else { f64::from(least / rays.scale.lane(lane)) };
         let (next, held) = (tree.triangle(slot), other.map(|slot| tree.triangle(slot)));
-        match settle((&next, edges), held, before, (&ray, span)) {
-            Settled::Not => None,
-            Settled::Nearer(t) => Some(t),
-            Settled::Open => exact.decide(of_all, facet, other.map(|slot| tree.facet(slot))),
+        match decide((&next, edges), held, before, (&ray, span)) {
+            Decision::NotNearer => None,
+            Decision::Nearer(t) => Some(t),
+            Decision::Open => exact.decide(of_all, facet, other.map(|slot| tree.facet(slot))),
         }
     }
 }

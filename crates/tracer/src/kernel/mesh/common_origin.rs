@@ -10,25 +10,25 @@ use catoptra_core::{Lane, LaneMask};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::edges::{Sight, Slopes};
+use super::edges::{RayBounds, Slopes};
 use super::packets::Packets;
 use super::{ExactResolver, GROUP, Visit, Visits, Waiting};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::{Bits, F, M, U, outlined};
-use crate::numeric::{FAN_BOX, FAN_PAD, FAN_SLOPE};
+use crate::numeric::{BUNDLE_BOX, BUNDLE_PAD, BUNDLE_SLOPE};
 
 /// What rays through one point have in common.
-pub(crate) struct Fan {
+pub(crate) struct CommonOrigin {
     /// Axes of the slopes, then the one that all rays run along.
     pub(super) axes: [usize; 3],
     /// 1 or −1: which way they do so. All space is mirrored through the origin for those that run backwards.
     pub(super) sign: f32,
     /// The point, mirrored as the rays are, axis by axis as in `axes`.
-    pub(super) apex: [f32; 3],
+    pub(super) origin: [f32; 3],
     /// How far a ray may pass the point by.
     pub(super) slack: f32,
     /// The point in `f64`, and how far a ray may pass that by.
-    pub(super) precise_apex: DVec3,
+    pub(super) precise_origin: DVec3,
     pub(super) precise_slack: f32,
     /// How far slopes may be off beyond their own rounding.
     pub(super) slopes_off: f32,
@@ -43,7 +43,7 @@ pub(crate) struct Fan {
 
 /// The rays themselves.
 #[derive(Clone, Copy)]
-pub(crate) struct FanRays<S: Simd> {
+pub(crate) struct BundledRays<S: Simd> {
     pub(crate) u: F<S>,
     pub(crate) v: F<S>,
     /// Box round the slopes.
@@ -55,15 +55,15 @@ pub(crate) struct FanRays<S: Simd> {
     /// Place of the nearest triangle in the tree's blocks; [`u32::MAX`] for none.
     pub(crate) slot: U<S>,
     /// Triangle that each ray leaves from.
-    pub(crate) left: U<S>,
+    pub(crate) leaving: U<S>,
     /// Depth per `t`.
     pub(crate) scale: F<S>,
     pub(crate) live: M<S>,
     /// How often a triangle was decided on in `f64`.
-    pub(crate) settled: u64,
+    pub(crate) decided: u64,
 }
 
-impl<S: Simd> FanRays<S> {
+impl<S: Simd> BundledRays<S> {
     /// Box round the slopes of the rays that are still followed, of which there are some.
     #[inline(always)]
     fn around_live(&self, s: S) -> [[f32; 2]; 2] {
@@ -98,12 +98,12 @@ impl Aim {
     }
 }
 
-impl Fan {
+impl CommonOrigin {
     /// Rays within a box of slopes, each at most 2 in magnitude, that pass a point by at most `slack`; through a mesh
     /// whose corners' coordinates stay within `reach`.
-    pub(crate) fn new(aim: &Aim, apex: DVec3, slack: f32, slopes: [[f32; 2]; 2], reach: f32) -> Self {
+    pub(crate) fn new(aim: &Aim, origin: DVec3, slack: f32, slopes: [[f32; 2]; 2], reach: f32) -> Self {
         let ([u, v, z], sign) = (aim.axes, f64::from(aim.sign));
-        let own = DVec3::new(apex[u] * sign, apex[v] * sign, apex[z] * sign);
+        let own = DVec3::new(origin[u] * sign, origin[v] * sign, origin[z] * sign);
         let rounded = own.as_vec3();
         let off = (own - rounded.as_dvec3()).abs().max_element() as f32;
         let (precise_slack, slack) = (slack, (slack + off).next_up());
@@ -112,14 +112,14 @@ impl Fan {
         Self {
             axes: aim.axes,
             sign: aim.sign,
-            apex: rounded.to_array(),
+            origin: rounded.to_array(),
             slack,
-            precise_apex: own,
+            precise_origin: own,
             precise_slack,
             slopes_off: 0.0,
             low,
             high,
-            pad: FAN_PAD * size + 4.0 * slack + f32::MIN_POSITIVE,
+            pad: BUNDLE_PAD * size + 4.0 * slack + f32::MIN_POSITIVE,
             any: false,
         }
     }
@@ -137,7 +137,7 @@ impl Fan {
     /// A box round slopes below 2, widened by their error, and for the rounding of its own ends.
     #[inline(always)]
     pub(super) fn widened(&self, [low, high]: [[f32; 2]; 2]) -> [[f32; 2]; 2] {
-        let wider = self.slopes_off + 3.0 * FAN_SLOPE;
+        let wider = self.slopes_off + 3.0 * BUNDLE_SLOPE;
         [[low[0] - wider, low[1] - wider], [high[0] + wider, high[1] + wider]]
     }
 
@@ -155,7 +155,7 @@ impl Fan {
         s: S,
         tree: &WideTree,
         visits: &mut Visits,
-        rays: &mut [FanRays<S>],
+        rays: &mut [BundledRays<S>],
         exact: &mut dyn ExactResolver,
     ) {
         outlined(
@@ -171,7 +171,7 @@ impl Fan {
         s: S,
         tree: &WideTree,
         visits: &mut Visits,
-        rays: &mut [FanRays<S>],
+        rays: &mut [BundledRays<S>],
         exact: &mut dyn ExactResolver,
     ) {
         let Some(mut waiting) = visits.start() else { return };
@@ -182,7 +182,7 @@ impl Fan {
         }
         waiting.push(Visit { near: 0.0, link: 0, count: 0, packets: (1 << rays.len().min(GROUP)) - 1 });
         let mut farthest = packets.farthest(s);
-        let sight = self.sight();
+        let ray_bounds = self.ray_bounds();
         while let Some(visit) = waiting.pop(farthest) {
             if visit.count == 0 {
                 *waiting.nodes += 1;
@@ -192,7 +192,7 @@ impl Fan {
             for (block, own) in visit.blocks() {
                 *waiting.blocks += 1;
                 let within = u64::from(visit.packets & packets.within(s, visit.near));
-                let changed = self.pass(s, (tree, block, own), (&sight, within), rays, exact);
+                let changed = self.pass(s, (tree, block, own), (&ray_bounds, within), rays, exact);
                 for packet in Bits(changed) {
                     let rays = &mut rays[packet];
                     if self.any && rays.live.any() {
@@ -209,7 +209,7 @@ impl Fan {
 
     /// At least the depth up to which it is still worth looking.
     #[inline(always)]
-    fn far<S: Simd>(&self, s: S, rays: &FanRays<S>) -> f32 {
+    fn far<S: Simd>(&self, s: S, rays: &BundledRays<S>) -> f32 {
         let none = F::splat(s, f32::NEG_INFINITY);
         F::pick(rays.live, rays.end[1], none).0.reduce_max()
     }
@@ -219,7 +219,7 @@ impl Fan {
     fn row<S: Simd>(&self, s: S, node: &Node8, which: usize, side: usize) -> f32x8<S> {
         let upper = (self.sign > 0.0) == (side == 1);
         let row = &node.bounds[self.axes[which]][usize::from(upper)];
-        let start = if side == 0 { self.apex[which] + self.pad } else { self.apex[which] - self.pad };
+        let start = if side == 0 { self.origin[which] + self.pad } else { self.origin[which] - self.pad };
         f32x8::load_array_ref(s, row).mul_sub_precise(f32x8::splat(s, self.sign), f32x8::splat(s, start))
     }
 
@@ -229,7 +229,7 @@ impl Fan {
         &self,
         s: S,
         (tree, visit): (&WideTree, Visit),
-        (rays, packets, far): (&[FanRays<S>], &Packets, f32),
+        (rays, packets, far): (&[BundledRays<S>], &Packets, f32),
         waiting: &mut Waiting<'_>,
     ) {
         let node = &tree.nodes[visit.link as usize];
@@ -237,7 +237,7 @@ impl Fan {
         let (near, away) = (self.row(s, node, 2, 0).max(zero), self.row(s, node, 2, 1));
         let mut met = near.simd_le(f32x8::splat(s, far)) & near.simd_le(away);
         let (of_near, of_away) = (one / near, one / away);
-        let wider = f32x8::splat(s, FAN_BOX + FAN_SLOPE + self.slopes_off);
+        let wider = f32x8::splat(s, BUNDLE_BOX + BUNDLE_SLOPE + self.slopes_off);
         let mut sides = [[0.0; WIDTH]; 4];
         for which in 0..2 {
             let (low, high) = (self.row(s, node, which, 0), self.row(s, node, which, 1));
@@ -268,11 +268,13 @@ impl Fan {
         &self,
         s: S,
         (tree, block, own): (&WideTree, usize, u64),
-        (sight, packets): (&Sight, u64),
-        rays: &mut [FanRays<S>],
+        (ray_bounds, packets): (&RayBounds, u64),
+        rays: &mut [BundledRays<S>],
         exact: &mut dyn ExactResolver,
     ) -> u64 {
-        let Some((prepared, seen)) = self.prepare(s, (&tree.blocks[block], own), sight) else { return 0 };
+        let Some((prepared, seen)) = self.prepare(s, (&tree.blocks[block], own), ray_bounds) else {
+            return 0;
+        };
         let mut changed = 0;
         for packet in Bits(packets) {
             let Some(packet_rays) = rays.get_mut(packet) else { continue };
@@ -295,7 +297,7 @@ impl Fan {
 
 /// Which of some packets have a ray whose slopes lie within a box, and that still looks as far as that.
 #[inline(always)]
-fn entering<S: Simd>(s: S, rays: &[FanRays<S>], packets: u32, (slopes, near): ([f32; 4], f32)) -> u32 {
+fn entering<S: Simd>(s: S, rays: &[BundledRays<S>], packets: u32, (slopes, near): ([f32; 4], f32)) -> u32 {
     let [low_u, high_u, low_v, high_v] = slopes;
     let mut entering = 0;
     for packet in Bits(u64::from(packets)) {

@@ -22,13 +22,13 @@ use fearless_simd::{Simd, f32x8};
 use crate::accel::{MAX_DEPTH, Node8, WIDTH, WideTree};
 use crate::numeric::CERTAIN;
 
-pub(crate) use common_origin::{Fan, FanRays};
+pub(crate) use common_origin::{BundledRays, CommonOrigin};
 pub(crate) use precise::LaneTriangles;
-pub(crate) use ray_bundle::{Bundle, Lines};
+pub(crate) use ray_bundle::{Lines, RayBundle};
 pub(crate) use ray_setup::RaySetup;
 pub(crate) use single_ray::ClosestHit;
 
-use precise::{Verdict, crossing, depth, meet};
+use precise::{Verdict, crossing, depth, intersect};
 
 /// As [`bound`](super::bound), of eight triangles.
 #[inline(always)]
@@ -47,8 +47,8 @@ pub(crate) trait ExactResolver {
 }
 
 /// What `f64` makes of a triangle that `f32` could not decide about.
-enum Settled {
-    Not,
+enum Decision {
+    NotNearer,
     /// At that `t`, in front of all else.
     Nearer(f64),
     /// Only the exact can tell.
@@ -64,37 +64,37 @@ enum Edges {
 }
 
 /// Compares a triangle with the one a ray has met, or with the least `t` at which it may have met anything else.
-fn settle(
+fn decide(
     (next, edges): (&[[f32; 3]; 3], Edges),
     held: Option<[[f32; 3]; 3]>,
     before: f64,
     (ray, span): (&Ray, Span),
-) -> Settled {
+) -> Decision {
     let verdict = match edges {
         Edges::Inside => crossing(next, ray),
-        Edges::Open => meet(next, ray),
+        Edges::Open => intersect(next, ray),
     };
     let (t, error) = match verdict {
-        Verdict::Miss => return Settled::Not,
-        Verdict::Open => return Settled::Open,
+        Verdict::Miss => return Decision::NotNearer,
+        Verdict::Open => return Decision::Open,
         Verdict::Hit(t, error) => (t, error),
     };
     if t + error < span.min || t - error > span.max {
-        return Settled::Not;
+        return Decision::NotNearer;
     }
     if !(t - error > span.min && t + error < span.max) {
-        return Settled::Open;
+        return Decision::Open;
     }
     let (low, high) = match held.map(|held| depth(&held, ray)) {
         Some((t, error)) => (t - error, t + error),
         None => (before, f64::INFINITY),
     };
     if t + error < low {
-        Settled::Nearer(t)
+        Decision::Nearer(t)
     } else if t - error > high {
-        Settled::Not
+        Decision::NotNearer
     } else {
-        Settled::Open
+        Decision::Open
     }
 }
 

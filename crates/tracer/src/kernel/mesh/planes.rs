@@ -5,10 +5,12 @@ use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::Simd;
 
 use super::edges::Prepared;
-use super::{Fan, FanRays};
+use super::{BundledRays, CommonOrigin};
 use crate::kernel::bound;
 use crate::lanes::{F, M};
-use crate::numeric::{FAN_DEPTH, FAN_PLANE, MEET_SLOPE_ERROR, MEET_TOP_ERROR, ORDER_ERROR, ORDER_SHEAR};
+use crate::numeric::{
+    BUNDLE_DEPTH, BUNDLE_PLANE, ORDER_ERROR, ORDER_SHEAR, PRECISE_SLOPE_ERROR, PRECISE_TOP_ERROR,
+};
 
 /// The plane of a triangle, for rays through one point.
 ///
@@ -35,7 +37,7 @@ pub(super) struct Crossing<S: Simd> {
     pub(super) beside: M<S>,
 }
 
-impl<S: Simd> FanRays<S> {
+impl<S: Simd> BundledRays<S> {
     /// Scalar products of a vector and the directions.
     #[inline(always)]
     pub(super) fn value(&self, s: S, [x, y, z]: [f32; 3]) -> F<S> {
@@ -78,23 +80,23 @@ pub(super) struct PrecisePlane {
     deepest: f64,
 }
 
-impl Fan {
+impl CommonOrigin {
     /// The plane of a triangle.
     pub(super) fn precise_plane(&self, corners: &[[f32; 3]; 3]) -> PrecisePlane {
         let [u, v, z] = self.axes;
         let own = |p: &[f32; 3]| DVec3::new(p[u].into(), p[v].into(), p[z].into()) * f64::from(self.sign);
         let [a, b, c] = [own(&corners[0]), own(&corners[1]), own(&corners[2])];
-        let (e, f, from) = (b - a, c - a, a - self.precise_apex);
+        let (e, f, from) = (b - a, c - a, a - self.precise_origin);
         let normal = e.cross(f);
         let length = e.abs().max(f.abs()).max_element();
         let size = length * length;
         PrecisePlane {
             normal,
             top: normal.dot(from),
-            slope_error: MEET_SLOPE_ERROR * self.spread().element_sum() * size,
-            top_error: MEET_TOP_ERROR * size * from.abs().max_element(),
+            slope_error: PRECISE_SLOPE_ERROR * self.spread().element_sum() * size,
+            top_error: PRECISE_TOP_ERROR * size * from.abs().max_element(),
             size,
-            deepest: (a.z.max(b.z).max(c.z) - self.precise_apex.z).max(0.0)
+            deepest: (a.z.max(b.z).max(c.z) - self.precise_origin.z).max(0.0)
                 + 2.0 * f64::from(self.precise_slack),
         }
     }
@@ -103,7 +105,7 @@ impl Fan {
     pub(super) fn plane_of(&self, precise: &PrecisePlane) -> Plane {
         let PrecisePlane { normal, top, .. } = *precise;
         let size = normal.abs();
-        let slope_error = f64::from(FAN_PLANE) * size.dot(self.spread())
+        let slope_error = f64::from(BUNDLE_PLANE) * size.dot(self.spread())
             + f64::from(self.slopes_off) * (size.x + size.y)
             + precise.slope_error;
         let top_error = self.top_error(precise);
@@ -117,7 +119,7 @@ impl Fan {
         Plane {
             normal: (normal * scale).as_vec3().to_array(),
             top: rounded,
-            errors: [above(slope_error * share), above(top_error * share + f64::from(FAN_DEPTH))],
+            errors: [above(slope_error * share), above(top_error * share + f64::from(BUNDLE_DEPTH))],
         }
     }
 
@@ -143,8 +145,8 @@ impl Fan {
         let from_shear = f64::from(self.precise_slack)
             * spread.element_sum()
             * (a.cross(b).abs().element_sum() + ORDER_SHEAR * first.size * second.size);
-        let from_rounding =
-            f64::from(FAN_PLANE) * m.abs().dot(spread) + f64::from(self.slopes_off) * (m.x.abs() + m.y.abs());
+        let from_rounding = f64::from(BUNDLE_PLANE) * m.abs().dot(spread)
+            + f64::from(self.slopes_off) * (m.x.abs() + m.y.abs());
         let error = 1.5 * (from_tops + from_slopes) + from_shear + from_rounding;
         let scale = 1.0 / m.abs().max_element();
         Some(((m * scale).as_vec3().to_array(), ((error * scale) as f32).next_up()))

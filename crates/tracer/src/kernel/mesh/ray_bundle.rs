@@ -5,9 +5,9 @@ use catoptra_core::{Lane, LaneMask, Ray};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::common_origin::{Aim, Fan, FanRays};
+use super::common_origin::{Aim, BundledRays, CommonOrigin};
 use crate::lanes::{D, D3, F, LaneVectors, M, U, outlined, splat_wide, vector_of};
-use crate::numeric::{FAN_SLOPE, FAN_SPREAD, FAN_STEEP};
+use crate::numeric::{BUNDLE_SLOPE, BUNDLE_SPREAD, BUNDLE_STEEP};
 
 /// Rays of a packet as lines from a point each.
 #[derive(Clone, Copy)]
@@ -18,19 +18,19 @@ pub(crate) struct Lines<S: Simd> {
 }
 
 /// What lines through one point have in common.
-pub(crate) struct Bundle {
-    pub(crate) fan: Fan,
+pub(crate) struct RayBundle {
+    pub(crate) common_origin: CommonOrigin,
     /// How far the lines pass the point by.
     pub(crate) slack: f32,
 }
 
-impl Bundle {
+impl RayBundle {
     /// Of the lines of some packets, if they go through one point and much the same way; for a mesh of that reach.
     /// Origins may be `off` by so much, beyond the roundings of `f64`. The rays then have the lines' slopes. See [`outlined`].
     #[inline(always)]
     pub(crate) fn of<S: Simd>(
         s: S,
-        rays: &mut [FanRays<S>],
+        rays: &mut [BundledRays<S>],
         lines: impl Fn(usize) -> Lines<S>,
         reach: (f32, f32),
     ) -> Option<Self> {
@@ -44,15 +44,15 @@ impl Bundle {
     #[inline(always)]
     fn of_here<S: Simd>(
         s: S,
-        rays: &mut [FanRays<S>],
+        rays: &mut [BundledRays<S>],
         lines: impl Fn(usize) -> Lines<S>,
         (off, reach): (f32, f32),
     ) -> Option<Self> {
-        let (first, (apex, along)) =
+        let (first, (origin, along)) =
             (0..rays.len()).find_map(|packet| Some((packet, lines(packet).first()?)))?;
         let aim = Aim::of(along);
         // Where nothing goes together, the first packet mostly tells, before all that is to be kept of others.
-        if lines(first).astray(s, &aim, apex).1.any() {
+        if lines(first).astray(s, &aim, origin).1.any() {
             return None;
         }
         let model = aim.slopes_of(s, along);
@@ -61,7 +61,7 @@ impl Bundle {
         for (packet, rays) in rays.iter_mut().enumerate() {
             let lines = lines(packet);
             rays.follow(s, &aim, &lines, model);
-            let (from, astray) = lines.astray(s, &aim, apex);
+            let (from, astray) = lines.astray(s, &aim, origin);
             apart = F::pick(lines.live, apart.max(from), apart);
             // Written so that NaN counts.
             if (astray | (lines.live & !rays.are_small(s))).any() {
@@ -74,13 +74,14 @@ impl Bundle {
             }
         }
         let least = least.0.reduce_min();
-        let slack = (apart.0.reduce_max() + off) * (1.0 + FAN_SLOPE);
-        let through_one = slack <= FAN_SPREAD * least && least > 0.0;
+        let slack = (apart.0.reduce_max() + off) * (1.0 + BUNDLE_SLOPE);
+        let through_one = slack <= BUNDLE_SPREAD * least && least > 0.0;
         if !through_one {
             return None;
         }
-        let fan = Fan::new(&aim, apex, slack, [low, high], reach).with_slopes_off(2.0 * slack / least);
-        Some(Self { fan, slack })
+        let common_origin =
+            CommonOrigin::new(&aim, origin, slack, [low, high], reach).with_slopes_off(2.0 * slack / least);
+        Some(Self { common_origin, slack })
     }
 }
 
@@ -124,15 +125,15 @@ impl<S: Simd> Lines<S> {
 
     /// How far from a point they begin, and which of them too far from it to go together; those of NaN as well.
     #[inline(always)]
-    fn astray(&self, s: S, aim: &Aim, apex: DVec3) -> (F<S>, M<S>) {
-        let from = self.origin - splat_wide(s, apex);
+    fn astray(&self, s: S, aim: &Aim, origin: DVec3) -> (F<S>, M<S>) {
+        let from = self.origin - splat_wide(s, origin);
         let from = from.x.abs().max(from.y.abs()).max(from.z.abs()).narrow();
-        let spread = self.depths(s, aim) * F::splat(s, 2.0 * FAN_SPREAD);
+        let spread = self.depths(s, aim) * F::splat(s, 2.0 * BUNDLE_SPREAD);
         (from, self.live & !from.less(spread))
     }
 }
 
-impl<S: Simd> FanRays<S> {
+impl<S: Simd> BundledRays<S> {
     /// No rays.
     #[inline(always)]
     pub(crate) fn nothing(s: S) -> Self {
@@ -144,10 +145,10 @@ impl<S: Simd> FanRays<S> {
             begin: [zero; 2],
             end: [zero; 2],
             slot: none,
-            left: none,
+            leaving: none,
             scale: zero,
             live: M::splat(s, false),
-            settled: 0,
+            decided: 0,
         }
     }
 
@@ -169,7 +170,7 @@ impl<S: Simd> FanRays<S> {
     /// Whether a line runs along the main axis rather than across it, or at least not much more across.
     #[inline(always)]
     fn are_small(&self, s: S) -> M<S> {
-        let most = F::splat(s, FAN_STEEP);
+        let most = F::splat(s, BUNDLE_STEEP);
         self.u.abs().less(most) & self.v.abs().less(most)
     }
 
@@ -183,10 +184,10 @@ impl<S: Simd> FanRays<S> {
 
     /// Begins a search from the triangles that are left: between those depths lies the begin; the end is known within a bound.
     #[inline(always)]
-    pub(crate) fn start(&mut self, s: S, begin: [F<S>; 2], [end, error]: [F<S>; 2], left: U<S>) {
+    pub(crate) fn start(&mut self, s: S, begin: [F<S>; 2], [end, error]: [F<S>; 2], leaving: U<S>) {
         self.begin = begin;
         self.end = [end - error, end + error];
-        (self.left, self.slot, self.settled) = (left, U::splat(s, u32::MAX), 0);
+        (self.leaving, self.slot, self.decided) = (leaving, U::splat(s, u32::MAX), 0);
     }
 }
 

@@ -7,7 +7,7 @@ use super::single_ray::SingleRay;
 use super::{ClosestHit, ExactResolver, Lines, Visits};
 use crate::accel::WideTree;
 use crate::lanes::{D, D3, F, M, MOST_LANES, U, narrow3};
-use crate::numeric::{BOX_STRETCH, LONE_FLOOR, LONE_OFF, LONE_PAD, LONE_SHARE};
+use crate::numeric::{BOX_STRETCH, SINGLE_RAY_FLOOR, SINGLE_RAY_OFF, SINGLE_RAY_PAD, SINGLE_RAY_SHARE};
 
 /// A number of every lane.
 type Row = [f32; MOST_LANES];
@@ -39,17 +39,17 @@ impl RaySetup {
         let (origin, direction) = (narrow3(lines.origin), narrow3(lines.direction));
         // An origin that is off counts like one of larger coordinates that is rounded.
         let largest = origin.x.abs().max(origin.y.abs()).max(origin.z.abs());
-        let largest = off.mul_add(F::splat(s, LONE_OFF), largest);
-        let pad = largest.mul_add(F::splat(s, LONE_PAD), F::splat(s, f32::MIN_POSITIVE));
+        let largest = off.mul_add(F::splat(s, SINGLE_RAY_OFF), largest);
+        let pad = largest.mul_add(F::splat(s, SINGLE_RAY_PAD), F::splat(s, f32::MIN_POSITIVE));
         let reach = F::splat(s, reach) + largest;
-        let floor = reach * F::splat(s, LONE_FLOOR);
+        let floor = reach * F::splat(s, SINGLE_RAY_FLOOR);
         let floor = floor.mul_add(floor, F::splat(s, f32::MIN_POSITIVE));
         let mut rays = Self::nothing();
         rays.start(s, 0, (origin.x, direction.x), pad);
         rays.start(s, 1, (origin.y, direction.y), pad);
         rays.start(s, 2, (origin.z, direction.z), pad);
         rays.lean(s, &lines.direction);
-        (reach * F::splat(s, LONE_SHARE)).store(&mut rays.slack);
+        (reach * F::splat(s, SINGLE_RAY_SHARE)).store(&mut rays.slack);
         floor.store(&mut rays.floor);
         rays
     }
@@ -106,14 +106,14 @@ impl RaySetup {
         &self,
         s: S,
         (tree, visits): (&WideTree, &mut Visits),
-        (lanes, left): (M<S>, U<S>),
+        (lanes, leaving): (M<S>, U<S>),
         begun: impl Fn(usize) -> ClosestHit,
         exact: &mut dyn ExactResolver,
     ) -> U<S> {
         let mut slots = [u32::MAX; MOST_LANES];
         for lane in lanes.lanes() {
             let mut found = begun(lane);
-            self.lane(lane, left.lane(lane)).search(s, tree, visits, &mut found, exact);
+            self.lane(lane, leaving.lane(lane)).search(s, tree, visits, &mut found, exact);
             slots[lane % MOST_LANES] = found.slot.unwrap_or(u32::MAX);
         }
         U::load(s, &slots)
@@ -121,7 +121,7 @@ impl RaySetup {
 
     /// The ray of a lane, which leaves from a triangle.
     #[inline(always)]
-    pub(super) fn lane(&self, lane: usize, left: u32) -> SingleRay {
+    pub(super) fn lane(&self, lane: usize, leaving: u32) -> SingleRay {
         let at = lane % MOST_LANES;
         let bit = |bits: u64| (bits >> at & 1) as usize;
         let three = |[x, y, z]: &[Row; 3]| [x[at], y[at], z[at]];
@@ -130,7 +130,7 @@ impl RaySetup {
         let last = (2 - bit(self.mostly[1])) * (1 - bit(self.mostly[0]));
         SingleRay {
             lane,
-            left,
+            leaving,
             backwards: [bit(x), bit(y), bit(z)],
             starts: [three(&self.starts[0]), three(&self.starts[1])],
             inverses: [three(&self.inverses[0]), three(&self.inverses[1])],

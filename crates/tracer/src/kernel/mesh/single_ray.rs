@@ -7,16 +7,16 @@ use catoptra_core::Span;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::{Edges, ExactResolver, Settled, Visit, Visits, Waiting, bound_eight, settle};
+use super::{Decision, Edges, ExactResolver, Visit, Visits, Waiting, bound_eight, decide};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::{Bits, outlined};
-use crate::numeric::{BOX_STRETCH, LONE_DEPTH, LONE_SPREAD, LONE_STEEP};
+use crate::numeric::{BOX_STRETCH, SINGLE_RAY_DEPTH, SINGLE_RAY_SPREAD, SINGLE_RAY_STEEP};
 
 /// A ray in a mesh's own space.
 pub(super) struct SingleRay {
     pub(super) lane: usize,
     /// The triangle that the ray leaves from.
-    pub(super) left: u32,
+    pub(super) leaving: u32,
     /// 1 along axes that it runs backwards, where upper ends of boxes are met first; else 0.
     pub(super) backwards: [usize; 3],
     /// Where slabs begin and how their `t` grow, per axis; for the ends that are met first, then for the others.
@@ -55,8 +55,8 @@ impl ClosestHit {
     pub(crate) fn nothing_on(span: Span) -> Self {
         let (min, t) = (span.min as f32, span.max as f32);
         let finite = t < f32::MAX;
-        let error = if finite { t.abs() * LONE_DEPTH } else { 0.0 };
-        let begin = [min - min * LONE_DEPTH, min + min * LONE_DEPTH];
+        let error = if finite { t.abs() * SINGLE_RAY_DEPTH } else { 0.0 };
+        let begin = [min - min * SINGLE_RAY_DEPTH, min + min * SINGLE_RAY_DEPTH];
         Self { t: if finite { t } else { f32::MAX }, error, slot: None, any: false, span, begin }
     }
 
@@ -200,7 +200,7 @@ impl SingleRay {
         let most = a.across().max(b.across()).max(c.across());
         let (u, v, w) = (edge(&c, &b), edge(&a, &c), edge(&b, &a));
         let (slack, floor) = (f32x8::splat(s, self.slack), f32x8::splat(s, self.floor));
-        let spread = most.mul_add_precise(f32x8::splat(s, LONE_SPREAD), slack);
+        let spread = most.mul_add_precise(f32x8::splat(s, SINGLE_RAY_SPREAD), slack);
         let error = bound_eight(s, most.mul_add_precise(spread, floor));
         let (low, high) = (u.min(v).min(w), u.max(v).max(w));
         let maybe = !(low.simd_lt(-error) & high.simd_gt(error)).to_bitmask() & own;
@@ -211,15 +211,16 @@ impl SingleRay {
         let inverse = f32x8::splat(s, 1.0) / area;
         let (e, f) = (b.z - a.z, c.z - a.z);
         let z = e.mul_add_precise(v, f * w).mul_add_precise(inverse, a.z);
-        let steep = error * f32x8::splat(s, LONE_STEEP);
+        let steep = error * f32x8::splat(s, SINGLE_RAY_STEEP);
         // Products of corners of tiny scenes may underflow, and so may depths.
         let least = f32x8::splat(s, f32::MIN_POSITIVE);
         let z_error =
             steep.mul_add_precise(e.abs().max(f.abs()), least).mul_add_precise(inverse.abs(), slack);
         let along = f32x8::splat(s, self.along);
         let t = z * along;
-        let t_error =
-            t.abs().mul_add_precise(f32x8::splat(s, LONE_DEPTH), z_error.mul_add_precise(along.abs(), least));
+        let t_error = t
+            .abs()
+            .mul_add_precise(f32x8::splat(s, SINGLE_RAY_DEPTH), z_error.mul_add_precise(along.abs(), least));
         let t_error = bound_eight(s, t_error);
         let known = (low.simd_gt(error) | high.simd_lt(-error)) & area.abs().simd_gt(steep + steep);
         let past = (t - t_error).simd_gt(best.t + best.error) | (t + t_error).simd_lt(best.begin[0]);
@@ -243,7 +244,7 @@ impl SingleRay {
         best: &mut ClosestHit,
         exact: &mut dyn ExactResolver,
     ) {
-        if tree.facet(slot) == self.left {
+        if tree.facet(slot) == self.leaving {
             return;
         }
         if let Some((t, error)) = crossing {
@@ -255,32 +256,32 @@ impl SingleRay {
                 return;
             }
         }
-        self.settle(tree, slot, best, exact);
+        self.decide(tree, slot, best, exact);
     }
 
     /// Decides what `f32` leaves open.
     #[cold]
     #[inline(never)]
-    fn settle(&self, tree: &WideTree, slot: u32, best: &mut ClosestHit, exact: &mut dyn ExactResolver) {
+    fn decide(&self, tree: &WideTree, slot: u32, best: &mut ClosestHit, exact: &mut dyn ExactResolver) {
         let (facet, held) = (tree.facet(slot), best.slot);
         // A triangle may stand in several leaves.
         if held.is_some_and(|held| tree.facet(held) == facet) {
             return;
         }
         // A rounding of the difference, towards smaller numbers.
-        let least = f64::from((best.t - best.error) * (1.0 - LONE_DEPTH));
+        let least = f64::from((best.t - best.error) * (1.0 - SINGLE_RAY_DEPTH));
         let before = if best.any { f64::INFINITY } else { least };
         let held_triangle = held.map(|slot| tree.triangle(slot));
         let next = (&tree.triangle(slot), Edges::Open);
         let Some((ray, _)) = exact.ray(self.lane) else { return };
-        let t = match settle(next, held_triangle, before, (&ray, best.span)) {
-            Settled::Not => None,
-            Settled::Nearer(t) => Some(t),
-            Settled::Open => exact.decide(self.lane, facet, held.map(|slot| tree.facet(slot))),
+        let t = match decide(next, held_triangle, before, (&ray, best.span)) {
+            Decision::NotNearer => None,
+            Decision::Nearer(t) => Some(t),
+            Decision::Open => exact.decide(self.lane, facet, held.map(|slot| tree.facet(slot))),
         };
         if let Some(t) = t {
             let t = t as f32;
-            (best.t, best.error, best.slot) = (t, t.abs() * LONE_DEPTH, Some(slot));
+            (best.t, best.error, best.slot) = (t, t.abs() * SINGLE_RAY_DEPTH, Some(slot));
         }
     }
 }

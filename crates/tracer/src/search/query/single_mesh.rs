@@ -8,7 +8,7 @@ use fearless_simd::Simd;
 use super::{Answers, RayQuery};
 use crate::Snapshot;
 use crate::film::NOTHING;
-use crate::kernel::mesh::{Bundle, ClosestHit, ExactResolver, FanRays, GROUP, Lines};
+use crate::kernel::mesh::{BundledRays, ClosestHit, ExactResolver, GROUP, Lines, RayBundle};
 use crate::lanes::{F, M, U, outlined};
 use crate::search::Searcher;
 use crate::search::mesh::{NONE, ends_of_segments};
@@ -67,7 +67,7 @@ impl<S: Simd> Searcher<'_, S> {
     ) {
         let Some(mesh) = self.snapshot.mesh_at(instance.prim) else { return };
         let of = &MeshQuery { query, instance, mesh, any: matches!(answers, Answers::Occluded(_)) };
-        let (mut rays, mut backwards) = ([FanRays::nothing(self.s); GROUP], false);
+        let (mut rays, mut backwards) = ([BundledRays::nothing(self.s); GROUP], false);
         for at in (0..query.len()).step_by(GROUP * F::<S>::LANES) {
             let packets = (query.len() - at).div_ceil(F::<S>::LANES).min(GROUP);
             let mut group = Group { at, packets, live: [M::splat(self.s, false); GROUP] };
@@ -87,7 +87,7 @@ impl<S: Simd> Searcher<'_, S> {
         &mut self,
         of: &MeshQuery<'_>,
         group: &Group<S>,
-        (answers, rays, backwards): (&mut Answers<'_, '_>, &mut [FanRays<S>; GROUP], &mut bool),
+        (answers, rays, backwards): (&mut Answers<'_, '_>, &mut [BundledRays<S>; GROUP], &mut bool),
     ) {
         let mut slots = [U::splat(self.s, NONE); GROUP];
         // What does not go together is halved; what does doubles what is tried next.
@@ -115,7 +115,7 @@ impl<S: Simd> Searcher<'_, S> {
         &mut self,
         of: &MeshQuery<'_>,
         group: &Group<S>,
-        (slots, rays, backwards): (&mut [U<S>], &mut [FanRays<S>; GROUP], &mut bool),
+        (slots, rays, backwards): (&mut [U<S>], &mut [BundledRays<S>; GROUP], &mut bool),
     ) -> bool {
         let rays = &mut rays[..group.packets];
         let bundle = if of.any {
@@ -140,12 +140,12 @@ impl<S: Simd> Searcher<'_, S> {
             rays.start(self.s, begin, end, of.query.leaving(self.s, at).facets_of(self.s, of.instance.prim));
         }
         let mut exact = of.resolver(self.snapshot, group.at);
-        let fan = if of.any { bundle.fan.for_any() } else { bundle.fan };
-        fan.search(self.s, &of.instance.tree.tree, self.visits, rays, &mut exact);
+        let common_origin = if of.any { bundle.common_origin.for_any() } else { bundle.common_origin };
+        common_origin.search(self.s, &of.instance.tree.tree, self.visits, rays, &mut exact);
         self.count_visits();
         for (slot, rays) in slots.iter_mut().zip(rays) {
             *slot = rays.slot;
-            self.stats.settled += rays.settled;
+            self.stats.settled += rays.decided;
         }
         true
     }
@@ -155,9 +155,9 @@ impl<S: Simd> Searcher<'_, S> {
         &self,
         of: &MeshQuery<'_>,
         group: &Group<S>,
-        rays: &mut [FanRays<S>],
-    ) -> Option<Bundle> {
-        Bundle::of(
+        rays: &mut [BundledRays<S>],
+    ) -> Option<RayBundle> {
+        RayBundle::of(
             self.s,
             rays,
             #[inline(always)]
@@ -175,9 +175,9 @@ impl<S: Simd> Searcher<'_, S> {
         &self,
         of: &MeshQuery<'_>,
         group: &Group<S>,
-        (rays, backwards): (&mut [FanRays<S>], bool),
-    ) -> Option<Bundle> {
-        Bundle::of(
+        (rays, backwards): (&mut [BundledRays<S>], bool),
+    ) -> Option<RayBundle> {
+        RayBundle::of(
             self.s,
             rays,
             #[inline(always)]
