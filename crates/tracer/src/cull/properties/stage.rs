@@ -302,5 +302,5 @@ pub(super) fn snapshot_of(
     if let Some(camera) = camera {
         scene.add_camera("camera", camera.clone(), None).unwrap();
     }
-    Snapshot::extract(&scene)
+    Snapshot::extract(&scene, crate::pool::one_thread())
 }
