@@ -39,7 +39,7 @@ impl RayBlock {
 pub struct RayList {
     length: usize,
     blocks: Vec<RayBlock>,
-    /// The places that rays leave from; empty where no ray leaves a surface.
+    /// The surfaces that rays leave; empty where no ray leaves a surface.
     pub(crate) prim: Vec<u32>,
     pub(crate) facet: Vec<u32>,
 }
@@ -70,7 +70,7 @@ impl RayList {
         if lane == 0 {
             self.blocks.push(RayBlock::EMPTY);
             if !self.prim.is_empty() {
-                self.make_room_for_places();
+                self.make_room_for_surfaces();
             }
         }
         let rays = &mut self.blocks[block];
@@ -79,14 +79,14 @@ impl RayList {
             rays.direction[axis][lane] = ray.direction[axis];
         }
         (rays.min[lane], rays.max[lane]) = (min, max);
-        if let Some(place) = leaving {
-            self.make_room_for_places();
-            (self.prim[self.length], self.facet[self.length]) = (place.prim, place.facet);
+        if let Some(surface) = leaving {
+            self.make_room_for_surfaces();
+            (self.prim[self.length], self.facet[self.length]) = (surface.prim, surface.facet);
         }
         self.length += 1;
     }
 
-    fn make_room_for_places(&mut self) {
+    fn make_room_for_surfaces(&mut self) {
         let room = self.blocks.len() * RAYS_PER_BLOCK;
         self.prim.resize(room, NOTHING);
         self.facet.resize(room, 0);
@@ -151,7 +151,7 @@ impl RaySlice<'_> {
         (min <= max && max >= 0.0).then(|| Span { min: min.max(0.0), max })
     }
 
-    /// The place that a ray leaves from.
+    /// The surface that a ray leaves.
     ///
     /// # Panics
     /// A number that is not below [`len`](Self::len).
@@ -234,7 +234,7 @@ impl HitList {
 
     /// What a ray meets first: where, and at which `t` in lengths of its direction. `None` where it meets nothing.
     ///
-    /// The place is the right one. `t` is what `f64` makes of it: the parameter of the plane or sphere of that place.
+    /// The surface is the right one. `t` is what `f64` makes of it: the parameter of the plane or sphere it belongs to.
     ///
     /// # Panics
     /// A number that is not below [`len`](Self::len).
@@ -269,8 +269,8 @@ impl HitSlice<'_> {
     /// # Panics
     /// A number past the room.
     pub fn set(&mut self, at: usize, hit: Option<(SurfaceId, f64)>) {
-        let (place, t) = hit.unwrap_or((SurfaceId { prim: NOTHING, facet: 0 }, 0.0));
-        (self.prim[at], self.facet[at], self.t[at]) = (place.prim, place.facet, t);
+        let (surface, t) = hit.unwrap_or((SurfaceId { prim: NOTHING, facet: 0 }, 0.0));
+        (self.prim[at], self.facet[at], self.t[at]) = (surface.prim, surface.facet, t);
     }
 
     /// Answers ray by ray what is met first.
@@ -282,7 +282,7 @@ impl HitSlice<'_> {
     ) -> Stats {
         for at in 0..rays.len() {
             let hit = rays.follow(snapshot, at, &search);
-            self.set(at, hit.map(|hit| (hit.place, hit.crossing.t)));
+            self.set(at, hit.map(|hit| (hit.surface, hit.crossing.t)));
         }
         Stats::default()
     }
@@ -295,13 +295,13 @@ mod tests {
     #[test]
     fn a_list_gives_back_what_was_put_in() {
         let mut rays = RayList::new();
-        let place = SurfaceId { prim: 3, facet: 4 };
+        let surface = SurfaceId { prim: 3, facet: 4 };
         for i in 0..200 {
             let ray = Ray::new(DVec3::splat(f64::from(i)), DVec3::X);
-            rays.push(&ray, [0.5, 2.0], (i == 100).then_some(place));
+            rays.push(&ray, [0.5, 2.0], (i == 100).then_some(surface));
         }
         assert_eq!(rays.as_slice().ray(199).origin, DVec3::splat(199.0));
-        assert_eq!(rays.as_slice().leaving(100), Some(place));
+        assert_eq!(rays.as_slice().leaving(100), Some(surface));
         assert_eq!(rays.as_slice().leaving(101), None);
         assert!(rays.as_slice().span(7).unwrap().contains(0.5));
     }

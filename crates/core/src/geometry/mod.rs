@@ -49,13 +49,13 @@ pub trait Geometry {
     ///
     /// # Errors
     /// When such numbers cannot tell.
-    fn meet<N: Number>(
+    fn nearest_root<N: Number>(
         &self,
         piece: u32,
         own: &Ray,
         span: Span,
         leaving: Option<u32>,
-    ) -> Verdict<Option<Meeting<N>>>;
+    ) -> Verdict<Option<FacetRoot<N>>>;
 
     /// Normals and texture coordinates where a ray in the shape's own space meets a facet; `None` without a normal.
     fn crossing(&self, own: &Ray, at: Located, facet: u32) -> Option<Crossing>;
@@ -66,8 +66,8 @@ pub trait Geometry {
             return None;
         }
         let (at, facet) = decide(
-            || self.meet::<Bounded>(piece, own, span, leaving).map(found),
-            || self.meet::<Dyadic>(piece, own, span, leaving).map(found),
+            || self.nearest_root::<Bounded>(piece, own, span, leaving).map(located),
+            || self.nearest_root::<Dyadic>(piece, own, span, leaving).map(located),
         )?;
         self.crossing(own, at, facet)
     }
@@ -84,7 +84,7 @@ pub trait Geometry {
         leaving: Option<u32>,
     ) -> Verdict<Option<Root<N>>> {
         let piece = if self.pieces() > 1 { facet } else { 0 };
-        Ok(self.meet(piece, own, span, leaving)?.map(|meeting| meeting.root))
+        Ok(self.nearest_root(piece, own, span, leaving)?.map(|found| found.root))
     }
 
     /// How the places of two crossings that [`cross_piece`](Self::cross_piece) has found compare.
@@ -131,7 +131,7 @@ pub trait Geometry {
 
 /// Where a ray meets a piece of a shape.
 #[derive(Debug, Clone)]
-pub struct Meeting<N> {
+pub struct FacetRoot<N> {
     /// Where on the ray, as an equation's root.
     pub root: Root<N>,
     /// Where on the ray, in `f64`.
@@ -140,7 +140,7 @@ pub struct Meeting<N> {
     pub facet: u32,
 }
 
-impl<N: Number> Meeting<N> {
+impl<N: Number> FacetRoot<N> {
     /// Where a root lies on the stretch.
     ///
     /// # Errors
@@ -150,8 +150,8 @@ impl<N: Number> Meeting<N> {
     }
 }
 
-fn found<N>(meeting: Option<Meeting<N>>) -> Option<(Located, u32)> {
-    meeting.map(|m| (m.at, m.facet))
+fn located<N>(root: Option<FacetRoot<N>>) -> Option<(Located, u32)> {
+    root.map(|root| (root.at, root.facet))
 }
 
 crate::part::parts! {

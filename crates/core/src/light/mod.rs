@@ -21,11 +21,11 @@ use crate::{Constant3, Field, FieldKind, Lane, Placement, Rgb, Triple, Value};
 #[derive(Debug, Clone, Copy)]
 pub struct Arrival<L: Lane> {
     /// Unit vector from the point to the light.
-    pub towards: Triple<L>,
+    pub direction: Triple<L>,
     /// The whole way from the point to the light; a unit vector for a light at infinity.
-    pub way: Triple<L>,
+    pub to_light: Triple<L>,
     /// 1 over the length of the way.
-    pub nearness: L,
+    pub inverse_distance: L,
     /// Metres to the light; infinite for a light at infinity.
     pub distance: L,
     /// Irradiance on a surface that faces the light, in parts of the light's [colour](Emitter::color).
@@ -38,7 +38,7 @@ impl<L: Lane> Arrival<L> {
     /// The cosine between a unit normal and the way to the light.
     #[inline(always)]
     pub fn cosine(&self, normal: Triple<L>) -> L {
-        self.way.dot(normal) * self.nearness
+        self.to_light.dot(normal) * self.inverse_distance
     }
 }
 
@@ -186,14 +186,14 @@ const SHADOW: Field =
 /// What arrives from a point that shines alike in all directions: the inverse square law.
 #[inline(always)]
 fn from_point<L: Lane>(position: Triple<L>, point: Triple<L>) -> Arrival<L> {
-    let way = position - point;
-    let distance2 = way.dot(way);
+    let to_light = position - point;
+    let distance2 = to_light.dot(to_light);
     let distance = distance2.sqrt();
     let inverse = distance.number(1.0) / distance;
     Arrival {
-        towards: way.scale(inverse),
-        way,
-        nearness: inverse,
+        direction: to_light.scale(inverse),
+        to_light,
+        inverse_distance: inverse,
         distance,
         strength: inverse * inverse,
         lit: distance2.number(0.0).less(distance2),

@@ -24,7 +24,7 @@ pub(crate) struct Walker<'a, S> {
 }
 
 /// Where a ray has met a surface.
-pub(super) struct Meeting<'a> {
+pub(super) struct SurfaceHit<'a> {
     pub(super) hit: Hit,
     pub(super) ray: Ray,
     pub(super) material: &'a Material,
@@ -37,13 +37,13 @@ pub(super) struct Meeting<'a> {
 
 impl<'a, S: Search> Walker<'a, S> {
     /// What is known where a ray has hit something.
-    pub(super) fn meet(&self, hit: Hit, ray: Ray) -> Meeting<'a> {
+    pub(super) fn surface_at(&self, hit: Hit, ray: Ray) -> SurfaceHit<'a> {
         let snapshot = self.frame.snapshot;
-        let prim = &snapshot.prims()[hit.place.prim as usize];
+        let prim = &snapshot.prims()[hit.surface.prim as usize];
         let point = ray.at(hit.crossing.t);
         let side = if hit.crossing.normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
         let length = ray.direction.length();
-        Meeting {
+        SurfaceHit {
             hit,
             ray,
             material: &snapshot.materials()[prim.material as usize],

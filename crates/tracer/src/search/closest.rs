@@ -217,7 +217,7 @@ impl<S: Simd> Searcher<'_, S> {
                     let held = held.and_then(|held| cross(held.prim, Some(held.facet)));
                     let hit =
                         hit.filter(|hit| held.is_none_or(|held| snapshot.precedes(&segment, hit, &held)));
-                    hit.map(|hit| (hit.place.facet, hit.crossing.t * ray.direction.length()))
+                    hit.map(|hit| (hit.surface.facet, hit.crossing.t * ray.direction.length()))
                 }
             };
             let Some((facet, metres)) = first else { continue };

@@ -38,7 +38,7 @@ impl<S: Simd> Searcher<'_, S> {
         let Some(mesh) = snapshot.mesh_at(instance.prim) else { return open };
         let tree = &instance.tree.tree;
         let mut exact = AnyInTheWay { snapshot, mesh, prim: instance.prim, segments, leaving: rays.leaving };
-        let slots = if let Some((common_origin, mut bundle)) = segments.bundle(self, rays, open, instance) {
+        let slots = if let Some((common_origin, mut bundled)) = segments.bundle(self, rays, open, instance) {
             common_origin.search(self.s, tree, self.visits, &mut bundled, &mut exact);
             self.stats.settled += bundled[0].decided;
             bundled[0].slot

@@ -167,7 +167,7 @@ impl<S: Simd> Shader<'_, S> {
                 #[inline(always)]
                 || at,
                 #[inline(always)]
-                |lobes| lobes.glossy(&at, facing.arrival.towards, facing.cosine),
+                |lobes| lobes.glossy(&at, facing.arrival.direction, facing.cosine),
             );
             if let Some(shown) = shown {
                 sum = F3::select(mask, shown.times_add(light, sum), sum);
@@ -188,7 +188,7 @@ impl<S: Simd> Shader<'_, S> {
         let rays = ShadowRays {
             rays: Rays {
                 origin: point,
-                direction: arrival.towards,
+                direction: arrival.direction,
                 reach: best.error.mul_add(
                     F::splat(self.s, 1.0 / POINT_ERROR),
                     magnitude(point)

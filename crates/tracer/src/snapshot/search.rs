@@ -24,7 +24,7 @@ pub struct SurfaceId {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
     /// Where on which shape.
-    pub place: SurfaceId,
+    pub surface: SurfaceId,
     /// The crossing, in the snapshot's frame.
     pub crossing: Crossing,
 }
@@ -86,10 +86,10 @@ impl Snapshot {
             let crossing = self.shape(segment, prim).cross(
                 segment.ray,
                 segment.until(best).span,
-                facet_left(prim, segment.leaving),
+                leaving_facet(prim, segment.leaving),
             );
             let hit =
-                crossing.map(|crossing| Hit { place: SurfaceId { prim, facet: crossing.facet }, crossing });
+                crossing.map(|crossing| Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing });
             self.closer(segment, best, hit)
         })
     }
@@ -119,24 +119,24 @@ impl Snapshot {
     pub(crate) fn precedes(&self, segment: &RaySegment<'_>, a: &Hit, b: &Hit) -> bool {
         let order = a.crossing.order(
             &b.crossing,
-            || [a, b].map(|hit| self.root(segment, hit.place)),
-            || [a, b].map(|hit| self.root(segment, hit.place)),
+            || [a, b].map(|hit| self.root(segment, hit.surface)),
+            || [a, b].map(|hit| self.root(segment, hit.surface)),
         );
-        comes_first(order, a.place, b.place)
+        comes_first(order, a.surface, b.surface)
     }
 
     /// As [`precedes`](Self::precedes), of hits that are known to be ones, wherever they are.
     pub(crate) fn surface_precedes(&self, segment: &RaySegment<'_>, a: SurfaceId, b: SurfaceId) -> bool {
         let order = order_of_roots(
-            || [a, b].map(|place| self.root(segment, place)),
-            || [a, b].map(|place| self.root(segment, place)),
+            || [a, b].map(|surface| self.root(segment, surface)),
+            || [a, b].map(|surface| self.root(segment, surface)),
         );
         comes_first(order, a, b)
     }
 
-    fn root<N: Number>(&self, segment: &RaySegment<'_>, place: SurfaceId) -> Verdict<Option<Root<N>>> {
-        let left = facet_left(place.prim, segment.leaving);
-        self.shape(segment, place.prim).root(place.facet, segment.ray, segment.span, left)
+    fn root<N: Number>(&self, segment: &RaySegment<'_>, surface: SurfaceId) -> Verdict<Option<Root<N>>> {
+        let leaving = leaving_facet(surface.prim, segment.leaving);
+        self.shape(segment, surface.prim).root(surface.facet, segment.ray, segment.span, leaving)
     }
 
     /// Where a ray in the snapshot's frame crosses one shape, or the facet of it alone where it is made of facets.
@@ -152,8 +152,8 @@ impl Snapshot {
             return self.cross(prim, &RaySegment::new(ray, span, leaving));
         };
         let shape = &self.prims[prim as usize].shape;
-        let crossing = shape.cross_part(facet, ray, span, facet_left(prim, leaving))?;
-        Some(Hit { place: SurfaceId { prim, facet: crossing.facet }, crossing })
+        let crossing = shape.cross_part(facet, ray, span, leaving_facet(prim, leaving))?;
+        Some(Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing })
     }
 
     /// The mesh that a shape is, if it is one.
@@ -166,15 +166,15 @@ impl Snapshot {
 
     /// Where a ray crosses one shape; meshes by their tree.
     fn cross(&self, prim: u32, segment: &RaySegment<'_>) -> Option<Hit> {
-        let left = facet_left(prim, segment.leaving);
+        let leaving = leaving_facet(prim, segment.leaving);
         let crossing = match (&*self.shape(segment, prim), self.prims[prim as usize].mesh) {
             (Shape::Mesh(mesh), Some(tree)) => {
                 let tree = &self.index.meshes[tree as usize].tree;
-                cross_mesh(mesh, tree, &mesh.own_ray(segment.ray), segment.span, left)
+                cross_mesh(mesh, tree, &mesh.own_ray(segment.ray), segment.span, leaving)
             }
-            (shape, _) => shape.cross(segment.ray, segment.span, left),
+            (shape, _) => shape.cross(segment.ray, segment.span, leaving),
         }?;
-        Some(Hit { place: SurfaceId { prim, facet: crossing.facet }, crossing })
+        Some(Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing })
     }
 }
 
@@ -207,13 +207,13 @@ fn comes_first(order: Ordering, a: SurfaceId, b: SurfaceId) -> bool {
 }
 
 /// The nearest crossing of a ray in a mesh's own space with its triangles; of crossings in one place, that of the lowest.
-fn cross_mesh(mesh: &Mesh, tree: &WideTree, own: &Ray, span: Span, left: Option<u32>) -> Option<Crossing> {
+fn cross_mesh(mesh: &Mesh, tree: &WideTree, own: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
     let mut best: Option<Crossing> = None;
     tree.walk(own, span, |triangle| {
         let far = |best: Option<Crossing>| best.map_or(span.max, |b| b.latest().min(span.max));
         let within = Span { max: far(best), ..span };
-        if let Some(next) = mesh.cross_piece(triangle, own, within, left) {
-            let precedes = |b: Crossing| match mesh.order(own, span, left, [&next, &b]) {
+        if let Some(next) = mesh.cross_piece(triangle, own, within, leaving) {
+            let precedes = |b: Crossing| match mesh.order(own, span, leaving, [&next, &b]) {
                 Ordering::Equal => next.facet < b.facet,
                 order => order.is_lt(),
             };
@@ -226,6 +226,6 @@ fn cross_mesh(mesh: &Mesh, tree: &WideTree, own: &Ray, span: Span, left: Option<
     best
 }
 
-fn facet_left(prim: u32, leaving: Option<SurfaceId>) -> Option<u32> {
-    leaving.filter(|place| place.prim == prim).map(|place| place.facet)
+fn leaving_facet(prim: u32, leaving: Option<SurfaceId>) -> Option<u32> {
+    leaving.filter(|surface| surface.prim == prim).map(|surface| surface.facet)
 }

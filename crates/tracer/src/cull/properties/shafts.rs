@@ -90,13 +90,13 @@ impl Scene<'_> {
             // Not up to a light that lies in a plane but for rounding: on which side it is said to be differs.
             let span = if span.max < 1.0 { Span::until(1.0 - 1e-12) } else { span };
             // What faces a light is not shadowed by its own convex solid.
-            let own = leaving.is_some_and(|place| place.prim == prim);
+            let own = leaving.is_some_and(|surface| surface.prim == prim);
             if own && self.outside && self.snapshot.columns().is_convex(prim) {
                 continue;
             }
             if let Some(hit) = self.snapshot.cross_part(prim, None, &ray, span, *leaving) {
                 blocked += 1;
-                let found = holds(occluders, self.snapshot, hit.place);
+                let found = holds(occluders, self.snapshot, hit.surface);
                 let prims = self.snapshot.prims();
                 assert!(found, "{hit:?} on {ray:?}: {leaving:?} {occluders:?} {:#?} {prims:#?}", self.bounds);
             }
@@ -122,7 +122,7 @@ fn what_keeps_light_from_what_is_seen_is_among_its_occluders() {
         let rays = stage.rays(&frame, &region).into_iter();
         let seen = rays.filter_map(|ray| {
             let hit = snapshot.nearest(&ray, Span::AHEAD, None)?;
-            Some((ray.at(hit.crossing.t), Some(hit.place)))
+            Some((ray.at(hit.crossing.t), Some(hit.surface)))
         });
         let seen: Vec<Seen> = seen.collect();
         let visible = seen_in(&frame, &region);
@@ -142,7 +142,9 @@ fn what_keeps_light_from_what_is_seen_is_among_its_occluders() {
 pub(super) fn bounds_of(snapshot: &Snapshot, seen: &[Seen]) -> Vec<PointBounds> {
     let prims = 0..snapshot.prims().len() as u32;
     let own = |prim: u32| {
-        seen.iter().filter(move |(_, place)| place.is_some_and(|place| place.prim == prim)).map(|(p, _)| *p)
+        seen.iter()
+            .filter(move |(_, surface)| surface.is_some_and(|surface| surface.prim == prim))
+            .map(|(p, _)| *p)
     };
     let bounds = |prim: u32| {
         let points = own(prim).map(|p| p - snapshot.origin_in_frame());

@@ -388,6 +388,6 @@ impl<S: Simd> Searcher<'_, S> {
     #[cold]
     fn scalar_answer(&self, query: &RayQuery<'_>, at: usize) -> Option<(SurfaceId, f64)> {
         let hit = query.rays.follow(self.snapshot, at, |segment| self.snapshot.nearest_on(segment))?;
-        Some((hit.place, hit.crossing.t))
+        Some((hit.surface, hit.crossing.t))
     }
 }
