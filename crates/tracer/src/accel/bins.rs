@@ -233,20 +233,20 @@ impl Bins {
         let mut bins = Self { around: [[Item::NONE; MOST_BINS]; 3], count: [[0; MOST_BINS]; 3] };
         for item in items {
             let extent = Extent::of(s, item);
-            let places = scale.bins_of(extent);
-            bins.add(s, 0, places[0], extent);
-            bins.add(s, 1, places[1], extent);
-            bins.add(s, 2, places[2], extent);
+            let found = scale.bins_of(extent);
+            bins.add(s, 0, found[0], extent);
+            bins.add(s, 1, found[1], extent);
+            bins.add(s, 2, found[2], extent);
         }
         bins
     }
 
     #[inline(always)]
-    fn add<S: Simd>(&mut self, s: S, axis: usize, place: i32, extent: Extent<S>) {
-        let place = place as usize % MOST_BINS;
-        let bin = &mut self.around[axis][place];
-        Extent::of(s, bin).union(extent).store(bin);
-        self.count[axis][place] += 1;
+    fn add<S: Simd>(&mut self, s: S, axis: usize, bin: i32, extent: Extent<S>) {
+        let bin = bin as usize % MOST_BINS;
+        let around = &mut self.around[axis][bin];
+        Extent::of(s, around).union(extent).store(around);
+        self.count[axis][bin] += 1;
     }
 
     /// Of these and other triangles.

@@ -295,8 +295,8 @@ impl<S: Simd> Grower<'_, S> {
                     let extent = Extent::of(self.s, item);
                     let first = scale.lies_before(extent, plane);
                     let from_end = last.wrapping_sub(at - count);
-                    let place = from_end ^ ((from_end ^ count) & first.wrapping_neg());
-                    to[place] = *item;
+                    let slot = from_end ^ ((from_end ^ count) & first.wrapping_neg());
+                    to[slot] = *item;
                     count += first;
                     let centre = Extent::point(extent.centre2());
                     below = below.union(centre.only_if(self.s, first == 1));
@@ -308,10 +308,10 @@ impl<S: Simd> Grower<'_, S> {
     }
 
     /// A set of these triangles, which stand where another is said to.
-    fn measured(self, items: &[Item], place: Set<S>) -> Set<S> {
+    fn measured(self, items: &[Item], slots: Set<S>) -> Set<S> {
         let parts = items.par_chunks(PARALLEL).map(|items| Set::of(self.s, items));
         let set = parts.reduce_with(Set::with).unwrap_or_else(|| Set::of(self.s, items));
-        Set { first: place.first, room: place.room, aside: place.aside, ..set }
+        Set { first: slots.first, room: slots.room, aside: slots.aside, ..set }
     }
 }
 

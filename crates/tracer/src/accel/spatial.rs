@@ -29,7 +29,7 @@ impl Planes {
     }
 
     /// Where a slice begins; not before where the one before it does.
-    fn place(&self, slice: usize) -> f32 {
+    fn start_of(&self, slice: usize) -> f32 {
         self.low + self.step * slice as f32
     }
 
@@ -40,16 +40,16 @@ impl Planes {
         let near = |v: f32| (((v - self.low) / self.step) as usize).min(SLICES - 1);
         let (mut first, mut last) = (near(low), near(high));
         // The quotients may be off by a rounding; the planes are what counts.
-        while first > 0 && self.place(first) > low {
+        while first > 0 && self.start_of(first) > low {
             first -= 1;
         }
-        while first + 1 < SLICES && self.place(first + 1) <= low {
+        while first + 1 < SLICES && self.start_of(first + 1) <= low {
             first += 1;
         }
-        while last > first && self.place(last) >= high {
+        while last > first && self.start_of(last) >= high {
             last -= 1;
         }
-        while last + 1 < SLICES && self.place(last + 1) < high {
+        while last + 1 < SLICES && self.start_of(last + 1) < high {
             last += 1;
         }
         (first, last.max(first))
@@ -77,7 +77,7 @@ impl Slices {
         if first < last {
             let corners = mesh.corners(item.id());
             for slice in first..last {
-                let [before, past] = halves(&corners, &rest, planes.axis, planes.place(slice + 1));
+                let [before, past] = halves(&corners, &rest, planes.axis, planes.start_of(slice + 1));
                 self.around[slice] = self.around[slice].union(&before);
                 rest = past;
             }
@@ -176,8 +176,8 @@ impl Cut {
     /// What of a triangle that reaches across stands on either side.
     fn sides(&self, mesh: &TriangleMesh, item: &Item) -> [Option<Item>; 2] {
         let bounds = item.bounds();
-        let place = self.planes.place(self.slice);
-        let [before, past] = halves(&mesh.corners(item.id()), &bounds, self.planes.axis, place);
+        let start = self.planes.start_of(self.slice);
+        let [before, past] = halves(&mesh.corners(item.id()), &bounds, self.planes.axis, start);
         let whole = [[Some(*item), None], [None, Some(*item)]];
         let areas = self.around.map(|b| b.half_area());
         let counts = self.counts.map(|count| count as f32);

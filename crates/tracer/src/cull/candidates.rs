@@ -231,8 +231,8 @@ impl Candidates {
             light.behind[i] != 0.0 && points.iter().any(|place| place.may_lie_beyond(row, light.behind[i]))
         };
         let meets = |prim: u32, ball: &Ball| {
-            let left = outside && columns.is_convex(prim);
-            points.iter().any(|place| !(left && place.prim == prim) && place.shaft_meets(light, ball))
+            let passes_by = outside && columns.is_convex(prim);
+            points.iter().any(|place| !(passes_by && place.prim == prim) && place.shaft_meets(light, ball))
         };
         self.keep(columns, crosses, meets);
     }

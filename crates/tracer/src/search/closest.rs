@@ -51,7 +51,7 @@ impl<S: Simd> Searcher<'_, S> {
         for &row in &shapes.planes {
             let plane = &columns.planes[row as usize];
             let proposal = plane.propose(self.s, &packet.rays);
-            self.consider(packet, best, packet.live, (plane.prim, 0), proposal);
+            self.consider(packet, best, packet.live, SurfaceId { prim: plane.prim, facet: 0 }, proposal);
         }
         for &prim in &columns.general_unbounded {
             self.decide_all(packet, best, packet.live, prim);
@@ -83,7 +83,8 @@ impl<S: Simd> Searcher<'_, S> {
                 for &row in faces {
                     let face = &self.snapshot.columns().triangles[row as usize];
                     let proposal = face.propose(self.s, &packet.rays);
-                    self.consider(&packet, &mut best, packet.live, (face.plane.prim, face.facet), proposal);
+                    let surface = SurfaceId { prim: face.plane.prim, facet: face.facet };
+                    self.consider(&packet, &mut best, packet.live, surface, proposal);
                 }
             },
         );
@@ -109,12 +110,15 @@ impl<S: Simd> Searcher<'_, S> {
         packet: &Packet<'_, S, P>,
         best: &mut Hits<S>,
         live: M<S>,
-        place: (u32, u32),
+        surface: SurfaceId,
         proposal: Proposal<S>,
     ) {
-        let allowed =
-            if packet.leaving.any { live & !packet.leaving.from(self.s, place.0, place.1) } else { live };
-        self.accept(packet, best, allowed, (place.0, U::splat(self.s, place.1)), proposal);
+        let allowed = if packet.leaving.any {
+            live & !packet.leaving.from(self.s, surface.prim, surface.facet)
+        } else {
+            live
+        };
+        self.accept(packet, best, allowed, (surface.prim, U::splat(self.s, surface.facet)), proposal);
     }
 
     /// Takes over a proposal where it is nearer; what cannot be decided is settled in `f64`.

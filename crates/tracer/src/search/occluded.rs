@@ -167,11 +167,11 @@ impl<S: Simd> Searcher<'_, S> {
         self.stats.tests.shapes += F::<S>::LANES as u64;
         let Obstacle { blocking, facet, lanes } = obstacle;
         let undecided = lanes & blocking.undecided;
-        let left = open & !(lanes & blocking.blocked & !undecided);
+        let remaining = open & !(lanes & blocking.blocked & !undecided);
         if CERTAIN && undecided.any() {
-            self.close_exactly(segments, rays, left, undecided, (prim, facet))
+            self.close_exactly(segments, rays, remaining, undecided, (prim, facet))
         } else {
-            left
+            remaining
         }
     }
 

@@ -33,16 +33,16 @@ impl<S: Simd> Searcher<'_, S> {
         best: &Hits<S>,
         lanes: M<S>,
     ) -> Refined<S> {
-        let mut left = lanes.bits();
-        let prim = best.prim.lane(left.trailing_zeros() as usize);
+        let mut remaining = lanes.bits();
+        let prim = best.prim.lane(remaining.trailing_zeros() as usize);
         let mut mask = lanes & best.prim.is(prim);
         let mut refined = self.refine(packet, best, mask, prim);
-        left &= !mask.bits();
-        while left != 0 {
-            let prim = best.prim.lane(left.trailing_zeros() as usize);
+        remaining &= !mask.bits();
+        while remaining != 0 {
+            let prim = best.prim.lane(remaining.trailing_zeros() as usize);
             mask = lanes & best.prim.is(prim);
             refined = self.refine_too(packet, best, mask, prim, refined);
-            left &= !mask.bits();
+            remaining &= !mask.bits();
         }
         refined
     }

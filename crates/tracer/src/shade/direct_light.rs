@@ -135,8 +135,8 @@ impl<S: Simd> Shader<'_, S> {
         let rows = self.search.snapshot.light_rows();
         let lit = self.chunk.lit[..count].iter().map(|lit| lit.count()).sum();
         self.search.stats.skipped.unreached += lit * (rows.len() - self.plan.reached.len()) as u64;
-        for place in 0..self.plan.reached.len() {
-            let light = self.plan.reached[place];
+        for index in 0..self.plan.reached.len() {
+            let light = self.plan.reached[index];
             let row = &rows[light];
             outlined(
                 self.s,

@@ -88,18 +88,18 @@ impl<S: Simd> Shader<'_, S> {
         let hits = best.hits() & packet.live;
         let mut lit = M::splat(self.s, false);
         if hits.any() {
-            let mut left = hits.bits();
-            let prim = best.prim.lane(left.trailing_zeros() as usize);
+            let mut remaining = hits.bits();
+            let prim = best.prim.lane(remaining.trailing_zeros() as usize);
             let mask = hits & best.prim.is(prim);
             let mut surface = self.search.surface(packet, best, mask, prim);
             lit = lit | self.add_material_group(mask, prim, slot);
-            left &= !mask.bits();
-            while left != 0 {
-                let prim = best.prim.lane(left.trailing_zeros() as usize);
+            remaining &= !mask.bits();
+            while remaining != 0 {
+                let prim = best.prim.lane(remaining.trailing_zeros() as usize);
                 let mask = hits & best.prim.is(prim);
                 surface = self.search.surface_too(packet, best, mask, prim, surface);
                 lit = lit | self.add_material_group(mask, prim, slot);
-                left &= !mask.bits();
+                remaining &= !mask.bits();
             }
             self.store_surface(packet, slot, surface);
         }

@@ -41,12 +41,12 @@ impl<S: Simd, const N: usize> LaneBounds<S, N> {
     /// Adds the lanes of a mask to the boxes of their shapes.
     #[inline(always)]
     pub(crate) fn add(&mut self, lanes: M<S>, prims: U<S>, vectors: &[F3<S>; N]) {
-        let mut left = lanes.bits();
-        while left != 0 {
-            let prim = prims.lane(left.trailing_zeros() as usize);
+        let mut remaining = lanes.bits();
+        while remaining != 0 {
+            let prim = prims.lane(remaining.trailing_zeros() as usize);
             let mask = lanes & prims.is(prim);
             self.grow(prim, mask, vectors);
-            left &= !mask.bits();
+            remaining &= !mask.bits();
         }
     }
 

@@ -115,8 +115,8 @@ impl Queue {
     /// Which lanes from ray `at` on are rays.
     #[inline(always)]
     pub(crate) fn live_lanes<S: Simd>(&self, s: S, at: usize) -> M<S> {
-        let (lanes, left) = (F::<S>::LANES, self.length - at);
-        M::from_bits(s, if left >= lanes { u64::MAX >> (64 - lanes) } else { (1 << left) - 1 })
+        let (lanes, remaining) = (F::<S>::LANES, self.length - at);
+        M::from_bits(s, if remaining >= lanes { u64::MAX >> (64 - lanes) } else { (1 << remaining) - 1 })
     }
 
     /// How much of the light along the rays from `at` on counts.

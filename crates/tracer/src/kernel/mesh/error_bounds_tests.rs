@@ -175,8 +175,8 @@ fn attack_single(
             record.undecided += 1;
             continue;
         }
-        let place = [f64::from(best.t), f64::from(best.error)];
-        let found = best.slot.map(|slot| (target.tree.tree.facet(slot), place));
+        let depth = [f64::from(best.t), f64::from(best.error)];
+        let found = best.slot.map(|slot| (target.tree.tree.facet(slot), depth));
         record.note(&target, &ray, found, 1.0);
     }
 }
@@ -249,8 +249,8 @@ fn attack_planes<S: Simd>(s: S, random: &mut Random, target: &Target, records: &
             let nearer = crossing.nearer.bits();
             for (lane, ray) in rays.iter().enumerate().filter(|(lane, _)| nearer >> lane & 1 == 1) {
                 let Some(hit) = shape.cross(ray, Span::AHEAD, None) else { continue };
-                let place = between(crossing.depth, lane);
-                record.note_depth(target, ray, place, hit.t * depth_per_t(common_origin, ray));
+                let depth = between(crossing.depth, lane);
+                record.note_depth(target, ray, depth, hit.t * depth_per_t(common_origin, ray));
             }
         }
     }
@@ -306,8 +306,8 @@ fn attack_bundle<S: Simd>(s: S, random: &mut Random, target: &Target, record: &m
             continue;
         }
         let slot = Some(found.slot.lane(lane)).filter(|&slot| slot != u32::MAX);
-        let place = between(found.end, lane);
-        let found = slot.map(|slot| (target.tree.tree.facet(slot), place));
+        let depth = between(found.end, lane);
+        let found = slot.map(|slot| (target.tree.tree.facet(slot), depth));
         record.note(target, ray, found, depth_per_t(&bundle.common_origin, ray));
     }
 }

@@ -358,11 +358,11 @@ impl<S: Simd> Searcher<'_, S> {
     fn refined_hits<P: PreciseRays<S>>(&mut self, packet: &Packet<'_, S, P>, best: &Hits<S>) -> D<S> {
         let snapshot = self.snapshot;
         let mut all = (best.t * packet.inverse_length).widen();
-        let mut left = (best.hits() & packet.live).bits();
-        while left != 0 {
-            let prim = best.prim.lane(left.trailing_zeros() as usize);
-            let lanes = M::from_bits(self.s, left) & best.prim.is(prim);
-            left &= !lanes.bits();
+        let mut remaining = (best.hits() & packet.live).bits();
+        while remaining != 0 {
+            let prim = best.prim.lane(remaining.trailing_zeros() as usize);
+            let lanes = M::from_bits(self.s, remaining) & best.prim.is(prim);
+            remaining &= !lanes.bits();
             if let Row::Instance(row) = snapshot.columns().rows[prim as usize] {
                 let instance = &snapshot.columns().instances[row as usize];
                 let triangles = instance.facets(self.s, best.facet, lanes);
