@@ -1,4 +1,4 @@
-//! What lies under a point of the picture.
+//! Picks the entity and the point under a pixel of the picture.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{EntityId, Span};

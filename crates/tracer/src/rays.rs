@@ -1,4 +1,4 @@
-//! Rays that a caller supplies and what they meet, side by side in blocks.
+//! Lists of rays that a caller supplies and of their hits, in blocks of columns.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Span};
@@ -30,8 +30,8 @@ impl RayBlock {
     };
 }
 
-/// Rays of the world in `f64`, each asked about on the closed stretch `min <= t <= max`, where `t` counts in lengths of
-/// the ray's direction.
+/// Rays of the world in `f64`, each with a closed span `min <= t <= max` that is searched; `t` counts in lengths of the
+/// ray's direction.
 ///
 /// What lies behind the origin is never met, so a negative `min` counts as 0. A ray that is not
 /// [valid](Ray::is_valid), and a stretch whose ends are not in order, meet nothing.
@@ -63,8 +63,8 @@ impl RayList {
         self.length == 0
     }
 
-    /// Appends a ray of the world, asked about on `min <= t <= max`, that may leave a surface: what it leaves is not
-    /// met again there.
+    /// Appends a ray of the world to be searched on `min <= t <= max`. It may leave a surface, which it does not meet again
+    /// at its origin.
     pub fn push(&mut self, ray: &Ray, [min, max]: [f64; 2], leaving: Option<SurfaceId>) {
         let (block, lane) = (self.length / RAYS_PER_BLOCK, self.length % RAYS_PER_BLOCK);
         if lane == 0 {
@@ -138,7 +138,7 @@ impl RaySlice<'_> {
         Ray::new(vector(&rays.origin), vector(&rays.direction))
     }
 
-    /// The stretch that a ray is asked about; `None` where it is empty.
+    /// The span that a ray is searched on; `None` where it is empty.
     ///
     /// # Panics
     /// A number that is not below [`len`](Self::len).
@@ -163,14 +163,14 @@ impl RaySlice<'_> {
         (prim != NOTHING).then(|| SurfaceId { prim, facet: self.rays.facet[self.first + at] })
     }
 
-    /// The block that a ray stands in, and where in it.
+    /// The block that holds a ray, and its index there.
     #[inline(always)]
     pub(crate) fn block(&self, at: usize) -> (&RayBlock, usize) {
         let at = self.first + at;
         (&self.rays.blocks[at / RAYS_PER_BLOCK], at % RAYS_PER_BLOCK)
     }
 
-    /// Asks memory for the block that a ray stands in.
+    /// Prefetches the block that holds a ray.
     #[inline(always)]
     pub(crate) fn prefetch(&self, at: usize) {
         if let Some(first) = self.rays.blocks.first() {
@@ -220,7 +220,7 @@ pub struct HitList {
 }
 
 impl HitList {
-    /// How many rays were asked about.
+    /// How many rays were searched.
     #[must_use]
     pub fn len(&self) -> usize {
         self.length

@@ -126,7 +126,7 @@ pub(super) struct Set<S: Simd> {
 }
 
 impl<S: Simd> Set<S> {
-    /// Of all that stands there, from the first place on.
+    /// Of all these triangles, from the first slot on.
     pub(super) fn of(s: S, items: &[Item]) -> Self {
         let empty = Extent::empty(s);
         let (first, count, room) = (0, items.len(), 0);
@@ -152,7 +152,7 @@ impl<S: Simd> Set<S> {
         [first, Self { first: second, count: counts[1], room: self.room - room, ..first }]
     }
 
-    /// This and what stands right after it.
+    /// This set and the one right after it.
     pub(super) fn with(self, o: Self) -> Self {
         Self {
             count: self.count + o.count,
@@ -213,7 +213,7 @@ pub(super) struct Plane {
 /// Most bins along an axis that any preset has.
 pub(super) const MOST_BINS: usize = 32;
 
-/// What so many triangles cost, in tests of one: whole blocks are tested, so sets that fill theirs are preferred.
+/// Cost of `count` triangles, in tests of one: whole blocks are tested, so sets that fill theirs are preferred.
 #[inline(always)]
 pub(super) fn weight(count: usize) -> f32 {
     count.next_multiple_of(WIDTH) as f32

@@ -1,4 +1,4 @@
-//! How triangles that overlap are told apart: by cutting space, so that a triangle may stand on both sides of a cut.
+//! Spatial splits: nodes are split by cutting space, so that a triangle across the cut goes to both sides.
 //!
 //! Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies", HPG 2009. Each side keeps a box round
 //! that part of a triangle that lies there, never too small ([`halves`]), so a ray finds every point of it in some leaf.
@@ -106,8 +106,8 @@ pub(super) struct Cut {
     pub(super) cost: f32,
 }
 
-/// The cheapest cut of triangles in a box that makes at most so many more of them; stretches of so many are shared out
-/// among threads.
+/// The cheapest cut of triangles in a box that adds at most `room` triangles; threads share out the triangles in
+/// stretches of `stretch`.
 pub(super) fn cheapest_cut(
     mesh: &TriangleMesh,
     items: &[Item],
@@ -154,7 +154,7 @@ fn sweep(planes: &Planes, slices: &Slices, most: usize, best: &mut Option<Cut>) 
 }
 
 impl Cut {
-    /// What stands before the plane and what past it; a triangle that reaches across stands on one side as a whole where
+    /// The triangles before the plane and those past it; a triangle across the plane goes to one side as a whole where
     /// that is cheaper.
     pub(super) fn share_out(&self, mesh: &TriangleMesh, items: &[Item]) -> [Vec<Item>; 2] {
         let mut parts = self.counts.map(Vec::with_capacity);
@@ -173,7 +173,7 @@ impl Cut {
         parts
     }
 
-    /// What of a triangle that reaches across stands on either side.
+    /// The parts of a triangle across the plane on either side.
     fn sides(&self, mesh: &TriangleMesh, item: &Item) -> [Option<Item>; 2] {
         let bounds = item.bounds();
         let start = self.planes.start_of(self.slice);

@@ -1,4 +1,4 @@
-//! What does an integrator have at hand that follows one path at a time in `f64`?
+//! The state of an integrator that follows one path at a time in `f64`, and the surfaces that its rays hit.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Material, Ray, ShadingPoint};
@@ -7,7 +7,7 @@ use super::Search;
 use crate::sampler::Sampler;
 use crate::{Frame, Hit, Stats};
 
-/// A ray from the camera, in the snapshot's frame, and what random choices along its path go by.
+/// A ray from the camera, in the snapshot's frame, and the sampler of its path.
 pub(crate) struct CameraRay {
     pub(super) ray: Ray,
     /// The numbers of the pixel.
@@ -16,7 +16,7 @@ pub(crate) struct CameraRay {
     pub(super) sample: u32,
 }
 
-/// Answers for paths of one frame, and counts them.
+/// Follows paths of one frame, and counts their rays.
 pub(crate) struct Walker<'a, S> {
     pub(super) search: &'a S,
     pub(super) frame: &'a Frame<'a>,
@@ -36,7 +36,7 @@ pub(super) struct SurfaceHit<'a> {
 }
 
 impl<'a, S: Search> Walker<'a, S> {
-    /// What is known where a ray has hit something.
+    /// The surface at a hit of a ray.
     pub(super) fn surface_at(&self, hit: Hit, ray: Ray) -> SurfaceHit<'a> {
         let snapshot = self.frame.snapshot;
         let prim = &snapshot.prims()[hit.surface.prim as usize];

@@ -54,8 +54,8 @@ impl CuboidRow {
         Self { faces, slabs }
     }
 
-    /// The crossing nearest ahead, and on which facet it lies. `left` tells through which facet rays have come that run
-    /// from the box's surface into it, and is [`NOTHING`] for all others.
+    /// The crossing nearest ahead, and on which facet it lies. `entered` is the facet of rays that run from the box's
+    /// surface into it, and [`NOTHING`] for all others.
     #[inline(always)]
     pub(crate) fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, entered: U<S>) -> (Proposal<S>, U<S>) {
         let zero = F::splat(s, 0.0);

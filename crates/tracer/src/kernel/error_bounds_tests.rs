@@ -30,17 +30,17 @@ struct Record {
     worst: f64,
 }
 
-/// Aims at a target of the size of so many metres, from so far away.
+/// Makes a ray at a target; the numbers are the target's size and the distance, in metres.
 type Aim = fn(&mut Random, &Target, f64, f64) -> Shot;
 
-/// A place near a rim, of shapes in so many metres.
+/// A point near a rim of a shape whose size is about `unit` metres.
 fn place_near(random: &mut Random, rim: &[DVec3], unit: f64) -> DVec3 {
     let (a, b) = (rim[random.bits() as usize % rim.len()], rim[random.bits() as usize % rim.len()]);
     let share = [0.0, 0.5, random.number()][random.bits() as usize % 3];
     a.lerp(b, share) + random.point() * unit * random.power(-40, -10)
 }
 
-/// From so far away, towards the rim.
+/// From a given distance, towards the rim.
 fn from_afar(random: &mut Random, (_, rim): &Target, unit: f64, reach: f64) -> Shot {
     let target = place_near(random, rim, unit);
     // Some run along an axis, or as good as.
@@ -92,7 +92,7 @@ fn propose<S: Simd>(s: S, shape: &Shape, shots: &[Shot]) -> Option<(Proposal<S>,
     Some((proposal, U::splat(s, 0)))
 }
 
-/// Targets of the size of so many metres.
+/// Aims at targets of random sizes, which the function gets in metres.
 fn attack(target: impl Fn(&mut Random, f64) -> Option<Target>) -> Record {
     attack_by(from_afar, target)
 }

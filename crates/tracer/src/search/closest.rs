@@ -1,4 +1,4 @@
-//! What the rays of a packet meet first.
+//! The closest hits of a packet.
 
 use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
@@ -14,7 +14,7 @@ use crate::lanes::{Bits, F, M, U, outlined};
 use crate::numeric::{CERTAIN, SETTLED_ERROR};
 use crate::snapshot::{Instance, KernelVisitor, RaySegment};
 
-/// A shape that may be the nearest, as far as `f32` can tell.
+/// A shape that may be the nearest, within the error bounds of `f32`.
 #[derive(Clone, Copy)]
 struct Doubtful<S: Simd> {
     prim: u32,
@@ -22,12 +22,12 @@ struct Doubtful<S: Simd> {
     facet: Option<U<S>>,
     t: F<S>,
     error: F<S>,
-    /// Lanes where `t` is a crossing for certain, and only its place in the order is in doubt.
+    /// Lanes where `t` is a crossing for certain, and only its order among the others is in doubt.
     known: M<S>,
 }
 
 impl<S: Simd> Searcher<'_, S> {
-    /// What every ray meets first of the given shapes.
+    /// The closest hit of every ray among the given shapes.
     #[inline(always)]
     pub(crate) fn closest<P: PreciseRays<S>>(
         &mut self,
@@ -39,7 +39,7 @@ impl<S: Simd> Searcher<'_, S> {
         best
     }
 
-    /// Looks among the given shapes for what is nearer than what has been found.
+    /// Searches the given shapes for hits that are nearer than those found so far.
     #[inline(always)]
     pub(crate) fn look<P: PreciseRays<S>>(
         &mut self,
@@ -121,7 +121,7 @@ impl<S: Simd> Searcher<'_, S> {
         self.accept(packet, best, allowed, (surface.prim, U::splat(self.s, surface.facet)), proposal);
     }
 
-    /// Takes over a proposal where it is nearer; what cannot be decided is settled in `f64`.
+    /// Takes over a proposal where it is nearer; what `f32` cannot decide is decided in `f64`.
     #[inline(always)]
     fn accept<P: PreciseRays<S>>(
         &mut self,
@@ -211,7 +211,7 @@ impl<S: Simd> Searcher<'_, S> {
             let other = best.prim.lane(lane);
             let held = (other != NOTHING).then(|| SurfaceId { prim: other, facet: best.facet.lane(lane) });
             let first = match (facet, held) {
-                // Both are met for certain: only which is first is asked, unless the stretch may begin behind one.
+                // Both are met for certain: only their order is to be decided, unless the span may begin behind one.
                 (Some(facet), Some(held)) if known && P::FROM_ORIGIN => snapshot
                     .surface_precedes(&segment, SurfaceId { prim, facet }, held)
                     .then_some((facet, 0.0)),

@@ -1,4 +1,4 @@
-//! How a packet finds the triangles of a mesh: all lanes together where they go through one point, else lane by lane.
+//! Closest hits of a packet on a mesh: as a bundle where the rays have a common origin, else ray by ray.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane, LaneMask, Ray, Span};
@@ -15,7 +15,7 @@ use crate::lanes::{Bits, D, D3, F, M, U, outlined, splat_wide};
 use crate::numeric::{BOUNDS_ERROR, END_ERROR, POINT_ERROR};
 use crate::snapshot::{Affine, Instance};
 
-/// Stands for no triangle.
+/// No triangle.
 pub(crate) const NONE: u32 = u32::MAX;
 
 impl<S: Simd> Searcher<'_, S> {
@@ -72,7 +72,7 @@ impl<S: Simd> Searcher<'_, S> {
         [low * scale, high * scale * F::splat(self.s, 1.0 + END_ERROR)]
     }
 
-    /// Depths up to which it is worth looking, and bounds on their errors.
+    /// Depths up to which triangles are searched, and bounds on their errors.
     #[inline(always)]
     fn end(&self, best: &Hits<S>, scale: F<S>) -> [F<S>; 2] {
         let most = F::splat(self.s, f32::MAX);
@@ -82,7 +82,7 @@ impl<S: Simd> Searcher<'_, S> {
         [F::pick(near, end, most), F::pick(near, error, F::splat(self.s, 0.0))]
     }
 
-    /// Places of the nearest triangles in the tree's blocks, one lane after another.
+    /// Slots of the nearest triangles in the tree's blocks, one lane after another.
     #[inline(always)]
     fn search_each<P: PreciseRays<S>>(
         &mut self,
@@ -177,8 +177,8 @@ impl<S: Simd> Searcher<'_, S> {
     }
 
     /// How far origins may be off, metres of the mesh's own space, beyond what `f64` rounds of their coordinates there; and
-    /// the largest coordinate of the mesh. They are relative to the snapshot's origin, and a mesh that stands far away has
-    /// them rounded as coarsely as its own place.
+    /// the largest coordinate of the mesh. They are relative to the snapshot's origin, and those on a mesh that is far from
+    /// it are rounded as coarsely as the mesh's own position.
     pub(crate) fn reach(&self, instance: &Instance) -> (f32, f32) {
         let drifting = drift(self.snapshot.origin_in_frame()) * POINT_ERROR * instance.scale();
         let shift = instance.to_object.as_ref().map_or(0.0, |affine| affine.shift.abs().element_sum());
@@ -241,7 +241,7 @@ impl Instance {
         self.at_corners(s, facets, lanes, self.tree.mesh().positions())
     }
 
-    /// The same with something else that corners have in the place of their positions, such as normals.
+    /// The same with another attribute of corners instead of their positions, such as normals.
     #[inline(always)]
     pub(crate) fn at_corners<S: Simd>(
         &self,
@@ -258,7 +258,7 @@ impl Instance {
         all
     }
 
-    /// The triangles at places in the tree's blocks.
+    /// The triangles at slots of the tree's blocks.
     #[inline(always)]
     pub(crate) fn triangles<S: Simd>(&self, s: S, slots: U<S>, lanes: M<S>) -> LaneTriangles<S> {
         let mut all = LaneTriangles::nothing(s);
@@ -277,7 +277,7 @@ impl Affine {
         D3::new(splat_wide(s, x).dot(v), splat_wide(s, y).dot(v), splat_wide(s, z).dot(v))
     }
 
-    /// The other way, leaving lengths as they are.
+    /// The inverse rotation; lengths stay as they are.
     #[inline(always)]
     fn turn_back<S: Simd>(&self, s: S, v: D3<S>) -> D3<S> {
         let [x, y, z] = self.matrix.map(DVec3::normalize).map(|row| splat_wide(s, row));

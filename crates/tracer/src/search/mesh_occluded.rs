@@ -1,4 +1,4 @@
-//! Which segments a mesh blocks: all lanes together where they go through one point, else lane by lane.
+//! Occlusion by a mesh: segments are traced as a bundle where they have a common origin, else ray by ray.
 
 use fearless_simd::Simd;
 
@@ -11,7 +11,7 @@ use crate::lanes::{M, outlined};
 use crate::snapshot::Instance;
 
 impl<S: Simd> Searcher<'_, S> {
-    /// The segments still open once a mesh stands there. See [`outlined`].
+    /// The segments that a mesh does not block. See [`outlined`].
     pub(crate) fn occlude_by_mesh(
         &mut self,
         segments: &impl Segments<S>,

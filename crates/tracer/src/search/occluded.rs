@@ -1,4 +1,4 @@
-//! Which segments are blocked: those from surfaces to a light, or any others.
+//! Occlusion of segments: of shadow rays from surfaces to a light, or of any others.
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::{LaneMask, Ray, Span};
@@ -14,7 +14,7 @@ use crate::lanes::{Bits, F, M, U};
 use crate::numeric::CERTAIN;
 use crate::snapshot::{Instance, KernelVisitor, Row};
 
-/// Segments that are tested for anything in their way, one in every lane.
+/// Segments that are tested for occlusion, one in every lane.
 #[derive(Clone, Copy)]
 pub(crate) struct ShadowRays<'a, S: Simd> {
     /// The segments as kernels see them; how far their starts and lengths may be off is part of their reach.
@@ -41,12 +41,12 @@ impl<S: Simd> ShadowRays<'_, S> {
     }
 }
 
-/// Where shadow rays stand exactly, for what `f32` cannot decide; and how a mesh is searched for them.
+/// The `f64` segments of shadow rays, for what `f32` cannot decide; and how a mesh is searched for them.
 pub(crate) trait Segments<S: Simd> {
     /// The segment of a lane, in the snapshot's frame.
     fn segment(&self, snapshot: &Snapshot, lane: usize) -> Option<(Ray, Span)>;
 
-    /// The open ones as rays through one point of the mesh's own space, if that is what they are.
+    /// The open ones as a bundle in the mesh's own space, if they have a common origin.
     fn bundle(
         &self,
         search: &Searcher<'_, S>,
@@ -70,7 +70,7 @@ pub(crate) trait Segments<S: Simd> {
 }
 
 impl<S: Simd> Searcher<'_, S> {
-    /// Which segments are blocked, where only planes and spheres may stand there and `f32` can tell.
+    /// Which segments are blocked; `None` unless all occluders are planes and spheres and `f32` decides every lane.
     #[inline(always)]
     pub(crate) fn occluded_for_certain(
         &mut self,
@@ -141,7 +141,7 @@ impl<S: Simd> Searcher<'_, S> {
         rays.live & !open
     }
 
-    /// The segments still open once one bounded shape stands there.
+    /// The segments that one bounded shape does not block.
     #[inline(always)]
     pub(crate) fn occlude_by(
         &mut self,
@@ -212,7 +212,7 @@ impl<S: Simd> Searcher<'_, S> {
     }
 }
 
-/// Tests segments for one shape in their way, on copies; answers those still open.
+/// Tests segments against one shape, on copies; returns those that it does not block.
 struct OccludeBy<'t, 'a, 'b, S: Simd, G> {
     search: &'t mut Searcher<'a, S>,
     segments: &'t G,

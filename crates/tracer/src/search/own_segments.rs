@@ -1,4 +1,4 @@
-//! A packet's own rays as segments on which anything may stand.
+//! The spans of a packet's own rays as segments for occlusion tests.
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::{Ray, Span};

@@ -1,4 +1,5 @@
-//! The segments from what rays have met to a light: backwards from a lamp all lanes together, towards the sun lane by lane.
+//! Shadow rays from hits to a light. Those to a point light are traced backwards as a bundle with a common origin, those
+//! to a directional light one by one.
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::{Arithmetic, Geometry, LaneMask, Ray, Span};
@@ -53,7 +54,7 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
         let leaving = rays.leaving.facets_of(s, instance.prim);
         bundled[0].start(s, [zero, zero], [scale, error], leaving);
         let steep = bundled[0].error_where_off(s, off);
-        // So close to the lamp that nothing is known of slopes, each goes its own way.
+        // So close to the light that the slopes have no useful bound, rays are traced one by one.
         (steep < 2.0 - BUNDLE_STEEP).then(|| (bundle.common_origin.for_any().with_slopes_off(steep), bundled))
     }
 
@@ -73,7 +74,7 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
             let lines = Lines { origin, direction: splat_wide(s, sunwards), live: open };
             (RaySetup::of(s, &lines, off, instance.tree.reach), open)
         } else {
-            // The starts of segments to one point tell nothing of their directions.
+            // Rounded starts of segments to one point give no bound on their directions.
             let own = |lane| self.segment(snapshot, lane).map(|(ray, _)| mesh.own_ray(&ray));
             let lines = Lines::gathered(s, open, own);
             let exact = F::splat(s, 0.0);

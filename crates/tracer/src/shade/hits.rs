@@ -63,7 +63,7 @@ impl<S: Simd> Shader<'_, S> {
         }
     }
 
-    /// Adds the light of the first packets of the chunk. Compiled apart.
+    /// Adds the light of the first packets of the chunk. See [`outlined`].
     #[inline(always)]
     fn show_chunk(&mut self, batch: &impl Batch<S>, count: usize, tile: &mut Tile, depth: u32) {
         outlined(
@@ -168,7 +168,7 @@ impl<S: Simd> Shader<'_, S> {
     }
 }
 
-/// The vector the other way round where the mask holds.
+/// The vector, negated where the mask holds.
 #[inline(always)]
 fn face_forward<S: Simd>(mask: M<S>, v: F3<S>) -> F3<S> {
     F3::select(mask, F3::new(-v.x, -v.y, -v.z), v)

@@ -8,7 +8,7 @@ use fearless_simd::{Level, Simd};
 use crate::lanes::{F, F3, Work, at_level};
 use crate::random::Random;
 
-/// How far directions may lie apart: where 1 − x² is taken of an x near 1, half of the digits are lost.
+/// How far directions may differ: where 1 − x² is taken of an x near 1, half of the digits are lost.
 const APART: f64 = 1e-3;
 
 fn narrow<S: Simd>(s: S, v: Triple<f64>) -> F3<S> {

@@ -1,4 +1,4 @@
-//! Surfaces to light: what the lanes of a packet show under the light that has arrived, beside what they mirror.
+//! The radiance that the lanes of a packet show under the light that has arrived, without mirror reflection.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, LaneMask, Material, Rgb};
@@ -82,8 +82,8 @@ impl<S: Simd> Shader<'_, S> {
         shown.scale(share)
     }
 
-    /// Where `f32` cannot tell on which side of a pattern's edge a point lies, takes one for it that `f64` has found to
-    /// look the same.
+    /// Where `f32` cannot decide on which side of a pattern's edge a point lies, replaces it by one from `f64` that lies in
+    /// the same cell.
     #[inline(always)]
     fn move_off_edges(&mut self, batch: &impl Batch<S>, slot: usize, mask: M<S>, material: &Material) {
         let at = self.shading_point(slot);

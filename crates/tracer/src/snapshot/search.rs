@@ -11,7 +11,7 @@ use super::Snapshot;
 use super::origin::{is_exact, relative};
 use crate::accel::WideTree;
 
-/// A place on a surface that a ray leaves from: that meeting is not found again.
+/// A facet of a shape. A ray that leaves from one does not meet it again at its origin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SurfaceId {
     /// Which shape of the snapshot.
@@ -23,7 +23,7 @@ pub struct SurfaceId {
 /// What a ray meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// Where on which shape.
+    /// The facet of a shape that it meets.
     pub surface: SurfaceId,
     /// The crossing, in the snapshot's frame.
     pub crossing: Crossing,
@@ -94,13 +94,13 @@ impl Snapshot {
         })
     }
 
-    /// The ray of a way relative to the origin, rounded: for boxes, which are wide enough for that.
+    /// The ray of a segment relative to the origin, rounded: for boxes, which are wide enough for that.
     fn box_ray(&self, segment: &RaySegment<'_>) -> Ray {
         let zero = if segment.in_world { self.origin } else { self.origin_in_frame() };
         Ray::new(segment.ray.origin - zero, segment.ray.direction)
     }
 
-    /// A shape where a way's ray is given.
+    /// A shape in the space that a segment's ray is given in.
     fn shape(&self, segment: &RaySegment<'_>, prim: u32) -> Cow<'_, Shape> {
         let shape = &self.prims[prim as usize].shape;
         if segment.in_world { relative(shape, -self.frame) } else { Cow::Borrowed(shape) }
@@ -178,7 +178,7 @@ impl Snapshot {
     }
 }
 
-/// What is asked of a ray.
+/// A ray, the stretch of it that counts, and the surface that it leaves.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RaySegment<'a> {
     pub(crate) ray: &'a Ray,

@@ -59,7 +59,7 @@ impl<S: Simd, const N: usize> LaneBounds<S, N> {
         }
         if at == self.count {
             if self.count == MOST_SHAPES {
-                // The last place takes in what has no place of its own, under no name.
+                // The last entry collects all shapes that have no entry of their own, under no number.
                 at = MOST_SHAPES - 1;
                 self.prims[at] = NOTHING;
             } else {
@@ -83,7 +83,7 @@ impl<S: Simd, const N: usize> LaneBounds<S, N> {
         self.count
     }
 
-    /// The boxes of a shape; [`NOTHING`] stands for many.
+    /// The boxes of a shape; [`NOTHING`] means several shapes together.
     #[inline(always)]
     pub(crate) fn get(&self, at: usize) -> (u32, [Aabb; N]) {
         let mut bounds = [Aabb::EMPTY; N];

@@ -98,7 +98,7 @@ impl Queue {
         }
     }
 
-    /// The rays of a packet as segments to be tested for anything in their way.
+    /// The rays of a packet as segments for occlusion tests.
     #[inline(always)]
     pub(crate) fn shadow_rays<S: Simd>(&self, s: S, packet: &Packet<'_, S, Self>) -> ShadowRays<'static, S> {
         // Lengths are off by a share of themselves, as are those of directions.

@@ -22,7 +22,7 @@ struct Tally {
     left_out: u32,
     /// Points of planes near the border of their bounds.
     near_bounds: u32,
-    /// Beams whose rays may cross planes without an end.
+    /// Beams whose rays may cross planes in an unbounded region.
     endless: u32,
 }
 
@@ -126,7 +126,7 @@ fn what_mirrored_rays_cross_is_reachable() {
     assert!(tally.left_out > 3_000 && tally.near_bounds > 400 && tally.endless > 50, "{tally:?}");
 }
 
-/// A box of so many metres: a cube, or one that is flat along some axes.
+/// A box of `size` metres: a cube, or one that is flat along some axes.
 pub(super) fn some_box(random: &mut Random, center: DVec3, size: f64) -> Aabb {
     let half = if one_in(random, 2) {
         DVec3::splat(size)

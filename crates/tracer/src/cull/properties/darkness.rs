@@ -1,4 +1,4 @@
-//! Do mirrors that are said to send rays on into darkness do so?
+//! Do mirrors that are marked as dark reflect nothing but the background?
 
 use catoptra_core::geometry::Sphere;
 use catoptra_core::glam::DVec3;

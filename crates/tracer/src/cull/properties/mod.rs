@@ -1,5 +1,5 @@
 //! Do the bounds keep all that matters? Rays aimed at the very borders of what they let go, against the shapes' own exact
-//! answers, and counts that tell whether those borders were met at all.
+//! answers, and counts that show whether those borders were met at all.
 
 mod beams;
 mod darkness;

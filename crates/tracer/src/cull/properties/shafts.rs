@@ -1,4 +1,4 @@
-//! Does a plan keep every light that reaches what is seen, and all that stands in its way?
+//! Does a plan keep every light that reaches what is seen, and all that may occlude it?
 
 use std::f64::consts::{PI, TAU};
 
@@ -21,14 +21,14 @@ use crate::{Frame, Skip, Snapshot, SurfaceId};
 #[derive(Debug, Default)]
 struct Tally {
     blocked: u32,
-    /// Shapes in the way of the light to one point only.
+    /// Shapes that occlude the light from one point only.
     barely: u32,
-    /// Lights with nothing in their way.
+    /// Lights that nothing occludes.
     open: u32,
     lit: u32,
     /// Lights that shine on one point only.
     barely_lit: u32,
-    /// Points on which a light shines in `f64` and not in `f32`, or the other way round.
+    /// Points that a light reaches in `f64` and not in `f32`, or the reverse.
     differently_lit: u32,
     /// Lights that reach nothing.
     unreached: u32,
@@ -55,7 +55,7 @@ struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// Whatever stands between a point and a light is among its occluders, and what is lit is known to be.
+    /// Whatever occludes a light from a point is among its occluders, and what is lit is known to be.
     fn check(&self, tally: &mut Tally) {
         let snapshot = self.snapshot;
         let mut plan = TilePlan::default();
@@ -153,7 +153,7 @@ pub(super) fn bounds_of(snapshot: &Snapshot, seen: &[Seen]) -> Vec<PointBounds> 
     prims.filter(|&prim| own(prim).next().is_some()).map(bounds).collect()
 }
 
-/// A light of any kind at a place, shining some way.
+/// A light of any kind at a point, shining along `way`.
 fn light_at(random: &mut Random, place: DVec3, way: DVec3) -> Light {
     let mut light = some_light(random, DVec3::ZERO, 1.0);
     for field in light.kind().fields {
@@ -166,7 +166,7 @@ fn light_at(random: &mut Random, place: DVec3, way: DVec3) -> Light {
     light
 }
 
-/// Shapes that just stand in the way from a point, which lies outwards in its box, to a light.
+/// Shapes that only just block the segment from a point, which lies outwards in its box, to a light.
 fn just_between(random: &mut Random, way: &Ray, reach: f64, outwards: DVec3, unit: f64) -> Vec<Shape> {
     let mut shapes = Vec::new();
     let along = way.direction.normalize();
@@ -179,7 +179,7 @@ fn just_between(random: &mut Random, way: &Ray, reach: f64, outwards: DVec3, uni
         };
         let radius = unit * random.power(-12, 4);
         let any = if one_in(random, 4) { random.point() } else { outwards };
-        // Beside the way; beyond its ends only along it.
+        // Beside the segment; beyond its ends only along it.
         let beyond = if share == 0.0 { -along } else { along };
         let ends = share == 0.0 || share == 1.0;
         let aside = if ends { beyond } else { any.reject_from(along).normalize_or(DVec3::X) };

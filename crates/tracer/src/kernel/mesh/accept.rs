@@ -1,4 +1,4 @@
-//! Which rays of a packet through one point meet a triangle in front of all that they have met.
+//! Tests a packet of a ray bundle against one triangle, and takes it over where it is the nearest hit.
 
 use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
@@ -26,7 +26,7 @@ impl<S: Simd> BundledRays<S> {
 }
 
 impl CommonOrigin {
-    /// Takes over a triangle where it is nearer; whether it is for any ray.
+    /// Takes over a triangle where it is nearer; returns whether it is, or may be, for any ray.
     #[inline(always)]
     pub(super) fn accept<S: Simd>(
         &self,
@@ -59,7 +59,7 @@ impl CommonOrigin {
         (take | open).any()
     }
 
-    /// Decides what `f32` leaves open; some pass within all edges for certain.
+    /// Decides what `f32` leaves open; lanes of `inside` pass within all edges for certain.
     #[cold]
     #[inline(never)]
     fn decide<S: Simd>(
@@ -70,7 +70,7 @@ impl CommonOrigin {
         (rays, packet): (&mut BundledRays<S>, usize),
         exact: &mut dyn ExactResolver,
     ) {
-        // Where only edges are open, depths have said what they can.
+        // Where only edges are open, depths have already been compared.
         let open =
             if open & inside == 0 { open } else { self.decide_by_depths(tree, [open, inside], slot, rays) };
         for lane in Bits(open) {
@@ -118,7 +118,7 @@ impl CommonOrigin {
                 open = open & !take & !crossing.beside;
                 let ahead = rays.begin[1].less(crossing.depth[0]) & rays.begin[1].less(rays.end[0]);
                 let both = open & inside & ahead & !rays.slot.is(u32::MAX);
-                // Surfaces so close together that no depth in `f32` tells them apart.
+                // Surfaces so close together that depths in `f32` give no order.
                 for (held, lanes) in rays.slot.groups(both) {
                     let held = self.precise_plane(&tree.triangle(held));
                     let Some((m, error)) = self.order([&precise, &held]) else { continue };

@@ -1,9 +1,10 @@
-//! Rays through one point, through a mesh's tree: against eight boxes at a time all of them together, and against
-//! triangles whose edges are planes through that point.
+//! Walks a mesh's tree with rays that have a common origin: all of them together against eight boxes at a time, and
+//! against triangles whose edges span planes with the common origin.
 //!
-//! A ray is its slopes (u, v) over the axis that all rays run along, and its depth z is the parameter. An edge e seen from
-//! the point p away spans the plane n = e × p, so a ray's edge value is n·(u, v, 1): two fused products. What n is, and
-//! whether all rays together pass an edge on the outside, is worked out for eight triangles at a time.
+//! A ray is its slopes (u, v) over the axis that all rays run along, and its depth z is the parameter. An edge e that is
+//! seen from the origin in the direction p spans the plane n = e × p, so a ray's edge value is n·(u, v, 1): two fused
+//! products. The planes n, and whether all rays together pass an edge on the outside, are computed for eight triangles at
+//! a time.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, LaneMask};
@@ -17,17 +18,17 @@ use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::{Bits, F, M, U, outlined};
 use crate::numeric::{BUNDLE_BOX, BUNDLE_PAD, BUNDLE_SLOPE};
 
-/// What rays through one point have in common.
+/// What the rays of a bundle share: their common origin, main axis and bounds.
 pub(crate) struct CommonOrigin {
     /// Axes of the slopes, then the one that all rays run along.
     pub(super) axes: [usize; 3],
-    /// 1 or −1: which way they do so. All space is mirrored through the origin for those that run backwards.
+    /// 1 or −1: their sign along that axis. All space is mirrored through the zero point for those that run backwards.
     pub(super) sign: f32,
-    /// The point, mirrored as the rays are, axis by axis as in `axes`.
+    /// The common origin, mirrored as the rays are, axis by axis as in `axes`.
     pub(super) origin: [f32; 3],
-    /// How far a ray may pass the point by.
+    /// How far a ray may pass the common origin by.
     pub(super) slack: f32,
-    /// The point in `f64`, and how far a ray may pass that by.
+    /// The common origin in `f64`, and how far a ray may pass that by.
     pub(super) precise_origin: DVec3,
     pub(super) precise_slack: f32,
     /// How far slopes may be off beyond their own rounding.
@@ -37,11 +38,11 @@ pub(crate) struct CommonOrigin {
     pub(super) high: [f32; 2],
     /// How far boxes are widened.
     pad: f32,
-    /// Whether any crossing will do.
+    /// Whether any crossing will do (occlusion).
     pub(super) any: bool,
 }
 
-/// The rays themselves.
+/// One packet of a bundle: the slopes of its rays, and what they have met.
 #[derive(Clone, Copy)]
 pub(crate) struct BundledRays<S: Simd> {
     pub(crate) u: F<S>,
@@ -52,7 +53,7 @@ pub(crate) struct BundledRays<S: Simd> {
     pub(crate) begin: [F<S>; 2],
     /// Depths between which the nearest crossing so far lies, or the end of the stretch.
     pub(crate) end: [F<S>; 2],
-    /// Place of the nearest triangle in the tree's blocks; [`u32::MAX`] for none.
+    /// Slot of the nearest triangle in the tree's blocks; [`u32::MAX`] for none.
     pub(crate) slot: U<S>,
     /// Triangle that each ray leaves from.
     pub(crate) leaving: U<S>,
@@ -81,7 +82,7 @@ pub(crate) struct Aim {
 }
 
 impl Aim {
-    /// The axis along which a direction is longest, and which way it goes.
+    /// The axis along which a direction is longest, and its sign there.
     pub(crate) fn of(direction: DVec3) -> Self {
         let size = direction.abs();
         let last = if size.x > size.y.max(size.z) {
@@ -124,12 +125,12 @@ impl CommonOrigin {
         }
     }
 
-    /// Asks for any crossing rather than the nearest.
+    /// Searches for any crossing (occlusion) rather than the nearest.
     pub(crate) fn for_any(self) -> Self {
         Self { any: true, ..self }
     }
 
-    /// Whose slopes may be off by so much more.
+    /// The same with slopes that may be off by `more` beside.
     pub(crate) fn with_slopes_off(self, more: f32) -> Self {
         Self { slopes_off: self.slopes_off + more, ..self }
     }
@@ -148,7 +149,7 @@ impl CommonOrigin {
         [low[0].abs().max(high[0].abs()), low[1].abs().max(high[1].abs())]
     }
 
-    /// Finds the nearest triangle for every ray of up to [`GROUP`] packets, or any. The exact counts lanes from the
+    /// Finds the nearest triangle for every ray of up to [`GROUP`] packets, or any. The resolver counts lanes from the
     /// first packet's on. See [`outlined`].
     pub(crate) fn search<S: Simd>(
         &self,
@@ -207,14 +208,14 @@ impl CommonOrigin {
         }
     }
 
-    /// At least the depth up to which it is still worth looking.
+    /// At least the depth up to which boxes are still searched.
     #[inline(always)]
     fn far<S: Simd>(&self, s: S, rays: &BundledRays<S>) -> f32 {
         let none = F::splat(s, f32::NEG_INFINITY);
         F::pick(rays.live, rays.end[1], none).0.reduce_max()
     }
 
-    /// A row of a node as seen from the point; `side` 0 for the lower sides, 1 for the upper.
+    /// A row of a node as seen from the common origin; `side` 0 for the lower sides, 1 for the upper.
     #[inline(always)]
     fn row<S: Simd>(&self, s: S, node: &Node8, which: usize, side: usize) -> f32x8<S> {
         let upper = (self.sign > 0.0) == (side == 1);
@@ -243,7 +244,7 @@ impl CommonOrigin {
             let (low, high) = (self.row(s, node, which, 0), self.row(s, node, which, 1));
             let low = low * low.simd_lt(zero).select(of_near, of_away) - wider;
             let high = high * high.simd_lt(zero).select(of_away, of_near) + wider;
-            // Written so that NaN, of a box with the point in a face, counts as met.
+            // Written so that NaN, of a box with the origin in a face, counts as met.
             let beside = low.simd_gt(f32x8::splat(s, self.high[which]))
                 | high.simd_lt(f32x8::splat(s, self.low[which]));
             met &= !beside;
@@ -295,7 +296,7 @@ impl CommonOrigin {
     }
 }
 
-/// Which of some packets have a ray whose slopes lie within a box, and that still looks as far as that.
+/// Which of some packets have a ray whose slopes lie within a box, and whose nearest hit lies beyond that depth.
 #[inline(always)]
 fn entering<S: Simd>(s: S, rays: &[BundledRays<S>], packets: u32, (slopes, near): ([f32; 4], f32)) -> u32 {
     let [low_u, high_u, low_v, high_v] = slopes;

@@ -1,4 +1,4 @@
-//! Eight triangles as seen from the point that rays go through: planes through their edges, with bounds.
+//! Eight triangles as seen from the common origin of rays: planes through their edges, with error bounds.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
@@ -7,19 +7,19 @@ use super::{CommonOrigin, bound_eight};
 use crate::accel::{Block8, WIDTH};
 use crate::numeric::{BUNDLE_DEPTH, BUNDLE_EDGE, BUNDLE_TOP};
 
-/// Eight triangles as seen from the point.
+/// Eight triangles as seen from the common origin.
 pub(super) struct Prepared {
-    /// Planes through the point and each edge.
+    /// Planes through the common origin and each edge.
     pub(super) edges: [[[f32; WIDTH]; 3]; 3],
     pub(super) edge_error: [f32; WIDTH],
-    /// The triangle's own normal, and the point's distance from its plane along that.
+    /// The triangle's own normal, and the common origin's distance from its plane along that.
     pub(super) normal: [[f32; WIDTH]; 3],
     pub(super) top: [f32; WIDTH],
     /// What the errors of depths grow with; see [`Plane`](super::planes::Plane).
     pub(super) depth_errors: [[f32; WIDTH]; 2],
 }
 
-/// What all triangles are held against: the rays of a group as one box of slopes, with bounds.
+/// Bounds of the rays of a group that all triangles are tested with: one box of slopes, and error bounds.
 pub(super) struct RayBounds {
     slopes: Slopes,
     /// Errors of an edge's value per size of its plane's components, axis by axis, and per length of the edge.
@@ -48,7 +48,7 @@ impl Slopes {
 type Eight3<S> = [f32x8<S>; 3];
 
 impl CommonOrigin {
-    /// The rays as a block is held against them: the same for all blocks.
+    /// The bounds of the rays that blocks are tested with: the same for all blocks.
     pub(super) fn ray_bounds(&self) -> RayBounds {
         let most = self.steepest();
         RayBounds {
@@ -62,7 +62,7 @@ impl CommonOrigin {
         }
     }
 
-    /// A block as seen from the point, and which of some triangles rays may meet, if any.
+    /// A block as seen from the common origin, and which of some triangles rays may meet, if any.
     #[inline(always)]
     pub(super) fn prepare<S: Simd>(
         &self,
@@ -119,7 +119,7 @@ impl CommonOrigin {
         ]
     }
 
-    /// Corners as seen from the point, mirrored as it is.
+    /// Corners as seen from the common origin, mirrored as it is.
     #[inline(always)]
     fn seen_from_origin<S: Simd>(&self, s: S, p: Eight3<S>) -> Eight3<S> {
         let sign = f32x8::splat(s, self.sign);

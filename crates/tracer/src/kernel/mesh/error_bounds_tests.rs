@@ -1,10 +1,10 @@
 //! Do the bounds of the mesh kernels hold, and do they have to be as large as they are? Rays aimed at edges and corners,
 //! grazing planes, near ties, at all scales: what `f32` is certain of must be what exact arithmetic says, and depths must
-//! lie within their bounds. It is found out when the edges' bounds of rays through one point are cut to an
-//! eighth, those of their depths to a tenth, and a single ray's to an eighth.
+//! lie within their bounds. The tests fail when a bundle's bounds of edges are cut to an eighth, those of its
+//! depths to a tenth, and a single ray's bounds to an eighth.
 //!
-//! The exact gives out rays of NaN, which leave `f64` no opinion: all that `f32` does not decide comes to the exact, who
-//! notes it and decides nothing.
+//! The resolver of these tests gives out rays of NaN, which `f64` cannot decide about: all that `f32` does not decide
+//! comes to the resolver, which records it and decides nothing.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ use crate::accel::{MeshTree, Preset};
 use crate::lanes::{D, D3, F, M, U, splat_wide};
 use crate::random::Random;
 
-/// Notes which lanes it was asked about.
+/// Records which lanes it had to decide.
 #[derive(Default)]
 struct Witness {
     asked: u64,

@@ -1,6 +1,7 @@
-//! How rays find triangles of a mesh: many from one point at once, or one against eight boxes and eight triangles.
+//! Rays against the triangles of a mesh: bundles of rays with a common origin, or single rays, each against eight boxes
+//! and eight triangles at a time.
 //!
-//! Both pass over what they are certain to miss, in `f32` with bounds. What remains is decided in `f64` with bounds, and
+//! Both skip what they miss for certain, in `f32` with error bounds. The rest is decided in `f64` with error bounds, and
 //! by an [`ExactResolver`] where those do not decide either.
 
 mod accept;
@@ -36,26 +37,26 @@ fn bound_eight<S: Simd>(s: S, error: f32x8<S>) -> f32x8<S> {
     if CERTAIN { error } else { f32x8::splat(s, 0.0) }
 }
 
-/// Decides for certain what bounds leave open.
+/// Decides exactly what error bounds leave open.
 pub(crate) trait ExactResolver {
-    /// The ray of a lane in the mesh's own space, and the stretch of it that is asked about.
+    /// The ray of a lane in the mesh's own space, and the span of it that is searched.
     fn ray(&mut self, lane: usize) -> Option<(Ray, Span)>;
 
-    /// Whether the ray of a lane meets a triangle before what it has met so far, the triangle `held` or else what it came
-    /// with; at which `t` if so.
+    /// The `t` at which the ray of a lane meets a triangle, if that lies before its nearest hit so far: the triangle `held`,
+    /// or else the hit it came with.
     fn decide(&mut self, lane: usize, facet: u32, held: Option<u32>) -> Option<f64>;
 }
 
-/// What `f64` makes of a triangle that `f32` could not decide about.
+/// The decision in `f64` about a triangle that `f32` has left open.
 enum Decision {
     NotNearer,
-    /// At that `t`, in front of all else.
+    /// It is the nearest hit, at that `t`.
     Nearer(f64),
-    /// Only the exact can tell.
+    /// Only exact arithmetic can decide.
     Open,
 }
 
-/// What is known of a ray and a triangle's edges.
+/// Whether a ray passes within the edges of a triangle.
 #[derive(Clone, Copy)]
 enum Edges {
     /// The ray passes within all of them.
@@ -63,7 +64,8 @@ enum Edges {
     Open,
 }
 
-/// Compares a triangle with the one a ray has met, or with the least `t` at which it may have met anything else.
+/// Decides in `f64` whether a triangle is nearer than the one that a ray has met (`held`), or than the least `t` at which
+/// it may have met anything else (`before`).
 fn decide(
     (next, edges): (&[[f32; 3]; 3], Edges),
     held: Option<[[f32; 3]; 3]>,
@@ -98,7 +100,7 @@ fn decide(
     }
 }
 
-/// Packets of rays that walk a tree together at most.
+/// The most packets of rays that walk a tree together.
 pub(crate) const GROUP: usize = 16;
 
 /// A child that is still to be visited.
@@ -114,7 +116,7 @@ struct Visit {
 }
 
 impl Visit {
-    /// Of a child that is entered at that depth at least; it is on its way from memory then.
+    /// Of a child that is entered at that depth at least; prefetches it.
     #[inline(always)]
     fn ahead((tree, node): (&WideTree, &Node8), child: usize, near: &[f32; WIDTH]) -> Self {
         let child = child % WIDTH;
@@ -136,11 +138,11 @@ impl Visit {
     }
 }
 
-/// Room for the children that wait: fewer than eight for each of [`MAX_DEPTH`] levels; a power of two.
+/// Capacity of the stack of children still to visit: fewer than eight for each of [`MAX_DEPTH`] levels; a power of two.
 const ROOM: usize = 512;
 const _: () = assert!(ROOM > MAX_DEPTH * (WIDTH - 1));
 
-/// Room for walks, kept from walk to walk.
+/// The stack and counters of walks, kept from walk to walk.
 #[derive(Default)]
 pub(crate) struct Visits {
     stack: Vec<Visit>,
@@ -150,7 +152,7 @@ pub(crate) struct Visits {
 }
 
 impl Visits {
-    /// Room for children to be visited; none are.
+    /// An empty stack of children to be visited.
     #[inline(always)]
     fn start(&mut self) -> Option<Waiting<'_>> {
         if self.stack.is_empty() {

@@ -1,4 +1,4 @@
-//! Which packets of a group may enter a box: told for all of them at once, by boxes round their slopes.
+//! Which packets of a group may enter a box: tested for all of them at once, by boxes round their slopes.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16};

@@ -1,4 +1,4 @@
-//! Where rays through one point cross the planes of triangles, and which of two planes they cross first.
+//! Where rays with a common origin cross the planes of triangles, and which of two planes they cross first.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane};
@@ -12,7 +12,7 @@ use crate::numeric::{
     BUNDLE_DEPTH, BUNDLE_PLANE, ORDER_ERROR, ORDER_SHEAR, PRECISE_SLOPE_ERROR, PRECISE_TOP_ERROR,
 };
 
-/// The plane of a triangle, for rays through one point.
+/// The plane of a triangle, for rays with a common origin.
 ///
 /// A ray of slope s = n·(u, v, 1) crosses it at the depth z = top / s. Off by errors of top and s, z is off by at most
 /// (z · error of s + error of top) / (|s| − error of s); and |s| is |top| / z. So the error is z (z a + b), where a and b
@@ -21,7 +21,7 @@ use crate::numeric::{
 #[derive(Clone, Copy)]
 pub(super) struct Plane {
     normal: [f32; 3],
-    /// The point's distance from it along the normal.
+    /// The common origin's distance from it along the normal.
     top: f32,
     /// What the error of a depth z on the triangle grows with: z² and z. Infinite where no depth is known.
     errors: [f32; 2],
@@ -67,7 +67,7 @@ impl Prepared {
     }
 }
 
-/// The plane of a triangle in `f64`, seen from the point.
+/// The plane of a triangle in `f64`, seen from the common origin.
 pub(super) struct PrecisePlane {
     normal: DVec3,
     top: f64,
@@ -124,11 +124,11 @@ impl CommonOrigin {
     }
 
     /// A vector m whose product with a ray's direction is negative where the ray crosses one plane before another, both
-    /// ahead of it, and positive where it does so behind; and the error of that product. None where the point may lie in
-    /// either plane.
+    /// ahead of it, and positive where it does so behind; and the error of that product. None where the common origin may
+    /// lie in either plane.
     ///
     /// Where both tops are positive, z₁ < z₂ means top₁ s₂ < top₂ s₁: m = top₁ n₂ − top₂ n₁, whose terms all but cancel
-    /// where the planes all but coincide: in `f64`, before anything is rounded to `f32`. A ray that passes the point by δ
+    /// where the planes all but coincide: in `f64`, before anything is rounded to `f32`. A ray that passes the origin by δ
     /// changes the product by δ·(d × (n₁ × n₂)).
     pub(super) fn order(&self, [first, second]: [&PrecisePlane; 2]) -> Option<([f32; 3], f32)> {
         if [first, second].iter().any(|plane| plane.top.abs() <= 2.0 * self.top_error(plane)) {

@@ -1,4 +1,4 @@
-//! One ray against one triangle in `f64`, with bounds that say when the answer is certain.
+//! One ray against one triangle in `f64`, with error bounds that show when the result is certain.
 //!
 //! Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 
@@ -9,14 +9,14 @@ use fearless_simd::Simd;
 use crate::lanes::{D, D3, F3, M, U, cross, splat3, widen3};
 use crate::numeric::{DEPTH_ERROR, PRECISE_EDGE_ERROR, PRECISE_SLOPE_ERROR, PRECISE_TOP_ERROR};
 
-/// What is certain of a ray and a triangle.
+/// What is certain about a ray and a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Verdict {
     /// They do not meet.
     Miss,
     /// They meet at a `t` that is known within a bound.
     Hit(f64, f64),
-    /// Bounds do not tell.
+    /// Bounds do not decide.
     Open,
 }
 
@@ -48,7 +48,7 @@ pub(crate) fn crossing(corners: &[[f32; 3]; 3], ray: &Ray) -> Verdict {
     if error.is_finite() { Verdict::Hit(t, error) } else { Verdict::Open }
 }
 
-/// Where a ray meets the plane of a triangle, and how far that may be off; infinitely far where `f64` does not tell.
+/// Where a ray meets the plane of a triangle, and a bound on its error; infinite where `f64` gives none.
 #[inline(always)]
 pub(crate) fn depth(corners: &[[f32; 3]; 3], ray: &Ray) -> (f64, f64) {
     let (a, b, c) = (widened(&corners[0]), widened(&corners[1]), widened(&corners[2]));

@@ -1,4 +1,5 @@
-//! Which rays of a group go through one point: those of a camera, and backwards those to a lamp.
+//! Ray bundles: finds out whether the rays of a group have a common origin, as those of a camera have, and backwards
+//! those to a point light.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, LaneMask, Ray};
@@ -17,16 +18,17 @@ pub(crate) struct Lines<S: Simd> {
     pub(crate) live: M<S>,
 }
 
-/// What lines through one point have in common.
+/// A bundle of rays with a common origin.
 pub(crate) struct RayBundle {
     pub(crate) common_origin: CommonOrigin,
-    /// How far the lines pass the point by.
+    /// How far the lines pass the common origin by.
     pub(crate) slack: f32,
 }
 
 impl RayBundle {
-    /// Of the lines of some packets, if they go through one point and much the same way; for a mesh of that reach.
-    /// Origins may be `off` by so much, beyond the roundings of `f64`. The rays then have the lines' slopes. See [`outlined`].
+    /// Of the lines of some packets, if they have a common origin and run mostly along the same axis. `reach` is how far
+    /// origins may be off beyond the roundings of `f64`, and the largest coordinate of the mesh. Stores the lines' slopes
+    /// in `rays`. See [`outlined`].
     #[inline(always)]
     pub(crate) fn of<S: Simd>(
         s: S,
@@ -51,7 +53,7 @@ impl RayBundle {
         let (first, (origin, along)) =
             (0..rays.len()).find_map(|packet| Some((packet, lines(packet).first()?)))?;
         let aim = Aim::of(along);
-        // Where nothing goes together, the first packet mostly tells, before all that is to be kept of others.
+        // Where there is no common origin, the first packet mostly shows it, before the others are set up.
         if lines(first).astray(s, &aim, origin).1.any() {
             return None;
         }
@@ -97,7 +99,7 @@ impl Aim {
 }
 
 impl<S: Simd> Lines<S> {
-    /// One by one, for some lanes; none of those that have none.
+    /// Gathered one by one for some lanes; lanes without a ray are not live.
     #[inline(always)]
     pub(crate) fn gathered(s: S, lanes: M<S>, mut ray: impl FnMut(usize) -> Option<Ray>) -> Self {
         let (mut origins, mut directions, mut live) = (LaneVectors::default(), LaneVectors::default(), 0);
@@ -123,7 +125,7 @@ impl<S: Simd> Lines<S> {
         (component(&self.direction, aim.axes[2]) * D::splat(s, f64::from(aim.sign))).narrow()
     }
 
-    /// How far from a point they begin, and which of them too far from it to go together; those of NaN as well.
+    /// How far from a point they begin, and which of them begin too far from it for a bundle; those of NaN as well.
     #[inline(always)]
     fn astray(&self, s: S, aim: &Aim, origin: DVec3) -> (F<S>, M<S>) {
         let from = self.origin - splat_wide(s, origin);
@@ -152,7 +154,7 @@ impl<S: Simd> BundledRays<S> {
         }
     }
 
-    /// Takes over the lines that are any; lanes that are none follow a model.
+    /// Takes over the live lines; other lanes get the slopes of a model.
     #[inline(always)]
     fn follow(&mut self, s: S, aim: &Aim, lines: &Lines<S>, model: [F<S>; 3]) {
         let [u, v, z] = aim.axes;
@@ -167,14 +169,14 @@ impl<S: Simd> BundledRays<S> {
         self.slopes = [[u.reduce_min(), v.reduce_min()], [u.reduce_max(), v.reduce_max()]];
     }
 
-    /// Whether a line runs along the main axis rather than across it, or at least not much more across.
+    /// Lines whose slopes are small enough: that run along the main axis, or at least not much more across it.
     #[inline(always)]
     fn are_small(&self, s: S) -> M<S> {
         let most = F::splat(s, BUNDLE_STEEP);
         self.u.abs().less(most) & self.v.abs().less(most)
     }
 
-    /// Error of the slopes where a point of each line is off by so much.
+    /// Error of the slopes where a point of each line is off by `off`.
     #[inline(always)]
     pub(crate) fn error_where_off(&self, s: S, off: F<S>) -> f32 {
         // Both coordinates across and the depth, times a slope below 2, count; a quotient and a sum are rounded.
@@ -182,7 +184,8 @@ impl<S: Simd> BundledRays<S> {
         F::pick(self.live, most, F::splat(s, 0.0)).0.reduce_max()
     }
 
-    /// Begins a search from the triangles that are left: between those depths lies the begin; the end is known within a bound.
+    /// Begins a search: `begin` are depths between which the stretch begins, `end` is known within a bound, `leaving` are
+    /// the triangles that the rays leave.
     #[inline(always)]
     pub(crate) fn start(&mut self, s: S, begin: [F<S>; 2], [end, error]: [F<S>; 2], leaving: U<S>) {
         self.begin = begin;

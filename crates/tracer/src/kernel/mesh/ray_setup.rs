@@ -1,4 +1,4 @@
-//! SingleRay rays made ready a packet at a time: what boxes and triangles are tested with, a column each.
+//! Sets up single rays, a packet at a time: the values that boxes and triangles are tested with, a column each.
 
 use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::Simd;
@@ -12,7 +12,7 @@ use crate::numeric::{BOX_STRETCH, SINGLE_RAY_FLOOR, SINGLE_RAY_OFF, SINGLE_RAY_P
 /// A number of every lane.
 type Row = [f32; MOST_LANES];
 
-/// Rays of a packet in a mesh's own space, each to be followed alone.
+/// Rays of a packet in a mesh's own space, each to be traced as a single ray.
 pub(crate) struct RaySetup {
     /// Where slabs begin and how their `t` grow, axis by axis: at the ends of boxes that are met first, then at the others.
     starts: [[Row; 3]; 2],
@@ -32,8 +32,8 @@ pub(crate) struct RaySetup {
 }
 
 impl RaySetup {
-    /// Makes lines ready for a mesh whose corners' coordinates stay within `reach`. Their origins may be `off` by so much
-    /// along every axis, beyond the roundings of `f64`; the [`ExactResolver`](super::ExactResolver) has the very rays.
+    /// Sets up lines for a mesh whose corners' coordinates stay within `reach`. Their origins may be off by `off` along
+    /// every axis, beyond the roundings of `f64`; the [`ExactResolver`](super::ExactResolver) has the exact rays.
     #[inline(always)]
     pub(crate) fn of<S: Simd>(s: S, lines: &Lines<S>, off: F<S>, reach: f32) -> Self {
         let (origin, direction) = (narrow3(lines.origin), narrow3(lines.direction));
@@ -99,8 +99,8 @@ impl RaySetup {
         self.mostly = [(!not_x).bits(), (!not_y).bits()];
     }
 
-    /// Finds the nearest triangle for the rays of some lanes, or any, one after another, from the triangles that are left;
-    /// `begun` says what is known of a ray before. Answers their places in the tree's blocks; [`u32::MAX`] for none.
+    /// Finds the nearest triangle for the rays of some lanes, or any, one after another; `leaving` are the triangles that
+    /// they leave, `begun` is what is known of a ray before. Returns slots of the tree's blocks; [`u32::MAX`] for none.
     #[inline(always)]
     pub(crate) fn search<S: Simd>(
         &self,
@@ -126,7 +126,7 @@ impl RaySetup {
         let bit = |bits: u64| (bits >> at & 1) as usize;
         let three = |[x, y, z]: &[Row; 3]| [x[at], y[at], z[at]];
         let [x, y, z] = self.backwards;
-        // In numbers: nothing foretells which way a branch would go.
+        // In arithmetic: a branch would be unpredictable.
         let last = (2 - bit(self.mostly[1])) * (1 - bit(self.mostly[0]));
         SingleRay {
             lane,

@@ -44,7 +44,7 @@ pub(crate) struct ClosestHit {
     pub(crate) slot: Option<u32>,
     /// Whether any crossing will do.
     any: bool,
-    /// The stretch that is asked about, and between what it begins in `f32`.
+    /// The span that is searched, and bounds in `f32` on where it begins.
     span: Span,
     begin: [f32; 2],
 }
@@ -66,13 +66,13 @@ impl ClosestHit {
         Self { t, error, ..self }
     }
 
-    /// Asked for any crossing rather than the nearest.
+    /// Searches for any crossing (occlusion) rather than the nearest.
     #[inline(always)]
     pub(crate) fn for_any(self, any: bool) -> Self {
         Self { any, ..self }
     }
 
-    /// At least how far it is still worth looking, as the near sides of boxes are rounded.
+    /// At least the `t` up to which boxes are still searched, with room for the rounding of their near sides.
     #[inline(always)]
     fn far(&self) -> f32 {
         (self.t + self.error) * BOX_STRETCH
@@ -234,7 +234,7 @@ impl SingleRay {
         true
     }
 
-    /// Takes over a triangle where it is nearer; where it is crossed, if that is known.
+    /// Takes over a triangle where it is nearer; `crossing` is its `t` and the bound on that, if known.
     #[inline(always)]
     fn accept(
         &self,
@@ -264,7 +264,7 @@ impl SingleRay {
     #[inline(never)]
     fn decide(&self, tree: &WideTree, slot: u32, best: &mut ClosestHit, exact: &mut dyn ExactResolver) {
         let (facet, held) = (tree.facet(slot), best.slot);
-        // A triangle may stand in several leaves.
+        // A triangle may be in several leaves.
         if held.is_some_and(|held| tree.facet(held) == facet) {
             return;
         }

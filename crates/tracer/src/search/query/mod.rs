@@ -67,7 +67,7 @@ impl RayQuery<'_> {
         (instance.own_points(s, origin), instance.own_vectors(s, direction))
     }
 
-    /// Where the spans of the packet at ray `at` begin and end; not finite for those without an end.
+    /// Where the spans of the packet at ray `at` begin and end; not finite for unbounded ones.
     #[inline(always)]
     fn span_ends<S: Simd>(&self, s: S, at: usize) -> [D3<S>; 2] {
         let (origin, direction) = self.lines(s, at);
@@ -139,8 +139,8 @@ impl RayQuery<'_> {
         }
     }
 
-    /// The spans of a packet as segments to be tested for anything in their way. Rays that leave a surface but whose
-    /// spans begin later are left to be answered one by one.
+    /// The spans of a packet as shadow rays. Rays that leave a surface but whose spans begin later are answered one by
+    /// one instead.
     #[inline(always)]
     fn shadow_rays<S: Simd>(&self, s: S, packet: &Packet<'_, S, Self>) -> ShadowRays<'static, S> {
         let (rays, lane) = self.rays.block(packet.at);
@@ -375,7 +375,7 @@ impl<S: Simd> Searcher<'_, S> {
             for lane in lanes.lanes() {
                 let (ray, span, leaving) = packet.segment(lane);
                 let facet = Some(best.facet.lane(lane));
-                // What `f32` was certain of stands, though `f64` may see its `t` at the very end of the stretch.
+                // A hit that `f32` was certain of is kept, though `f64` may find its `t` just outside the span.
                 if let Some(hit) = snapshot.cross_part(prim, facet, &ray, span, leaving) {
                     all.set(lane, hit.crossing.t);
                 }

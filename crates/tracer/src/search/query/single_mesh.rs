@@ -1,5 +1,5 @@
-//! Ray queries where one mesh is all there is: groups of packets walk its tree together, and nothing
-//! is worked out that only other shapes need.
+//! Ray queries on a scene that is a single mesh: groups of packets walk its tree together, and nothing is computed that
+//! only other shapes need.
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::{Geometry, LaneMask, Ray, Span};
@@ -14,23 +14,23 @@ use crate::search::Searcher;
 use crate::search::mesh::{NONE, ends_of_segments};
 use crate::snapshot::{Instance, RaySegment, Row};
 
-/// Rays of a caller, and the mesh that is all there is.
+/// Rays of a caller, and the only mesh of the scene.
 #[derive(Clone, Copy)]
 struct MeshQuery<'a> {
     query: &'a RayQuery<'a>,
     instance: &'a Instance,
     mesh: &'a Mesh,
-    /// Whether anything that the rays meet will do.
+    /// Whether any hit will do (occlusion) rather than the nearest.
     any: bool,
 }
 
-/// Packets that stand side by side.
+/// Consecutive packets of a query.
 #[derive(Clone, Copy)]
 struct Group<S: Simd> {
     /// The first ray.
     at: usize,
     packets: usize,
-    /// Rays to be followed.
+    /// Rays that kernels may follow.
     live: [M<S>; GROUP],
 }
 
@@ -50,7 +50,7 @@ impl<S: Simd> Group<S> {
     }
 }
 
-/// The mesh that is all there is, if so.
+/// The instance, if the scene is a single mesh.
 pub(super) fn single_mesh(snapshot: &Snapshot) -> Option<&Instance> {
     let columns = snapshot.columns();
     let [Row::Instance(row)] = columns.rows[..] else { return None };
@@ -58,7 +58,7 @@ pub(super) fn single_mesh(snapshot: &Snapshot) -> Option<&Instance> {
 }
 
 impl<S: Simd> Searcher<'_, S> {
-    /// Answers about rays where a mesh is all there is.
+    /// Answers a query on a scene that is a single mesh.
     pub(super) fn answer_of_mesh(
         &mut self,
         query: &RayQuery<'_>,
@@ -90,7 +90,7 @@ impl<S: Simd> Searcher<'_, S> {
         (answers, rays, backwards): (&mut Answers<'_, '_>, &mut [BundledRays<S>; GROUP], &mut bool),
     ) {
         let mut slots = [U::splat(self.s, NONE); GROUP];
-        // What does not go together is halved; what does doubles what is tried next.
+        // A group without a common origin is halved; after one with, the next try is twice as large.
         let (mut first, mut size) = (0, group.packets);
         while first < group.packets {
             let part = group.part(self.s, first, size.min(group.packets - first));
@@ -109,7 +109,7 @@ impl<S: Simd> Searcher<'_, S> {
         }
     }
 
-    /// Finds triangles for all rays of a group at once, if they go through one point; whether they do.
+    /// Finds triangles for all rays of a group at once, if they have a common origin; returns whether they do.
     #[inline(always)]
     fn find_together(
         &mut self,
@@ -119,7 +119,7 @@ impl<S: Simd> Searcher<'_, S> {
     ) -> bool {
         let rays = &mut rays[..group.packets];
         let bundle = if of.any {
-            // The way that went well last is tried first.
+            // The direction in which the last group had a common origin is tried first.
             let bundle = self.bundle_of_segments(of, group, (rays, *backwards));
             bundle.or_else(|| {
                 let bundle = self.bundle_of_segments(of, group, (rays, !*backwards));
@@ -247,13 +247,13 @@ impl<S: Simd> Searcher<'_, S> {
 }
 
 impl<'a> MeshQuery<'a> {
-    /// Decides what a group of packets meets whose first ray is `at`.
+    /// The exact resolver of a group of packets whose first ray is `at`.
     fn resolver(&self, snapshot: &'a Snapshot, at: usize) -> ClosestOfQuery<'a> {
         ClosestOfQuery { snapshot, of: *self, at }
     }
 }
 
-/// Decides what rays of a caller meet, of a mesh that is all there is.
+/// Exact hits of a caller's rays on a single mesh.
 struct ClosestOfQuery<'a> {
     snapshot: &'a Snapshot,
     of: MeshQuery<'a>,
