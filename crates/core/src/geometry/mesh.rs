@@ -9,7 +9,7 @@ use crate::{
     Value, Values,
 };
 
-/// A mesh from a file; its triangles are stored once however often it stands somewhere.
+/// A mesh from a file; its triangles are stored once, however many instances it has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     source: MeshSource,
@@ -18,7 +18,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Where it stands in its own space.
+    /// An instance in the mesh's own space.
     #[must_use]
     pub fn new(source: MeshSource) -> Self {
         Self { source, to_world: Placement::IDENTITY, to_object: Placement::IDENTITY }

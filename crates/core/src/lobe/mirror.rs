@@ -1,4 +1,4 @@
-//! The mirror lobe: which way does light come that is seen reflected, and how much of it counts?
+//! The mirror lobe: from which direction does the light come that is seen reflected, and how much of it counts?
 
 use super::ShadingPoint;
 use crate::optics::reflect;

@@ -1,6 +1,6 @@
 //! Which lobes a surface may have, and what a lobe must answer.
 //!
-//! A lobe is one way in which light leaves a surface: alike in all directions, in a highlight, mirrored. Materials answer
+//! A lobe is one part of how light leaves a surface: alike in all directions, in a highlight, mirrored. Materials answer
 //! with a set of them ([`Lobes`]) and integrators know every lobe in the set, so it is closed. A new lobe is one file
 //! here, its `mod` line and its line in the list below.
 
@@ -20,7 +20,7 @@ use crate::{Lane, Triple};
 /// Where and from where a surface is seen.
 #[derive(Debug, Clone, Copy)]
 pub struct ShadingPoint<L: Lane> {
-    /// The point, metres, relative to the origin that the material has been told of; see
+    /// The point, metres, relative to the origin that the material was made for; see
     /// [`Surface::relative_to`](crate::Surface::relative_to).
     pub position: Triple<L>,
     /// Unit normal on the viewer's side.
@@ -43,7 +43,7 @@ impl ShadingPoint<f64> {
 
 /// A lobe that spreads light over a range of directions.
 pub trait Scatter<L: Lane> {
-    /// Radiance shown for each unit of irradiance (at normal incidence) from the direction `direction`, a unit vector
+    /// Radiance shown for each unit of irradiance (at normal incidence) from `direction`, a unit vector
     /// whose `cosine` to the normal is positive: the BRDF times the cosine.
     fn evaluate(&self, at: &ShadingPoint<L>, direction: Triple<L>, cosine: L) -> Triple<L>;
 
@@ -142,7 +142,7 @@ macro_rules! lobes {
             }
         }
 
-        /// Which lobes a material has: what it lacks is asked nowhere.
+        /// Which lobes a material has, so that nothing is computed for those it lacks.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
         pub struct LobeKinds {
             /// Whether anything is seen but what delta lobes send on.

@@ -23,7 +23,7 @@ pub(super) struct Found {
     pub(super) albedo: f64,
 }
 
-/// The origin of a surface with that normal, seen so many degrees off it.
+/// The origin of a surface with that normal, seen from `degrees` off the normal.
 pub(super) fn seen(normal: DVec3, degrees: f64) -> ShadingPoint<f64> {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let to_viewer = normal * cos + normal.any_orthonormal_vector() * sin;
