@@ -9,7 +9,7 @@ use super::packet::{Packet, PreciseRays};
 use crate::SurfaceId;
 use crate::cull::Candidates;
 use crate::film::NOTHING;
-use crate::kernel::{Kernel, Proposal, Tried};
+use crate::kernel::{Crossing, Kernel, Proposal, Tried};
 use crate::lanes::{Bits, F, M, U, outlined};
 use crate::numeric::{CERTAIN, SETTLED_ERROR};
 use crate::snapshot::{Instance, KernelVisitor, RaySegment};
@@ -118,7 +118,8 @@ impl<S: Simd> Searcher<'_, S> {
         } else {
             live
         };
-        self.accept(packet, best, allowed, (surface.prim, U::splat(self.s, surface.facet)), proposal);
+        let facet = U::splat(self.s, surface.facet);
+        self.accept(packet, best, surface.prim, Crossing { proposal, facet, lanes: allowed });
     }
 
     /// Takes over a proposal where it is nearer; what `f32` cannot decide is decided in `f64`.
@@ -127,10 +128,10 @@ impl<S: Simd> Searcher<'_, S> {
         &mut self,
         packet: &Packet<'_, S, P>,
         best: &mut Hits<S>,
-        allowed: M<S>,
-        (prim, facet): (u32, U<S>),
-        proposal: Proposal<S>,
+        prim: u32,
+        crossing: Crossing<S>,
     ) {
+        let Crossing { proposal, facet, lanes: allowed } = crossing;
         self.stats.tests.shapes += F::<S>::LANES as u64;
         let doubt = proposal.error + best.error;
         let hit = allowed & proposal.hit;
@@ -273,9 +274,7 @@ impl<S: Simd, P: PreciseRays<S>> KernelVisitor for TryShape<'_, '_, '_, S, P> {
             &packet.rays,
             &tried,
             #[inline(always)]
-            |crossing| {
-                search.accept(&packet, &mut best, crossing.lanes, (prim, crossing.facet), crossing.proposal);
-            },
+            |crossing| search.accept(&packet, &mut best, prim, crossing),
         );
         best
     }

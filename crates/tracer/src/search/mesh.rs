@@ -10,7 +10,9 @@ use super::hits::Hits;
 use super::packet::{Packet, PreciseRays, drift};
 use crate::SurfaceId;
 use crate::accel::WIDTH;
-use crate::kernel::mesh::{BundledRays, ClosestHit, LaneTriangles, Lines, RayBundle, RaySetup};
+use crate::kernel::mesh::{
+    BundledRays, ClosestHit, LaneTriangles, Lines, RayBundle, RaySetup, Reach, StartingRays, TreeWalk,
+};
 use crate::lanes::{Bits, D, D3, F, M, U, outlined, splat_wide};
 use crate::numeric::{BOUNDS_ERROR, END_ERROR, POINT_ERROR};
 use crate::snapshot::{Affine, Instance};
@@ -44,8 +46,7 @@ impl<S: Simd> Searcher<'_, S> {
         let Some(mesh) = snapshot.mesh_at(instance.prim) else { return };
         let before = *best;
         let mut exact = ClosestOfPacket { snapshot, mesh, prim: instance.prim, packet, before: &before };
-        let (origin, direction) = self.own_lines(packet, instance);
-        let lines = Lines { origin, direction, live: packet.live };
+        let lines = self.own_lines(packet, instance, packet.live);
         let mut rays = [BundledRays::nothing(self.s)];
         let slots = if let Some(bundle) = RayBundle::of(self.s, &mut rays, |_| lines, self.reach(instance)) {
             // From metres to depth.
@@ -95,8 +96,8 @@ impl<S: Simd> Searcher<'_, S> {
         let leaving = packet.leaving.facets_of(self.s, instance.prim);
         self.ray_setup(lines, instance).search(
             self.s,
-            (&instance.tree.tree, self.visits),
-            (lines.live, leaving),
+            TreeWalk { tree: &instance.tree.tree, visits: self.visits },
+            StartingRays { lanes: lines.live, leaving },
             #[inline(always)]
             |lane| {
                 let found = ClosestHit::nothing_on(packet.span(lane));
@@ -105,7 +106,7 @@ impl<S: Simd> Searcher<'_, S> {
                 }
                 let (metres, length) = (best.t.lane(lane), packet.inverse_length.lane(lane));
                 let error = best.error.lane(lane) + metres * END_ERROR;
-                found.before((metres * length, error * length))
+                found.before(metres * length, error * length)
             },
             exact,
         )
@@ -114,8 +115,8 @@ impl<S: Simd> Searcher<'_, S> {
     /// Lines in a mesh's own space as single rays.
     #[inline(always)]
     pub(crate) fn ray_setup(&self, lines: &Lines<S>, instance: &Instance) -> RaySetup {
-        let (off, reach) = self.reach(instance);
-        RaySetup::of(self.s, lines, F::splat(self.s, off), reach)
+        let reach = self.reach(instance);
+        RaySetup::of(self.s, lines, F::splat(self.s, reach.off), reach.mesh)
     }
 
     /// Takes over triangles that are nearer for certain. Their `t` are functions of ray and triangle alone, however those
@@ -134,9 +135,9 @@ impl<S: Simd> Searcher<'_, S> {
         }
         let triangles = instance.triangles(self.s, slots, taken);
         let facet = triangles.facet;
-        let lines = self.own_lines(packet, instance);
+        let lines = self.own_lines(packet, instance, taken);
         let of_lane = |lane: usize| packet.segment(lane);
-        let t = self.refined_t(instance.prim, lines, taken, &triangles, of_lane).narrow();
+        let t = self.refined_t(instance.prim, &lines, &triangles, of_lane).narrow();
         let metres = (t / packet.inverse_length).min(F::splat(self.s, f32::MAX.next_down()));
         best.t = F::pick(taken, metres, best.t);
         best.error = F::pick(taken, metres * F::splat(self.s, END_ERROR), best.error);
@@ -144,18 +145,17 @@ impl<S: Simd> Searcher<'_, S> {
         best.facet = U::pick(taken, facet, best.facet);
     }
 
-    /// Where rays meet triangles of a mesh that they are known to meet.
+    /// The `t` at which live lines meet triangles of a mesh that they are known to meet.
     #[inline(always)]
     pub(crate) fn refined_t(
         &self,
         prim: u32,
-        (origin, direction): (D3<S>, D3<S>),
-        lanes: M<S>,
+        lines: &Lines<S>,
         triangles: &LaneTriangles<S>,
         segment: impl Fn(usize) -> (Ray, Span, Option<SurfaceId>),
     ) -> D<S> {
-        let (mut t, sure) = triangles.depths(self.s, origin, direction);
-        for lane in Bits((lanes & !sure).bits()) {
+        let (mut t, sure) = triangles.depths(self.s, lines.origin, lines.direction);
+        for lane in Bits((lines.live & !sure).bits()) {
             let (ray, span, leaving) = segment(lane);
             let facet = Some(triangles.facet.lane(lane));
             if let Some(hit) = self.snapshot.cross_part(prim, facet, &ray, span, leaving) {
@@ -165,24 +165,28 @@ impl<S: Simd> Searcher<'_, S> {
         t
     }
 
-    /// The rays of a packet in the mesh's own space.
+    /// The rays of some lanes of a packet in the mesh's own space.
     #[inline(always)]
     pub(crate) fn own_lines<P: PreciseRays<S>>(
         &self,
         packet: &Packet<'_, S, P>,
         instance: &Instance,
-    ) -> (D3<S>, D3<S>) {
+        lanes: M<S>,
+    ) -> Lines<S> {
         let (origin, direction) = packet.precise(self.s);
-        (instance.own_points(self.s, origin), instance.own_vectors(self.s, direction))
+        Lines {
+            origin: instance.own_points(self.s, origin),
+            direction: instance.own_vectors(self.s, direction),
+            live: lanes,
+        }
     }
 
-    /// How far origins may be off, metres of the mesh's own space, beyond what `f64` rounds of their coordinates there; and
-    /// the largest coordinate of the mesh. They are relative to the snapshot's origin, and those on a mesh that is far from
-    /// it are rounded as coarsely as the mesh's own position.
-    pub(crate) fn reach(&self, instance: &Instance) -> (f32, f32) {
+    /// How far origins may be off in a mesh's own space, and the mesh's largest coordinate. Origins are relative to the
+    /// snapshot's, and those on a mesh that is far from it are rounded as coarsely as the mesh's own position.
+    pub(crate) fn reach(&self, instance: &Instance) -> Reach {
         let drifting = drift(self.snapshot.origin_in_frame()) * POINT_ERROR * instance.scale();
         let shift = instance.to_object.as_ref().map_or(0.0, |affine| affine.shift.abs().element_sum());
-        (drifting + (shift * BOUNDS_ERROR) as f32, instance.tree.reach)
+        Reach { off: drifting + (shift * BOUNDS_ERROR) as f32, mesh: instance.tree.reach }
     }
 
     /// Adds up the nodes and triangles that have been visited.

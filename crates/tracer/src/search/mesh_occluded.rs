@@ -6,7 +6,7 @@ use super::Searcher;
 use super::exact_resolver::AnyInTheWay;
 use super::mesh::NONE;
 use super::occluded::{Segments, ShadowRays};
-use crate::kernel::mesh::ClosestHit;
+use crate::kernel::mesh::{ClosestHit, StartingRays, TreeWalk};
 use crate::lanes::{M, outlined};
 use crate::snapshot::Instance;
 
@@ -46,7 +46,8 @@ impl<S: Simd> Searcher<'_, S> {
             let (setup, live) = segments.single_rays(self, rays, open, instance, mesh);
             let leaving = rays.leaving.facets_of(self.s, instance.prim);
             let begun = |lane| ClosestHit::nothing_on(segments.span(lane)).for_any(true);
-            setup.search(self.s, (tree, self.visits), (live, leaving), begun, &mut exact)
+            let walk = TreeWalk { tree, visits: self.visits };
+            setup.search(self.s, walk, StartingRays { lanes: live, leaving }, begun, &mut exact)
         };
         self.count_visits();
         open & slots.is(NONE)

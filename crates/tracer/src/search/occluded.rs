@@ -41,6 +41,13 @@ impl<S: Simd> ShadowRays<'_, S> {
     }
 }
 
+/// A shape that may block segments, or one facet of it.
+#[derive(Clone, Copy)]
+struct Blocker {
+    prim: u32,
+    facet: Option<u32>,
+}
+
 /// The `f64` segments of shadow rays, for what `f32` cannot decide; and how a mesh is searched for them.
 pub(crate) trait Segments<S: Simd> {
     /// The segment of a lane, in the snapshot's frame.
@@ -127,7 +134,7 @@ impl<S: Simd> Searcher<'_, S> {
             open = self.close(segments, rays, open, plane.prim, Obstacle { blocking, facet: Some(0), lanes });
         }
         for &prim in &columns.general_unbounded {
-            open = self.close_exactly(segments, rays, open, open, (prim, None));
+            open = self.close_exactly(segments, rays, open, open, Blocker { prim, facet: None });
         }
         if !open.any() {
             return rays.live;
@@ -169,7 +176,7 @@ impl<S: Simd> Searcher<'_, S> {
         let undecided = lanes & blocking.undecided;
         let remaining = open & !(lanes & blocking.blocked & !undecided);
         if CERTAIN && undecided.any() {
-            self.close_exactly(segments, rays, remaining, undecided, (prim, facet))
+            self.close_exactly(segments, rays, remaining, undecided, Blocker { prim, facet })
         } else {
             remaining
         }
@@ -183,10 +190,10 @@ impl<S: Simd> Searcher<'_, S> {
         rays: &ShadowRays<'_, S>,
         open: M<S>,
         lanes: M<S>,
-        surface: (u32, Option<u32>),
+        blocker: Blocker,
     ) -> M<S> {
         let leaving = rays.leaving;
-        let closed = self.closed_lanes(segments, &leaving, (lanes & open).bits(), surface);
+        let closed = self.closed_lanes(segments, &leaving, (lanes & open).bits(), blocker);
         open & !M::from_bits(self.s, closed)
     }
 
@@ -197,14 +204,14 @@ impl<S: Simd> Searcher<'_, S> {
         segments: &impl Segments<S>,
         leaving: &Leaving<S>,
         lanes: u64,
-        (prim, facet): (u32, Option<u32>),
+        blocker: Blocker,
     ) -> u64 {
         let snapshot = self.snapshot;
         let mut closed = 0;
         for lane in Bits(lanes) {
             self.stats.settled += 1;
             let Some((ray, span)) = segments.segment(snapshot, lane) else { continue };
-            if snapshot.cross_part(prim, facet, &ray, span, leaving.lane(lane)).is_some() {
+            if snapshot.cross_part(blocker.prim, blocker.facet, &ray, span, leaving.lane(lane)).is_some() {
                 closed |= 1 << lane;
             }
         }
@@ -232,7 +239,7 @@ impl<S: Simd, G: Segments<S>> KernelVisitor for OccludeBy<'_, '_, '_, S, G> {
             Tried { prim, lanes: open, leaving, entered: U::splat(s, NOTHING), outside: search.outside };
         if !kernel.faces().is_empty() {
             let hits = search.self_hits_of_segments(&rays, kernel.faces());
-            open = search.close_exactly(segments, &rays, open, hits.undecided, (prim, None));
+            open = search.close_exactly(segments, &rays, open, hits.undecided, Blocker { prim, facet: None });
             tried.lanes = open & hits.possible;
             if !tried.lanes.any() {
                 return open;
@@ -261,6 +268,6 @@ impl<S: Simd, G: Segments<S>> KernelVisitor for OccludeBy<'_, '_, '_, S, G> {
     #[inline(always)]
     fn visit_none(self) -> M<S> {
         let Self { search, segments, rays, open, prim } = self;
-        search.close_exactly(segments, &rays, open, open, (prim, None))
+        search.close_exactly(segments, &rays, open, open, Blocker { prim, facet: None })
     }
 }

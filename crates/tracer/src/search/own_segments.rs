@@ -10,7 +10,7 @@ use super::occluded::{Segments, ShadowRays};
 use super::packet::{Packet, PreciseRays};
 use crate::Snapshot;
 use crate::kernel::mesh::{BundledRays, CommonOrigin, Lines, RayBundle, RaySetup};
-use crate::lanes::{F, M};
+use crate::lanes::M;
 use crate::snapshot::Instance;
 
 /// The spans of a packet's rays.
@@ -52,10 +52,7 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for OwnSegments<'_, S, P> {
         instance: &Instance,
         _mesh: &Mesh,
     ) -> (RaySetup, M<S>) {
-        let (origin, direction) = search.own_lines(self.0, instance);
-        let (off, reach) = search.reach(instance);
-        let lines = Lines { origin, direction, live: open };
-        (RaySetup::of(search.s, &lines, F::splat(search.s, off), reach), open)
+        (search.ray_setup(&search.own_lines(self.0, instance, open), instance), open)
     }
 
     fn span(&self, lane: usize) -> Span {

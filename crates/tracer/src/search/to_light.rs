@@ -107,10 +107,10 @@ impl<S: Simd, P: PreciseRays<S>> ToLight<'_, S, P> {
             return (start, off);
         }
         let triangles = instance.facets(s, rays.leaving.facet, own);
-        let (origin, direction) = search.own_lines(self.packet, instance);
+        let lines = search.own_lines(self.packet, instance, own);
         let of_lane = |lane: usize| self.packet.segment(lane);
-        let t = search.refined_t(instance.prim, (origin, direction), own, &triangles, of_lane);
-        let refined = direction.scale_add(t, origin);
+        let t = search.refined_t(instance.prim, &lines, &triangles, of_lane);
+        let refined = lines.direction.scale_add(t, lines.origin);
         (pick3(own, refined, start), F::pick(own, reach * F::splat(s, START_ERROR), off))
     }
 }

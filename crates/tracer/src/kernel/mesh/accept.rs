@@ -6,11 +6,40 @@ use fearless_simd::prelude::*;
 
 use super::edges::Prepared;
 use super::planes::Crossing;
-use super::{BundledRays, CommonOrigin, Decision, Edges, ExactResolver, decide};
+use super::{BundledRays, CommonOrigin, Decision, Edges, ExactResolver, RayTriangle, decide};
 use crate::accel::{WIDTH, WideTree};
 use crate::kernel::bound;
 use crate::lanes::{Bits, F, M, U, outlined};
 use crate::numeric::BUNDLE_SLOPE;
+
+/// A triangle of a tree.
+#[derive(Clone, Copy)]
+pub(super) struct TreeTriangle<'a> {
+    pub(super) tree: &'a WideTree,
+    /// Its slot in the tree's blocks.
+    pub(super) slot: u32,
+    /// Its number in the mesh.
+    pub(super) facet: u32,
+}
+
+impl TreeTriangle<'_> {
+    fn corners(&self) -> [[f32; 3]; 3] {
+        self.tree.triangle(self.slot)
+    }
+}
+
+/// A packet of a bundle, and its number there.
+pub(super) struct PacketRays<'a, S: Simd> {
+    pub(super) rays: &'a mut BundledRays<S>,
+    pub(super) packet: usize,
+}
+
+/// Lanes that `f32` leaves open, bit by bit, and those that pass within all edges for certain.
+#[derive(Clone, Copy)]
+struct OpenLanes {
+    open: u64,
+    inside: u64,
+}
 
 impl<S: Simd> BundledRays<S> {
     /// Takes over a triangle in some lanes.
@@ -31,11 +60,13 @@ impl CommonOrigin {
     pub(super) fn accept<S: Simd>(
         &self,
         s: S,
-        (tree, prepared): (&WideTree, &Prepared),
-        (slot, facet): (u32, u32),
-        (rays, packet): (&mut BundledRays<S>, usize),
+        triangle: &TreeTriangle<'_>,
+        prepared: &Prepared,
+        packet: PacketRays<'_, S>,
         exact: &mut dyn ExactResolver,
     ) -> bool {
+        let TreeTriangle { slot, facet, .. } = *triangle;
+        let PacketRays { rays, packet } = packet;
         let at = slot as usize % WIDTH;
         let edge = |[x, y, z]: &[[f32; WIDTH]; 3]| rays.value(s, [x[at], y[at], z[at]]);
         let [a, b, c] = &prepared.edges;
@@ -54,7 +85,8 @@ impl CommonOrigin {
             rays.take(s, take, slot, &crossing, self.any);
         }
         if open.any() {
-            self.decide(tree, [open.bits(), inside.bits()], (slot, facet), (rays, packet), exact);
+            let lanes = OpenLanes { open: open.bits(), inside: inside.bits() };
+            self.decide(*triangle, lanes, PacketRays { rays, packet }, exact);
         }
         (take | open).any()
     }
@@ -64,31 +96,30 @@ impl CommonOrigin {
     #[inline(never)]
     fn decide<S: Simd>(
         &self,
-        tree: &WideTree,
-        [open, inside]: [u64; 2],
-        (slot, facet): (u32, u32),
-        (rays, packet): (&mut BundledRays<S>, usize),
+        triangle: TreeTriangle<'_>,
+        lanes: OpenLanes,
+        packet: PacketRays<'_, S>,
         exact: &mut dyn ExactResolver,
     ) {
+        let OpenLanes { open, inside } = lanes;
         // Where only edges are open, depths have already been compared.
         let open =
-            if open & inside == 0 { open } else { self.decide_by_depths(tree, [open, inside], slot, rays) };
+            if open & inside == 0 { open } else { self.decide_by_depths(triangle, lanes, packet.rays) };
         for lane in Bits(open) {
-            let other = rays.slot.lane(lane);
-            let held = (other != u32::MAX).then(|| tree.facet(other));
-            if held == Some(facet) {
+            let other = packet.rays.slot.lane(lane);
+            let held = (other != u32::MAX).then(|| triangle.tree.facet(other));
+            if held == Some(triangle.facet) {
                 continue;
             }
-            rays.decided += 1;
+            packet.rays.decided += 1;
             let edges = if inside >> lane & 1 == 1 { Edges::Inside } else { Edges::Open };
-            let Some(t) = self.nearer(tree, (lane, edges), (slot, facet), (rays, packet), exact) else {
-                continue;
-            };
+            let Some(t) = self.nearer(triangle, lane, edges, &packet, exact) else { continue };
+            let rays = &mut *packet.rays;
             let z = t as f32 * rays.scale.lane(lane);
             let error = z.abs() * (BUNDLE_SLOPE + BUNDLE_SLOPE);
             rays.end[0].set(lane, z - error);
             rays.end[1].set(lane, z + error);
-            rays.slot.set(lane, slot);
+            rays.slot.set(lane, triangle.slot);
             if self.any {
                 rays.live = rays.live & !M::from_bits(rays.slot.0.token(), 1 << lane);
             }
@@ -98,20 +129,19 @@ impl CommonOrigin {
     /// Decides by depths from `f64` planes; the lanes that those leave open.
     fn decide_by_depths<S: Simd>(
         &self,
-        tree: &WideTree,
-        [open, inside]: [u64; 2],
-        slot: u32,
+        triangle: TreeTriangle<'_>,
+        lanes: OpenLanes,
         rays: &mut BundledRays<S>,
     ) -> u64 {
         let s = rays.slot.0.token();
-        let corners = tree.triangle(slot);
-        let precise = self.precise_plane(&corners);
+        let TreeTriangle { tree, slot, .. } = triangle;
+        let precise = self.precise_plane(&triangle.corners());
         let plane = self.plane_of(&precise);
         outlined(
             s,
             #[inline(always)]
             || {
-                let (mut open, inside) = (M::from_bits(s, open), M::from_bits(s, inside));
+                let (mut open, inside) = (M::from_bits(s, lanes.open), M::from_bits(s, lanes.inside));
                 let crossing = rays.cross(s, &plane);
                 let take = open & inside & crossing.nearer;
                 rays.take(s, take, slot, &crossing, self.any);
@@ -135,23 +165,27 @@ impl CommonOrigin {
     /// At which `t` the ray of a lane meets a triangle in front of all that it has met, if it does.
     fn nearer<S: Simd>(
         &self,
-        tree: &WideTree,
-        (lane, edges): (usize, Edges),
-        (slot, facet): (u32, u32),
-        (rays, packet): (&BundledRays<S>, usize),
+        triangle: TreeTriangle<'_>,
+        lane: usize,
+        edges: Edges,
+        packet: &PacketRays<'_, S>,
         exact: &mut dyn ExactResolver,
     ) -> Option<f64> {
-        let of_all = packet * F::<S>::LANES + lane;
+        let rays = &*packet.rays;
+        let of_all = packet.packet * F::<S>::LANES + lane;
         let (ray, span) = exact.ray(of_all)?;
         let other = Some(rays.slot.lane(lane)).filter(|&slot| slot != u32::MAX);
         // Two roundings of a sum and a quotient, towards smaller numbers.
         let least = rays.end[0].lane(lane) * (1.0 - 4.0 * BUNDLE_SLOPE);
         let before = if self.any { f64::INFINITY } else { f64::from(least / rays.scale.lane(lane)) };
-        let (next, held) = (tree.triangle(slot), other.map(|slot| tree.triangle(slot)));
-        match decide((&next, edges), held, before, (&ray, span)) {
+        let held = other.map(|slot| triangle.tree.triangle(slot));
+        let test = RayTriangle { ray: &ray, span, corners: &triangle.corners(), edges };
+        match decide(&test, held, before) {
             Decision::NotNearer => None,
             Decision::Nearer(t) => Some(t),
-            Decision::Open => exact.decide(of_all, facet, other.map(|slot| tree.facet(slot))),
+            Decision::Open => {
+                exact.decide(of_all, triangle.facet, other.map(|slot| triangle.tree.facet(slot)))
+            }
         }
     }
 }

@@ -11,9 +11,10 @@ use catoptra_core::{Lane, LaneMask};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::edges::{RayBounds, Slopes};
-use super::packets::Packets;
-use super::{ExactResolver, GROUP, Visit, Visits, Waiting};
+use super::accept::{PacketRays, TreeTriangle};
+use super::edges::{Prepared, Slopes};
+use super::packets::{Packets, SeenBox};
+use super::{ExactResolver, GROUP, LeafBlock, Visit, Visits, Waiting};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::{Bits, F, M, U, outlined};
 use crate::numeric::{BUNDLE_BOX, BUNDLE_PAD, BUNDLE_SLOPE};
@@ -72,6 +73,31 @@ impl<S: Simd> BundledRays<S> {
         let low = |slopes| F::pick(self.live, slopes, most).0.reduce_min();
         let high = |slopes| F::pick(self.live, slopes, least).0.reduce_max();
         [[low(self.u), low(self.v)], [high(self.u), high(self.v)]]
+    }
+}
+
+/// The packets of a walk.
+struct Group<'a, S: Simd> {
+    rays: &'a [BundledRays<S>],
+    /// The boxes round their slopes.
+    packets: &'a Packets,
+    /// The depth up to which any of them still searches.
+    far: f32,
+}
+
+/// A block of which rays may meet some triangles.
+struct SeenBlock<'a> {
+    leaf: LeafBlock<'a>,
+    prepared: &'a Prepared,
+    /// Triangles that rays may meet, bit by bit.
+    seen: u64,
+}
+
+impl<'a> SeenBlock<'a> {
+    #[inline(always)]
+    fn triangle(&self, at: usize) -> TreeTriangle<'a> {
+        let LeafBlock { tree, block, .. } = self.leaf;
+        TreeTriangle { tree, slot: self.leaf.slot(at), facet: tree.blocks[block].facet[at] }
     }
 }
 
@@ -187,13 +213,16 @@ impl CommonOrigin {
         while let Some(visit) = waiting.pop(farthest) {
             if visit.count == 0 {
                 *waiting.nodes += 1;
-                self.enter(s, (tree, visit), (rays, &packets, farthest), &mut waiting);
+                let group = Group { rays, packets: &packets, far: farthest };
+                self.enter(s, tree, visit, &group, &mut waiting);
                 continue;
             }
-            for (block, own) in visit.blocks() {
+            for leaf in visit.blocks(tree) {
                 *waiting.blocks += 1;
                 let within = u64::from(visit.packets & packets.within(s, visit.near));
-                let changed = self.pass(s, (tree, block, own), (&ray_bounds, within), rays, exact);
+                let Some((prepared, seen)) = self.prepare(s, &leaf, &ray_bounds) else { continue };
+                let block = SeenBlock { leaf, prepared: &prepared, seen };
+                let changed = self.pass(s, &block, within, rays, exact);
                 for packet in Bits(changed) {
                     let rays = &mut rays[packet];
                     if self.any && rays.live.any() {
@@ -229,14 +258,15 @@ impl CommonOrigin {
     fn enter<S: Simd>(
         &self,
         s: S,
-        (tree, visit): (&WideTree, Visit),
-        (rays, packets, far): (&[BundledRays<S>], &Packets, f32),
+        tree: &WideTree,
+        visit: Visit,
+        group: &Group<'_, S>,
         waiting: &mut Waiting<'_>,
     ) {
         let node = &tree.nodes[visit.link as usize];
         let (one, zero) = (f32x8::splat(s, 1.0), f32x8::splat(s, 0.0));
         let (near, away) = (self.row(s, node, 2, 0).max(zero), self.row(s, node, 2, 1));
-        let mut met = near.simd_le(f32x8::splat(s, far)) & near.simd_le(away);
+        let mut met = near.simd_le(f32x8::splat(s, group.far)) & near.simd_le(away);
         let (of_near, of_away) = (one / near, one / away);
         let wider = f32x8::splat(s, BUNDLE_BOX + BUNDLE_SLOPE + self.slopes_off);
         let mut sides = [[0.0; WIDTH]; 4];
@@ -253,12 +283,16 @@ impl CommonOrigin {
         let (near, first) = (near.to_array(), waiting.depth);
         for child in Bits(met.to_bitmask() & ((1 << node.children) - 1)) {
             let child = child % WIDTH;
-            let seen = [sides[0][child], sides[1][child], sides[2][child], sides[3][child]];
-            let maybe = visit.packets & packets.entering(s, (seen, near[child]));
-            let unsure = maybe & packets.larger_than_half(s, seen);
-            let packets = (maybe & !unsure) | entering(s, rays, unsure, (seen, near[child]));
+            let seen = SeenBox {
+                low: [sides[0][child], sides[2][child]],
+                high: [sides[1][child], sides[3][child]],
+                near: near[child],
+            };
+            let maybe = visit.packets & group.packets.entering(s, &seen);
+            let unsure = maybe & group.packets.larger_than_half(s, &seen);
+            let packets = (maybe & !unsure) | entering(s, group.rays, unsure, &seen);
             if packets != 0 {
-                waiting.insert(first, Visit { packets, ..Visit::ahead((tree, node), child, &near) });
+                waiting.insert(first, Visit { packets, ..Visit::ahead(tree, node, child, &near) });
             }
         }
     }
@@ -268,27 +302,24 @@ impl CommonOrigin {
     fn pass<S: Simd>(
         &self,
         s: S,
-        (tree, block, own): (&WideTree, usize, u64),
-        (ray_bounds, packets): (&RayBounds, u64),
+        block: &SeenBlock<'_>,
+        packets: u64,
         rays: &mut [BundledRays<S>],
         exact: &mut dyn ExactResolver,
     ) -> u64 {
-        let Some((prepared, seen)) = self.prepare(s, (&tree.blocks[block], own), ray_bounds) else {
-            return 0;
-        };
         let mut changed = 0;
         for packet in Bits(packets) {
             let Some(packet_rays) = rays.get_mut(packet) else { continue };
-            let seen = if seen & (seen - 1) == 0 {
-                seen
+            let seen = if block.seen & (block.seen - 1) == 0 {
+                block.seen
             } else {
-                seen & prepared.seen_by(s, &Slopes::of(packet_rays.slopes))
+                block.seen & block.prepared.seen_by(s, &Slopes::of(packet_rays.slopes))
             };
             for at in Bits(seen) {
                 let at = at % WIDTH;
-                let facet = tree.blocks[block].facet[at];
-                let slot = (block * WIDTH + at) as u32;
-                let met = self.accept(s, (tree, &prepared), (slot, facet), (packet_rays, packet), exact);
+                let triangle = block.triangle(at);
+                let packet_rays = PacketRays { rays: &mut *packet_rays, packet };
+                let met = self.accept(s, &triangle, block.prepared, packet_rays, exact);
                 changed |= u64::from(met) << packet;
             }
         }
@@ -298,16 +329,15 @@ impl CommonOrigin {
 
 /// Which of some packets have a ray whose slopes lie within a box, and whose nearest hit lies beyond that depth.
 #[inline(always)]
-fn entering<S: Simd>(s: S, rays: &[BundledRays<S>], packets: u32, (slopes, near): ([f32; 4], f32)) -> u32 {
-    let [low_u, high_u, low_v, high_v] = slopes;
+fn entering<S: Simd>(s: S, rays: &[BundledRays<S>], packets: u32, seen: &SeenBox) -> u32 {
     let mut entering = 0;
     for packet in Bits(u64::from(packets)) {
         let Some(rays) = rays.get(packet) else { continue };
-        let beside = rays.u.less(F::splat(s, low_u))
-            | F::splat(s, high_u).less(rays.u)
-            | rays.v.less(F::splat(s, low_v))
-            | F::splat(s, high_v).less(rays.v);
-        let behind = rays.end[1].less(F::splat(s, near));
+        let beside = rays.u.less(F::splat(s, seen.low[0]))
+            | F::splat(s, seen.high[0]).less(rays.u)
+            | rays.v.less(F::splat(s, seen.low[1]))
+            | F::splat(s, seen.high[1]).less(rays.v);
+        let behind = rays.end[1].less(F::splat(s, seen.near));
         entering |= u32::from((rays.live & !(beside | behind)).any()) << packet;
     }
     entering

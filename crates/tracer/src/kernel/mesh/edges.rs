@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::{CommonOrigin, bound_eight};
+use super::{CommonOrigin, LeafBlock, bound_eight};
 use crate::accel::{Block8, WIDTH};
 use crate::numeric::{BUNDLE_DEPTH, BUNDLE_EDGE, BUNDLE_TOP};
 
@@ -62,14 +62,15 @@ impl CommonOrigin {
         }
     }
 
-    /// A block as seen from the common origin, and which of some triangles rays may meet, if any.
+    /// A block as seen from the common origin, and which of a leaf's triangles in it rays may meet, if any.
     #[inline(always)]
     pub(super) fn prepare<S: Simd>(
         &self,
         s: S,
-        (block, own): (&Block8, u64),
+        leaf: &LeafBlock<'_>,
         ray_bounds: &RayBounds,
     ) -> Option<(Prepared, u64)> {
+        let block = &leaf.tree.blocks[leaf.block];
         let (a, b, c) = (self.corner(s, block, 0), self.corner(s, block, 1), self.corner(s, block, 2));
         let edges = [minus(c, b), minus(a, c), minus(b, a)];
         let (p, q, r) =
@@ -82,7 +83,7 @@ impl CommonOrigin {
         let least = f32x8::splat(s, f32::MIN_POSITIVE);
         let of_point = length.mul_add_precise(f32x8::splat(s, ray_bounds.beside), least);
         let edge_error = bound_eight(s, weighted(s, products(size, far), ray_bounds.shares, of_point));
-        let seen = seen(s, &planes, edge_error, &ray_bounds.slopes) & own;
+        let seen = seen(s, &planes, edge_error, &ray_bounds.slopes) & leaf.own;
         if seen == 0 {
             return None;
         }

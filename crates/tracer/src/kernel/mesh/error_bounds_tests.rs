@@ -13,7 +13,10 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Shape, Span, TriangleMesh};
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::{BundledRays, ClosestHit, CommonOrigin, ExactResolver, Lines, RayBundle, RaySetup, Visits};
+use super::{
+    BundledRays, ClosestHit, CommonOrigin, ExactResolver, LeafBlock, Lines, RayBundle, RaySetup, Reach,
+    Visits,
+};
 use crate::accel::{MeshTree, Preset};
 use crate::lanes::{D, D3, F, M, U, splat_wide};
 use crate::random::Random;
@@ -169,8 +172,8 @@ fn attack_single(
             ray.direction[random.bits() as usize % 3] *=
                 [0.0, random.power(-60, -20)][random.bits() as usize % 2];
         }
-        let beside = known(random, &ray, target.tree.reach);
-        let (best, asked) = dispatch!(Level::new(), s => follow(s, beside, &target.tree));
+        let (beside, off) = known(random, &ray, target.tree.reach);
+        let (best, asked) = dispatch!(Level::new(), s => follow(s, beside, off, &target.tree));
         if asked != 0 {
             record.undecided += 1;
             continue;
@@ -182,7 +185,7 @@ fn attack_single(
 }
 
 /// Follows a ray alone whose origin may be off by so much; what it meets, and whether that is undecided.
-fn follow<S: Simd>(s: S, (ray, off): (Ray, f32), tree: &MeshTree) -> (ClosestHit, u64) {
+fn follow<S: Simd>(s: S, ray: Ray, off: f32, tree: &MeshTree) -> (ClosestHit, u64) {
     let lines = Lines {
         origin: splat_wide(s, ray.origin),
         direction: splat_wide(s, ray.direction),
@@ -203,7 +206,7 @@ fn slow_rays_meet_what_is_far() {
     let tree = MeshTree::build(&mesh, Preset::Fast, crate::pool::one_thread());
     for direction in [DVec3::X, DVec3::new(1.0, 1e-3, -1e-3)] {
         let ray = Ray::new(DVec3::new(-far, far / 64.0, far / 64.0), direction * slow);
-        let (best, asked) = dispatch!(Level::new(), s => follow(s, (ray, 0.0), &tree));
+        let (best, asked) = dispatch!(Level::new(), s => follow(s, ray, 0.0, &tree));
         assert_eq!((best.slot, asked), (Some(0), 0), "{direction}");
     }
 }
@@ -236,7 +239,7 @@ fn attack_planes<S: Simd>(s: S, random: &mut Random, target: &Target, records: &
     let Some((rays, bundle, [bundled])) = aimed(s, random, target) else { return };
     let (common_origin, tree) = (&bundle.common_origin, &target.tree.tree);
     let Some((prepared, _)) =
-        common_origin.prepare(s, (&tree.blocks[0], u64::MAX), &common_origin.ray_bounds())
+        common_origin.prepare(s, &LeafBlock { tree, block: 0, own: u64::MAX }, &common_origin.ray_bounds())
     else {
         return;
     };
@@ -277,7 +280,7 @@ fn aimed<S: Simd>(
     let (origin, direction) = (triple(&|ray| ray.origin), triple(&|ray| ray.direction));
     let lines = Lines { origin, direction, live: M::splat(s, true) };
     let mut bundled = [BundledRays::nothing(s)];
-    let bundle = RayBundle::of(s, &mut bundled, |_| lines, (0.0, target.tree.reach))?;
+    let bundle = RayBundle::of(s, &mut bundled, |_| lines, Reach { off: 0.0, mesh: target.tree.reach })?;
     let (zero, most) = (F::splat(s, 0.0), F::splat(s, f32::MAX));
     bundled[0].start(s, [zero, zero], [most, zero], U::splat(s, u32::MAX));
     Some((rays, bundle, bundled))

@@ -25,8 +25,8 @@ use crate::numeric::CERTAIN;
 
 pub(crate) use common_origin::{BundledRays, CommonOrigin};
 pub(crate) use precise::LaneTriangles;
-pub(crate) use ray_bundle::{Lines, RayBundle};
-pub(crate) use ray_setup::RaySetup;
+pub(crate) use ray_bundle::{Lines, RayBundle, Reach};
+pub(crate) use ray_setup::{RaySetup, StartingRays};
 pub(crate) use single_ray::ClosestHit;
 
 use precise::{Verdict, crossing, depth, intersect};
@@ -64,17 +64,22 @@ enum Edges {
     Open,
 }
 
+/// A ray and a triangle that may be its nearest hit.
+struct RayTriangle<'a> {
+    ray: &'a Ray,
+    /// The span that counts.
+    span: Span,
+    corners: &'a [[f32; 3]; 3],
+    edges: Edges,
+}
+
 /// Decides in `f64` whether a triangle is nearer than the one that a ray has met (`held`), or than the least `t` at which
 /// it may have met anything else (`before`).
-fn decide(
-    (next, edges): (&[[f32; 3]; 3], Edges),
-    held: Option<[[f32; 3]; 3]>,
-    before: f64,
-    (ray, span): (&Ray, Span),
-) -> Decision {
+fn decide(test: &RayTriangle<'_>, held: Option<[[f32; 3]; 3]>, before: f64) -> Decision {
+    let RayTriangle { ray, span, corners, edges } = *test;
     let verdict = match edges {
-        Edges::Inside => crossing(next, ray),
-        Edges::Open => intersect(next, ray),
+        Edges::Inside => crossing(corners, ray),
+        Edges::Open => intersect(corners, ray),
     };
     let (t, error) = match verdict {
         Verdict::Miss => return Decision::NotNearer,
@@ -118,23 +123,40 @@ struct Visit {
 impl Visit {
     /// Of a child that is entered at that depth at least; prefetches it.
     #[inline(always)]
-    fn ahead((tree, node): (&WideTree, &Node8), child: usize, near: &[f32; WIDTH]) -> Self {
+    fn ahead(tree: &WideTree, node: &Node8, child: usize, near: &[f32; WIDTH]) -> Self {
         let child = child % WIDTH;
         let (link, count) = (node.link[child], u32::from(node.count[child]));
         tree.prefetch(link, count);
         Self { near: near[child], link, count, packets: 1 }
     }
 
-    /// Blocks of a leaf, and which of each block's triangles are the leaf's.
+    /// The blocks that hold a leaf's triangles.
     #[inline(always)]
-    fn blocks(&self) -> impl Iterator<Item = (usize, u64)> {
+    fn blocks<'a>(&self, tree: &'a WideTree) -> impl Iterator<Item = LeafBlock<'a>> + use<'a> {
         let first = self.link as usize;
         let mut own = ((1_u64 << (self.count % u64::BITS)) - 1) << (first % WIDTH);
         (first / WIDTH..).map_while(move |block| {
             let here = own & ((1 << WIDTH) - 1);
             own >>= WIDTH;
-            (here != 0).then_some((block, here))
+            (here != 0).then_some(LeafBlock { tree, block, own: here })
         })
+    }
+}
+
+/// A block of a tree, and which of its triangles belong to a leaf.
+#[derive(Clone, Copy)]
+struct LeafBlock<'a> {
+    tree: &'a WideTree,
+    block: usize,
+    /// The leaf's triangles, bit by bit.
+    own: u64,
+}
+
+impl LeafBlock<'_> {
+    /// The slot of one of its triangles in the tree's blocks.
+    #[inline(always)]
+    fn slot(&self, at: usize) -> u32 {
+        (self.block * WIDTH + at) as u32
     }
 }
 
@@ -149,6 +171,12 @@ pub(crate) struct Visits {
     /// Nodes and blocks that have been looked at.
     pub(crate) nodes: u64,
     pub(crate) blocks: u64,
+}
+
+/// A tree to be walked, with the stack and counters for that.
+pub(crate) struct TreeWalk<'a> {
+    pub(crate) tree: &'a WideTree,
+    pub(crate) visits: &'a mut Visits,
 }
 
 impl Visits {

@@ -18,6 +18,15 @@ pub(crate) struct Lines<S: Simd> {
     pub(crate) live: M<S>,
 }
 
+/// What the bounds of rays against a mesh grow with.
+#[derive(Clone, Copy)]
+pub(crate) struct Reach {
+    /// How far origins may be off in the mesh's own space, beyond the roundings of `f64`.
+    pub(crate) off: f32,
+    /// The largest coordinate of the mesh.
+    pub(crate) mesh: f32,
+}
+
 /// A bundle of rays with a common origin.
 pub(crate) struct RayBundle {
     pub(crate) common_origin: CommonOrigin,
@@ -26,15 +35,14 @@ pub(crate) struct RayBundle {
 }
 
 impl RayBundle {
-    /// Of the lines of some packets, if they have a common origin and run mostly along the same axis. `reach` is how far
-    /// origins may be off beyond the roundings of `f64`, and the largest coordinate of the mesh. Stores the lines' slopes
-    /// in `rays`. See [`outlined`].
+    /// Of the lines of some packets, if they have a common origin and run mostly along the same axis. Stores the lines'
+    /// slopes in `rays`. See [`outlined`].
     #[inline(always)]
     pub(crate) fn of<S: Simd>(
         s: S,
         rays: &mut [BundledRays<S>],
         lines: impl Fn(usize) -> Lines<S>,
-        reach: (f32, f32),
+        reach: Reach,
     ) -> Option<Self> {
         outlined(
             s,
@@ -48,7 +56,7 @@ impl RayBundle {
         s: S,
         rays: &mut [BundledRays<S>],
         lines: impl Fn(usize) -> Lines<S>,
-        (off, reach): (f32, f32),
+        reach: Reach,
     ) -> Option<Self> {
         let (first, (origin, along)) =
             (0..rays.len()).find_map(|packet| Some((packet, lines(packet).first()?)))?;
@@ -76,13 +84,13 @@ impl RayBundle {
             }
         }
         let least = least.0.reduce_min();
-        let slack = (apart.0.reduce_max() + off) * (1.0 + BUNDLE_SLOPE);
+        let slack = (apart.0.reduce_max() + reach.off) * (1.0 + BUNDLE_SLOPE);
         let through_one = slack <= BUNDLE_SPREAD * least && least > 0.0;
         if !through_one {
             return None;
         }
-        let common_origin =
-            CommonOrigin::new(&aim, origin, slack, [low, high], reach).with_slopes_off(2.0 * slack / least);
+        let common_origin = CommonOrigin::new(&aim, origin, slack, [low, high], reach.mesh)
+            .with_slopes_off(2.0 * slack / least);
         Some(Self { common_origin, slack })
     }
 }

@@ -4,8 +4,7 @@ use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::Simd;
 
 use super::single_ray::SingleRay;
-use super::{ClosestHit, ExactResolver, Lines, Visits};
-use crate::accel::WideTree;
+use super::{ClosestHit, ExactResolver, Lines, TreeWalk};
 use crate::lanes::{D, D3, F, M, MOST_LANES, U, narrow3};
 use crate::numeric::{BOX_STRETCH, SINGLE_RAY_FLOOR, SINGLE_RAY_OFF, SINGLE_RAY_PAD, SINGLE_RAY_SHARE};
 
@@ -31,6 +30,13 @@ pub(crate) struct RaySetup {
     floor: Row,
 }
 
+/// Rays to be traced, and the triangles that they leave.
+#[derive(Clone, Copy)]
+pub(crate) struct StartingRays<S: Simd> {
+    pub(crate) lanes: M<S>,
+    pub(crate) leaving: U<S>,
+}
+
 impl RaySetup {
     /// Sets up lines for a mesh whose corners' coordinates stay within `reach`. Their origins may be off by `off` along
     /// every axis, beyond the roundings of `f64`; the [`ExactResolver`](super::ExactResolver) has the exact rays.
@@ -45,9 +51,9 @@ impl RaySetup {
         let floor = reach * F::splat(s, SINGLE_RAY_FLOOR);
         let floor = floor.mul_add(floor, F::splat(s, f32::MIN_POSITIVE));
         let mut rays = Self::nothing();
-        rays.start(s, 0, (origin.x, direction.x), pad);
-        rays.start(s, 1, (origin.y, direction.y), pad);
-        rays.start(s, 2, (origin.z, direction.z), pad);
+        rays.start(s, 0, origin.x, direction.x, pad);
+        rays.start(s, 1, origin.y, direction.y, pad);
+        rays.start(s, 2, origin.z, direction.z, pad);
         rays.lean(s, &lines.direction);
         (reach * F::splat(s, SINGLE_RAY_SHARE)).store(&mut rays.slack);
         floor.store(&mut rays.floor);
@@ -72,7 +78,7 @@ impl RaySetup {
 
     /// Slabs along an axis.
     #[inline(always)]
-    fn start<S: Simd>(&mut self, s: S, axis: usize, (origin, direction): (F<S>, F<S>), pad: F<S>) {
+    fn start<S: Simd>(&mut self, s: S, axis: usize, origin: F<S>, direction: F<S>, pad: F<S>) {
         let inverse = F::splat(s, 1.0) / direction;
         let backwards = inverse.less(F::splat(s, 0.0));
         // A lower end is padded downwards, an upper one upwards.
@@ -92,28 +98,28 @@ impl RaySetup {
         let below = y.abs().max(z.abs());
         let not_x = x.abs().at_most(below);
         let not_y = y.abs().at_most(z.abs());
-        let along = D::splat(s, 1.0) / either((not_x, not_y), [x, y, z]);
-        (either((not_x, not_y), [y, z, x]) * along).narrow().store(&mut self.shear[0]);
-        (either((not_x, not_y), [z, x, y]) * along).narrow().store(&mut self.shear[1]);
+        let along = D::splat(s, 1.0) / either(not_x, not_y, [x, y, z]);
+        (either(not_x, not_y, [y, z, x]) * along).narrow().store(&mut self.shear[0]);
+        (either(not_x, not_y, [z, x, y]) * along).narrow().store(&mut self.shear[1]);
         along.narrow().store(&mut self.along);
         self.mostly = [(!not_x).bits(), (!not_y).bits()];
     }
 
-    /// Finds the nearest triangle for the rays of some lanes, or any, one after another; `leaving` are the triangles that
-    /// they leave, `begun` is what is known of a ray before. Returns slots of the tree's blocks; [`u32::MAX`] for none.
+    /// Finds the nearest triangle for rays, or any, one after another; `begun` gives what is known of a ray before. Returns slots of the tree's blocks; [`u32::MAX`] for none.
     #[inline(always)]
     pub(crate) fn search<S: Simd>(
         &self,
         s: S,
-        (tree, visits): (&WideTree, &mut Visits),
-        (lanes, leaving): (M<S>, U<S>),
+        walk: TreeWalk<'_>,
+        rays: StartingRays<S>,
         begun: impl Fn(usize) -> ClosestHit,
         exact: &mut dyn ExactResolver,
     ) -> U<S> {
         let mut slots = [u32::MAX; MOST_LANES];
-        for lane in lanes.lanes() {
+        let TreeWalk { tree, visits } = walk;
+        for lane in rays.lanes.lanes() {
             let mut found = begun(lane);
-            self.lane(lane, leaving.lane(lane)).search(s, tree, visits, &mut found, exact);
+            self.lane(lane, rays.leaving.lane(lane)).search(s, tree, visits, &mut found, exact);
             slots[lane % MOST_LANES] = found.slot.unwrap_or(u32::MAX);
         }
         U::load(s, &slots)
@@ -146,6 +152,6 @@ impl RaySetup {
 
 /// The number that is for rays mostly along x, y or z.
 #[inline(always)]
-fn either<S: Simd>((not_x, not_y): (M<S>, M<S>), [x, y, z]: [D<S>; 3]) -> D<S> {
+fn either<S: Simd>(not_x: M<S>, not_y: M<S>, [x, y, z]: [D<S>; 3]) -> D<S> {
     D::pick(not_x, D::pick(not_y, z, y), x)
 }

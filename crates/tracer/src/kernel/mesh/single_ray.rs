@@ -7,7 +7,9 @@ use catoptra_core::Span;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::{Decision, Edges, ExactResolver, Visit, Visits, Waiting, bound_eight, decide};
+use super::{
+    Decision, Edges, ExactResolver, LeafBlock, RayTriangle, Visit, Visits, Waiting, bound_eight, decide,
+};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::{Bits, outlined};
 use crate::numeric::{BOX_STRETCH, SINGLE_RAY_DEPTH, SINGLE_RAY_SPREAD, SINGLE_RAY_STEEP};
@@ -62,7 +64,7 @@ impl ClosestHit {
 
     /// Where something else has been met, at a `t` that is known within a bound.
     #[inline(always)]
-    pub(crate) fn before(self, (t, error): (f32, f32)) -> Self {
+    pub(crate) fn before(self, t: f32, error: f32) -> Self {
         Self { t, error, ..self }
     }
 
@@ -114,36 +116,25 @@ impl SingleRay {
                 let node = &tree.nodes[visit.link as usize];
                 let (met, near) = self.enter(s, node, far);
                 if met != 0 {
-                    visit = waiting.nearest_of((tree, node), met, &near);
+                    visit = waiting.nearest_of(tree, node, met, &near);
                     continue;
                 }
-            } else if self.visit_leaf(s, (tree, visit), &mut waiting, best, exact) {
-                far = best.far();
-                if best.any && best.slot.is_some() {
-                    return;
+            } else {
+                let mut met = false;
+                for block in visit.blocks(tree) {
+                    *waiting.blocks += 1;
+                    met |= self.pass(s, &block, best, exact);
+                }
+                if met {
+                    far = best.far();
+                    if best.any && best.slot.is_some() {
+                        return;
+                    }
                 }
             }
             let Some(next) = waiting.pop(far) else { return };
             visit = next;
         }
-    }
-
-    /// Tests the triangles of a leaf; whether there were any that the ray is not certain to miss.
-    #[inline(always)]
-    fn visit_leaf<S: Simd>(
-        &self,
-        s: S,
-        (tree, leaf): (&WideTree, Visit),
-        waiting: &mut Waiting<'_>,
-        best: &mut ClosestHit,
-        exact: &mut dyn ExactResolver,
-    ) -> bool {
-        let mut met = false;
-        for (block, own) in leaf.blocks() {
-            *waiting.blocks += 1;
-            met |= self.pass(s, (tree, block, own), best, exact);
-        }
-        met
     }
 
     /// Where the ray crosses the nearer (side 0) or farther sides of the boxes along an axis.
@@ -185,16 +176,16 @@ impl SingleRay {
         f32x8::load_array_ref(s, &rows[axis]) - f32x8::splat(s, self.origin[axis])
     }
 
-    /// Tests the ray against triangles of a block; whether there are any that it is not certain to miss.
+    /// Tests the ray against a leaf's triangles in a block; whether there are any that it is not certain to miss.
     #[inline(always)]
     fn pass<S: Simd>(
         &self,
         s: S,
-        (tree, block, own): (&WideTree, usize, u64),
+        leaf: &LeafBlock<'_>,
         best: &mut ClosestHit,
         exact: &mut dyn ExactResolver,
     ) -> bool {
-        let corners = &tree.blocks[block].corners;
+        let corners = &leaf.tree.blocks[leaf.block].corners;
         let (a, b, c) =
             (self.corner(s, &corners[0]), self.corner(s, &corners[1]), self.corner(s, &corners[2]));
         let most = a.across().max(b.across()).max(c.across());
@@ -203,7 +194,7 @@ impl SingleRay {
         let spread = most.mul_add_precise(f32x8::splat(s, SINGLE_RAY_SPREAD), slack);
         let error = bound_eight(s, most.mul_add_precise(spread, floor));
         let (low, high) = (u.min(v).min(w), u.max(v).max(w));
-        let maybe = !(low.simd_lt(-error) & high.simd_gt(error)).to_bitmask() & own;
+        let maybe = !(low.simd_lt(-error) & high.simd_gt(error)).to_bitmask() & leaf.own;
         if maybe == 0 {
             return false;
         }
@@ -229,7 +220,7 @@ impl SingleRay {
         for at in Bits(open) {
             let at = at % WIDTH;
             let crossing = (known >> at & 1 == 1).then_some((t[at], t_error[at]));
-            self.accept(tree, (block * WIDTH + at) as u32, crossing, best, exact);
+            self.accept(leaf.tree, leaf.slot(at), crossing, best, exact);
         }
         true
     }
@@ -272,9 +263,10 @@ impl SingleRay {
         let least = f64::from((best.t - best.error) * (1.0 - SINGLE_RAY_DEPTH));
         let before = if best.any { f64::INFINITY } else { least };
         let held_triangle = held.map(|slot| tree.triangle(slot));
-        let next = (&tree.triangle(slot), Edges::Open);
         let Some((ray, _)) = exact.ray(self.lane) else { return };
-        let t = match decide(next, held_triangle, before, (&ray, best.span)) {
+        let corners = &tree.triangle(slot);
+        let test = RayTriangle { ray: &ray, span: best.span, corners, edges: Edges::Open };
+        let t = match decide(&test, held_triangle, before) {
             Decision::NotNearer => None,
             Decision::Nearer(t) => Some(t),
             Decision::Open => exact.decide(self.lane, facet, held.map(|slot| tree.facet(slot))),
@@ -310,19 +302,19 @@ fn edge<S: Simd>(v: &Corner<S>, w: &Corner<S>) -> f32x8<S> {
 impl Waiting<'_> {
     /// The nearest of some children of a node; the others wait, the nearer ones first.
     #[inline(always)]
-    fn nearest_of(&mut self, of: (&WideTree, &Node8), children: u64, near: &[f32; WIDTH]) -> Visit {
-        let first = Visit::ahead(of, children.trailing_zeros() as usize, near);
+    fn nearest_of(&mut self, tree: &WideTree, node: &Node8, children: u64, near: &[f32; WIDTH]) -> Visit {
+        let first = Visit::ahead(tree, node, children.trailing_zeros() as usize, near);
         let others = children & (children - 1);
         if others == 0 {
             return first;
         }
-        let second = Visit::ahead(of, others.trailing_zeros() as usize, near);
+        let second = Visit::ahead(tree, node, others.trailing_zeros() as usize, near);
         let rest = others & (others - 1);
         let (mut nearest, other) = if second.near < first.near { (second, first) } else { (first, second) };
         let from = self.depth;
         self.push(other);
         for at in Bits(rest) {
-            let next = Visit::ahead(of, at, near);
+            let next = Visit::ahead(tree, node, at, near);
             if next.near < nearest.near {
                 self.push(nearest);
                 nearest = next;

@@ -12,7 +12,7 @@ use single_mesh::single_mesh;
 use super::{Hits, OwnSegments, Packet, PreciseRays, Searcher, ShadowRays, drift, kernel_rays};
 use crate::cull::Candidates;
 use crate::film::NOTHING;
-use crate::kernel::mesh::Visits;
+use crate::kernel::mesh::{Lines, Visits};
 use crate::kernel::{Leaving, Target};
 use crate::lanes::{Bits, D, D3, F, F3, M, U, Work, at_level, load_wide3, narrow3, splat_wide};
 use crate::numeric::{END_ERROR, ORDINARY, POINT_ERROR};
@@ -60,11 +60,11 @@ impl RayQuery<'_> {
         (origin - splat_wide(s, self.snapshot.origin()), direction)
     }
 
-    /// As [`lines`](Self::lines), in a mesh's own space.
+    /// As [`lines`](Self::lines), of some lanes and in a mesh's own space.
     #[inline(always)]
-    fn own_lines<S: Simd>(&self, s: S, at: usize, instance: &Instance) -> (D3<S>, D3<S>) {
+    fn own_lines<S: Simd>(&self, s: S, at: usize, instance: &Instance, live: M<S>) -> Lines<S> {
         let (origin, direction) = self.lines(s, at);
-        (instance.own_points(s, origin), instance.own_vectors(s, direction))
+        Lines { origin: instance.own_points(s, origin), direction: instance.own_vectors(s, direction), live }
     }
 
     /// Where the spans of the packet at ray `at` begin and end; not finite for unbounded ones.
@@ -92,8 +92,8 @@ impl RayQuery<'_> {
         D::load(s, lengths).narrow() / inverse_length
     }
 
-    /// Depths between which the spans begin, and those at which they end and how far these may be off; for rays of so
-    /// much depth per `t`.
+    /// Depths between which the spans begin, and those at which they end and how far these may be off; for rays of
+    /// `scale` depth per `t`.
     #[inline(always)]
     fn depths<S: Simd>(&self, s: S, at: usize, scale: F<S>) -> [[F<S>; 2]; 2] {
         let (rays, lane) = self.rays.block(at);
@@ -366,9 +366,9 @@ impl<S: Simd> Searcher<'_, S> {
             if let Row::Instance(row) = snapshot.columns().rows[prim as usize] {
                 let instance = &snapshot.columns().instances[row as usize];
                 let triangles = instance.facets(self.s, best.facet, lanes);
-                let lines = self.own_lines(packet, instance);
+                let lines = self.own_lines(packet, instance, lanes);
                 let of_lane = |lane: usize| packet.segment(lane);
-                let t = self.refined_t(prim, lines, lanes, &triangles, of_lane);
+                let t = self.refined_t(prim, &lines, &triangles, of_lane);
                 all = D::pick(lanes, t, all);
                 continue;
             }

@@ -8,7 +8,9 @@ use fearless_simd::Simd;
 use super::{Answers, RayQuery};
 use crate::Snapshot;
 use crate::film::NOTHING;
-use crate::kernel::mesh::{BundledRays, ClosestHit, ExactResolver, GROUP, Lines, RayBundle};
+use crate::kernel::mesh::{
+    BundledRays, ClosestHit, ExactResolver, GROUP, Lines, RayBundle, StartingRays, TreeWalk,
+};
 use crate::lanes::{F, M, U, outlined};
 use crate::search::Searcher;
 use crate::search::mesh::{NONE, ends_of_segments};
@@ -32,6 +34,13 @@ struct Group<S: Simd> {
     packets: usize,
     /// Rays that kernels may follow.
     live: [M<S>; GROUP],
+}
+
+/// Memory that is used for one group after another.
+struct GroupRoom<S: Simd> {
+    rays: [BundledRays<S>; GROUP],
+    /// Whether the last bundle of segments had its common origin at their ends.
+    backwards: bool,
 }
 
 impl<S: Simd> Group<S> {
@@ -67,7 +76,7 @@ impl<S: Simd> Searcher<'_, S> {
     ) {
         let Some(mesh) = self.snapshot.mesh_at(instance.prim) else { return };
         let of = &MeshQuery { query, instance, mesh, any: matches!(answers, Answers::Occluded(_)) };
-        let (mut rays, mut backwards) = ([BundledRays::nothing(self.s); GROUP], false);
+        let mut room = GroupRoom { rays: [BundledRays::nothing(self.s); GROUP], backwards: false };
         for at in (0..query.len()).step_by(GROUP * F::<S>::LANES) {
             let packets = (query.len() - at).div_ceil(F::<S>::LANES).min(GROUP);
             let mut group = Group { at, packets, live: [M::splat(self.s, false); GROUP] };
@@ -77,7 +86,7 @@ impl<S: Simd> Searcher<'_, S> {
             outlined(
                 self.s,
                 #[inline(always)]
-                || self.answer_group(of, &group, (answers, &mut rays, &mut backwards)),
+                || self.answer_group(of, &group, answers, &mut room),
             );
         }
     }
@@ -87,14 +96,15 @@ impl<S: Simd> Searcher<'_, S> {
         &mut self,
         of: &MeshQuery<'_>,
         group: &Group<S>,
-        (answers, rays, backwards): (&mut Answers<'_, '_>, &mut [BundledRays<S>; GROUP], &mut bool),
+        answers: &mut Answers<'_, '_>,
+        room: &mut GroupRoom<S>,
     ) {
         let mut slots = [U::splat(self.s, NONE); GROUP];
         // A group without a common origin is halved; after one with, the next try is twice as large.
         let (mut first, mut size) = (0, group.packets);
         while first < group.packets {
             let part = group.part(self.s, first, size.min(group.packets - first));
-            if self.find_together(of, &part, (&mut slots[first..], rays, backwards)) {
+            if self.find_together(of, &part, &mut slots[first..], room) {
                 (first, size) = (first + part.packets, 2 * part.packets);
             } else if part.packets == 1 {
                 slots[first] = self.find_each(of, &part);
@@ -105,7 +115,7 @@ impl<S: Simd> Searcher<'_, S> {
         }
         for (packet, slots) in slots.into_iter().enumerate().take(group.packets) {
             let part = group.part(self.s, packet, 1);
-            self.store_packet(of, (&part, slots), answers);
+            self.store_packet(of, &part, slots, answers);
         }
     }
 
@@ -115,14 +125,16 @@ impl<S: Simd> Searcher<'_, S> {
         &mut self,
         of: &MeshQuery<'_>,
         group: &Group<S>,
-        (slots, rays, backwards): (&mut [U<S>], &mut [BundledRays<S>; GROUP], &mut bool),
+        slots: &mut [U<S>],
+        room: &mut GroupRoom<S>,
     ) -> bool {
+        let GroupRoom { rays, backwards } = room;
         let rays = &mut rays[..group.packets];
         let bundle = if of.any {
             // The direction in which the last group had a common origin is tried first.
-            let bundle = self.bundle_of_segments(of, group, (rays, *backwards));
+            let bundle = self.bundle_of_segments(of, group, rays, *backwards);
             bundle.or_else(|| {
-                let bundle = self.bundle_of_segments(of, group, (rays, !*backwards));
+                let bundle = self.bundle_of_segments(of, group, rays, !*backwards);
                 *backwards ^= bundle.is_some();
                 bundle
             })
@@ -162,8 +174,8 @@ impl<S: Simd> Searcher<'_, S> {
             rays,
             #[inline(always)]
             |packet| {
-                let (origin, direction) = of.query.own_lines(self.s, group.start(packet), of.instance);
-                Lines { origin, direction, live: group.live[packet % GROUP] }
+                let live = group.live[packet % GROUP];
+                of.query.own_lines(self.s, group.start(packet), of.instance, live)
             },
             self.reach(of.instance),
         )
@@ -175,7 +187,8 @@ impl<S: Simd> Searcher<'_, S> {
         &self,
         of: &MeshQuery<'_>,
         group: &Group<S>,
-        (rays, backwards): (&mut [BundledRays<S>], bool),
+        rays: &mut [BundledRays<S>],
+        backwards: bool,
     ) -> Option<RayBundle> {
         RayBundle::of(
             self.s,
@@ -198,12 +211,11 @@ impl<S: Simd> Searcher<'_, S> {
         of.query.rays.prefetch(packet.start(GROUP));
         let leaving = of.query.leaving(self.s, packet.at).facets_of(self.s, of.instance.prim);
         let mut exact = of.resolver(self.snapshot, packet.at);
-        let (origin, direction) = of.query.own_lines(self.s, packet.at, of.instance);
-        let lines = Lines { origin, direction, live: packet.live[0] };
+        let lines = of.query.own_lines(self.s, packet.at, of.instance, packet.live[0]);
         let slots = self.ray_setup(&lines, of.instance).search(
             self.s,
-            (&of.instance.tree.tree, self.visits),
-            (lines.live, leaving),
+            TreeWalk { tree: &of.instance.tree.tree, visits: self.visits },
+            StartingRays { lanes: lines.live, leaving },
             #[inline(always)]
             |lane| ClosestHit::nothing_on(of.query.span_at(packet.at + lane)).for_any(of.any),
             &mut exact,
@@ -217,7 +229,8 @@ impl<S: Simd> Searcher<'_, S> {
     fn store_packet(
         &mut self,
         of: &MeshQuery<'_>,
-        (packet, slots): (&Group<S>, U<S>),
+        packet: &Group<S>,
+        slots: U<S>,
         answers: &mut Answers<'_, '_>,
     ) {
         let (at, instance) = (packet.at, of.instance);
@@ -228,9 +241,9 @@ impl<S: Simd> Searcher<'_, S> {
                 U::pick(taken, prim, nothing).store(&mut hits.prim[at..]);
                 if taken.any() {
                     let triangles = instance.triangles(self.s, slots, taken);
-                    let lines = of.query.own_lines(self.s, at, instance);
+                    let lines = of.query.own_lines(self.s, at, instance, taken);
                     let of_lane = |lane: usize| of.query.segment(at + lane);
-                    let t = self.refined_t(instance.prim, lines, taken, &triangles, of_lane);
+                    let t = self.refined_t(instance.prim, &lines, &triangles, of_lane);
                     triangles.facet.store(&mut hits.facet[at..]);
                     t.store(&mut hits.t[at..]);
                 }
