@@ -212,7 +212,7 @@ impl<S: Simd> Grower<'_, S> {
             }
             None => set.around.half_area() * weight(set.count),
         };
-        let cut = cheapest_cut(self.mesh, items, &set.around.bounds(), (set.room, PARALLEL))?;
+        let cut = cheapest_cut(self.mesh, items, &set.around.bounds(), set.room, PARALLEL)?;
         if !(cut.cost < cost) {
             return None;
         }

@@ -112,7 +112,8 @@ pub(super) fn cheapest_cut(
     mesh: &TriangleMesh,
     items: &[Item],
     around: &Box32,
-    (room, stretch): (usize, usize),
+    room: usize,
+    stretch: usize,
 ) -> Option<Cut> {
     let mut best: Option<Cut> = None;
     for planes in (0..3).filter_map(|axis| Planes::across(around, axis)) {

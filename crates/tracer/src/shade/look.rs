@@ -37,7 +37,7 @@ impl<S: Simd> Shader<'_, S> {
         if !self.search.snapshot.material_rows()[material].lobes.mirror {
             self.search.stats.skipped.not_reflective += mask.count();
         }
-        F3::select(mask, self.base(batch, slot, (mask, material)), shown)
+        F3::select(mask, self.base(batch, slot, mask, material), shown)
     }
 
     /// What the lanes of further materials show. Most packets meet one material; see [`outlined`].
@@ -58,7 +58,7 @@ impl<S: Simd> Shader<'_, S> {
 
     /// What the base of the lanes of `mask`, which have one material, shows in its share.
     #[inline(always)]
-    fn base(&mut self, batch: &impl Batch<S>, slot: usize, (mask, material): (M<S>, usize)) -> F3<S> {
+    fn base(&mut self, batch: &impl Batch<S>, slot: usize, mask: M<S>, material: usize) -> F3<S> {
         let snapshot = self.search.snapshot;
         let row = &snapshot.material_rows()[material];
         if row.is_pattern {
