@@ -132,7 +132,7 @@ fn leaving_rays(snapshot: &Snapshot, count: usize) -> RayList {
             along + hit.crossing.normal * numbers.next() * 1e-16,
         ];
         for direction in directions {
-            rays.push(&Ray::new(ray.at(hit.crossing.t), direction), [0.0, f64::INFINITY], Some(hit.place));
+            rays.push(&Ray::new(ray.at(hit.crossing.t), direction), [0.0, f64::INFINITY], Some(hit.surface));
         }
     }
     rays

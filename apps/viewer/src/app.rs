@@ -138,7 +138,7 @@ impl App {
     }
 
     /// Follows the scene and asks for a new picture if one is due.
-    pub(crate) fn settle(&mut self) {
+    pub(crate) fn request_if_stale(&mut self) {
         self.viewer.follow_scene();
         let (width, height) = self.viewer.size;
         if self.viewer.stale.trace && width > 0 && height > 0 && !self.starting {
@@ -206,7 +206,7 @@ impl ApplicationHandler<Wake> for App {
             Some(Next::Open(file)) => self.open(file),
             None => {}
         }
-        self.settle();
+        self.request_if_stale();
         self.write_picture_if_wanted();
         if self.viewer.stale.overlay || self.viewer.stale.panel {
             self.request_redraw();

@@ -41,7 +41,7 @@ impl App {
         if resized || self.viewer.stale.panel || self.is_due(screen, now) {
             changed = changed.union(self.show_egui(screen, now));
         }
-        self.settle();
+        self.request_if_stale();
         if new_frame || self.viewer.stale.overlay || screen.canvas.size() != self.viewer.size {
             self.compose(screen);
             changed = changed.union(Region::whole(self.viewer.size));

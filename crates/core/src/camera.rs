@@ -83,7 +83,7 @@ impl Camera {
         Ok(Self { eye, aim, up_hint: up, fov, forward, right, up: right.cross(forward) })
     }
 
-    /// Where it stands.
+    /// Its position.
     #[must_use]
     pub fn eye(&self) -> DVec3 {
         self.eye
@@ -166,7 +166,7 @@ impl Camera {
     }
 }
 
-/// What stands for `up` in a view along `forward`: itself, but where the view goes straight down or up the y axis and
+/// What is used as `up` in a view along `forward`: itself, but where the view goes straight down or up the y axis and
 /// `up` is that axis, the direction that a camera which looks along −z has upwards when it is tilted there.
 fn upwards(forward: DVec3, up: DVec3) -> DVec3 {
     let along_y = |v: DVec3| v.x == 0.0 && v.z == 0.0;

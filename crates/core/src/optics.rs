@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::{Arithmetic, Triple};
 
-/// A direction of any length mirrored about a unit normal, whichever way that points.
+/// A direction of any length mirrored about a unit normal; the sign of the normal does not matter.
 #[inline(always)]
 #[must_use]
 pub fn reflect<T: Arithmetic>(direction: Triple<T>, normal: Triple<T>) -> Triple<T> {

@@ -1,4 +1,4 @@
-//! Where a thing stands: turned, scaled alike in every direction, moved.
+//! Placement of a thing: a rotation, a uniform scale and a translation.
 
 use glam::{DQuat, DVec3};
 

@@ -57,7 +57,7 @@ impl Span {
         Self { min: ABOVE_ZERO, max }
     }
 
-    /// Everything between the origin and a light that stands at 1; what stands at the light itself throws no shadow.
+    /// Everything between the origin and a light at t = 1; a surface at the light itself throws no shadow.
     pub const TO_LIGHT: Self = Self::until(1.0_f64.next_down());
 
     /// The origin and everything in front of it.
@@ -100,8 +100,8 @@ impl Crossing {
         (self.t + self.error).next_up()
     }
 
-    /// How its place on the ray compares with that of another crossing; where the bounds of both overlap, the roots of
-    /// both are asked for, those in exact numbers last. `Equal` where a root is missing.
+    /// How its position on the ray compares with that of another crossing; where the bounds of both overlap, the roots of
+    /// both are computed, in exact numbers last. `Equal` where a root is missing.
     #[must_use]
     pub fn order(
         &self,
@@ -120,7 +120,7 @@ impl Crossing {
     }
 }
 
-/// How two roots compare: in numbers that know their error, and where those cannot tell, in exact ones. `Equal` where one
+/// How two roots compare: in numbers with error bounds, and where those cannot decide, in exact ones. `Equal` where one
 /// is missing.
 pub fn order_of_roots(
     bounded: impl FnOnce() -> [Verdict<Option<Root<Bounded>>>; 2],

@@ -70,8 +70,8 @@ fn a_point_light_falls_off_with_the_square_of_the_distance() {
             "{distance}"
         );
         assert!((arrival.distance / distance - 1.0).abs() < 1e-11);
-        assert!(all_close(arrival.towards, -direction) || distance < 1.0);
-        assert!(close(vector(arrival.towards).length(), 1.0));
+        assert!(all_close(arrival.direction, -direction) || distance < 1.0);
+        assert!(close(vector(arrival.direction).length(), 1.0));
     }
 }
 
@@ -137,7 +137,7 @@ fn directional_light_is_the_same_everywhere() {
         let arrival = arriving(&sun, point);
         assert!(arrival.lit && arrival.distance.is_infinite());
         assert!(vector(sun.irradiance(&arrival)) == DVec3::new(1.0, 2.0, 3.0));
-        assert!(all_close(arrival.towards, -direction.normalize()));
+        assert!(all_close(arrival.direction, -direction.normalize()));
     }
     assert!(sun.direction().unwrap().distance(direction.normalize()) < 1e-15);
     assert_eq!(sun.position(), None);
@@ -164,7 +164,7 @@ fn every_light_moves_with_its_placement() {
     for light in [point_light(), spot(10.0, 60.0, 1.5), sun] {
         let (before, after) = (arriving(&light, point), arriving(&light.placed(&at), at.point(point)));
         assert!(before.lit && after.lit);
-        assert!(all_close(after.towards, at.direction(vector(before.towards))), "{light:?}");
+        assert!(all_close(after.direction, at.direction(vector(before.direction))), "{light:?}");
         assert!(all_close(light.irradiance(&after), vector(light.irradiance(&before))), "{light:?}");
         assert!(after.distance == before.distance || close(after.distance, before.distance), "{light:?}");
     }

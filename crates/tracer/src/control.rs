@@ -1,4 +1,4 @@
-//! How a render under way is watched and stopped, from any thread.
+//! Shows the progress of a running render and cancels it, from any thread.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -11,12 +11,12 @@ pub struct Control {
 }
 
 impl Control {
-    /// Asks the render to stop after the tiles under way.
+    /// Requests the render to stop after the tiles that are being traced.
     pub fn cancel(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// Whether it has been asked to stop.
+    /// Whether it has been requested to stop.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)

@@ -1,4 +1,4 @@
-//! A snapshot, and from where it is looked at.
+//! A frame: a snapshot, and the view of it that is traced.
 
 use catoptra_core::Raster;
 use catoptra_core::glam::DVec3;

@@ -15,7 +15,7 @@ impl Instructions {
         Self::all().swap_remove(0)
     }
 
-    /// Every kind that this CPU has, the best first; never empty. Of the x86 family three kinds are told apart, since
+    /// Every kind that this CPU has, the best first; never empty. Of the x86 family three kinds are distinguished, since
     /// each costs its time to compile; elsewhere there is one.
     #[must_use]
     pub fn all() -> Vec<Self> {

@@ -1,9 +1,9 @@
-//! Which numbers decide something in tracing: every tolerance of the crate, with its source.
+//! Every tolerance and error bound of the crate, with its derivation.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::numeric::UNIT_ROUNDOFF_F64;
 
-/// Rays that could add less than this share of what they meet are not traced, unless a view says otherwise.
+/// Rays whose path weight is below this are not traced, unless a view says otherwise.
 ///
 /// A quarter of the step between two levels of an 8-bit display, 1/255, for light that would show as white.
 pub(crate) const WEIGHT_CUTOFF: f32 = 0.25 / 255.0;
@@ -16,8 +16,8 @@ pub(crate) const FAR: f64 = 8.0;
 /// pixels before it, below 2³², needs 52 bits at most, so it is the same however it is put together.
 pub(crate) const SAMPLE_STEP: f64 = 1.0 / (1_u32 << 20) as f64;
 
-/// Whether `f32` must be certain of what it says, which it always must. Only a build that measures what that costs (the
-/// feature `trust-f32`) has all its bounds zero, and takes its answers as they are.
+/// Whether results in `f32` carry error bounds, as they do in every ordinary build. Only a build that measures the cost
+/// of the bounds (the feature `trust-f32`) sets them all to zero and takes `f32` results as they are.
 pub(crate) const CERTAIN: bool = cfg!(not(feature = "trust-f32"));
 
 /// Unit roundoff of `f32`, 2⁻²⁴.
@@ -58,7 +58,7 @@ pub(crate) const BOUNDS_ERROR: f64 = 128.0 * UNIT_ROUNDOFF_F64;
 /// 2⁻⁴⁶ / 2⁻²³, doubled.
 pub(crate) const WORLD_DRIFT: f32 = 1.0 / (1 << 22) as f32;
 
-/// Relative error of a distance that was settled in `f64`: a rounding to `f32` and two for the length, rounded up beyond
+/// Relative error of a distance that was decided in `f64`: a rounding to `f32` and two for the length, rounded up beyond
 /// what the near side of a box may be off by (six, see [`BOX_STRETCH`]), so that no box is left out for its rounding.
 pub(crate) const SETTLED_ERROR: f32 = 8.0 * U;
 
@@ -70,12 +70,12 @@ pub(crate) const SETTLED_ERROR: f32 = 8.0 * U;
 /// 3u·2LR and the sum of three products γ₃·2LR: 22uLR, rounded up.
 pub(crate) const EDGE_ERROR: f32 = 24.0 * U;
 
-/// Share by which balls, boxes and margins are widened before a tile's shapes are left out: it covers the roundings of
+/// Share by which balls, boxes and margins are widened before shapes are culled from a tile: it covers the roundings of
 /// the few `f64` operations of those tests (below 2⁻⁴⁵) and of points that were rounded to `f32` (2⁻²² of their
 /// coordinates), with room to spare.
 pub(crate) const PLAN_MARGIN: f64 = 1.0 / (1_u64 << 18) as f64;
 
-/// Share of the way from a light by which points are taken to lie nearer to its cone than they do. `f32` knows the cosine
+/// Share of the distance from a light by which points are taken to lie nearer to its cone than they do. `f32` knows the cosine
 /// of a point's angle to the axis to 20 u, below 2⁻¹⁹ (six roundings of each coordinate of a unit vector, whose difference
 /// to another is up to 2 long, and four of half its square, up to 2): for a cone of all but a full turn, whose rim is a
 /// small circle round the axis, that is an angle of up to √(2 · 2⁻¹⁹).
@@ -105,26 +105,26 @@ const W: f64 = catoptra_core::numeric::UNIT_ROUNDOFF_F64;
 ///
 /// Edge and corner are differences, off by uL and uP. A component of their cross product is off by 2 (uL·P + L·uP) from
 /// those and by 3uLP from two products and a difference: 7uLP; the sum of three products adds γ₃·2LP: 13u, rounded up.
-pub(crate) const MEET_EDGE_ERROR: f64 = 16.0 * W;
+pub(crate) const PRECISE_EDGE_ERROR: f64 = 16.0 * W;
 
 /// Error of a slope `(e × f) · d` in `f64`, relative to |d|₁ L²: 13u as above, rounded up.
-pub(crate) const MEET_SLOPE_ERROR: f64 = 16.0 * W;
+pub(crate) const PRECISE_SLOPE_ERROR: f64 = 16.0 * W;
 
 /// Error of `(e × f) · p` in `f64`, relative to L² P: 7u in each of three components, 2u for each of the corner's, and
 /// γ₃·6 for the sum of products: 45u, rounded up.
-pub(crate) const MEET_TOP_ERROR: f64 = 48.0 * W;
+pub(crate) const PRECISE_TOP_ERROR: f64 = 48.0 * W;
 
 /// Error of where an edge from a to b crosses a plane, in `f64` relative to |a| + |b|: three differences, a product and a
 /// quotient of the share that is at most 1 (5u), the sum (u); rounded up for the sum that widens by it.
 pub(crate) const CLIP_ERROR: f64 = 8.0 * W;
 
-/// How far a box is widened for one ray, per metre of the origin's largest coordinate: the origin is rounded once, and
+/// How far a box is widened for a single ray, per metre of the origin's largest coordinate: the origin is rounded once, and
 /// once more when it is widened.
-pub(crate) const LONE_PAD: f32 = 4.0 * U;
+pub(crate) const SINGLE_RAY_PAD: f32 = 4.0 * U;
 
-/// What an origin that is off by a metre counts among the coordinates that the bounds of a lone ray go by: they hold a
+/// What an origin that is off by a metre counts among the coordinates that the bounds of a single ray go by: they hold a
 /// rounding of it, u of its largest coordinate along every axis.
-pub(crate) const LONE_OFF: f32 = 1.0 / U;
+pub(crate) const SINGLE_RAY_OFF: f32 = 1.0 / U;
 
 /// Error of an edge value of sheared corners: X (a X + b H) + (c H)², X the largest sheared coordinate, H the largest
 /// coordinate of a corner plus that of the origin. These are a, b and c.
@@ -133,54 +133,54 @@ pub(crate) const LONE_OFF: f32 = 1.0 / U;
 /// where the shear takes at most all of it over; the shear is itself rounded, uH, and so is the sheared coordinate:
 /// η = u (X + 5H). Each of an edge value's two products is off by 2Xη + η², and they are rounded together by 3uX²:
 /// 4uX² + 20uXH + 3uX² + 2η². In η², X counts where it is below H u; above it 2η² adds less than u (X² + XH).
-pub(crate) const LONE_SPREAD: f32 = 9.0 * U;
-/// As [`LONE_SPREAD`].
-pub(crate) const LONE_SHARE: f32 = 24.0 * U;
-/// As [`LONE_SPREAD`].
-pub(crate) const LONE_FLOOR: f32 = 12.0 * U;
+pub(crate) const SINGLE_RAY_SPREAD: f32 = 9.0 * U;
+/// As [`SINGLE_RAY_SPREAD`].
+pub(crate) const SINGLE_RAY_SHARE: f32 = 24.0 * U;
+/// As [`SINGLE_RAY_SPREAD`].
+pub(crate) const SINGLE_RAY_FLOOR: f32 = 12.0 * U;
 
-/// Error of the depth z of a crossing along a lone ray, beside the [`LONE_SHARE`] of H that corners are off by (6u), their
+/// Error of the depth z of a crossing along a single ray, beside the [`SINGLE_RAY_SHARE`] of H that corners are off by (6u), their
 /// differences, products and sum, at most 2H each (6u), a sum of edge values, a quotient and a product (8u) and the last sum
 /// (u): in units of E D / A, E the error of an edge value, D the corners' spread along the ray, A the three edge values' sum.
 ///
 /// A is off by 3E, so where it is beyond twice this many E three quarters of it are certain; of the depth's two terms each
 /// is off by ED and A's own error by 3ED: 5ED over three quarters of A, rounded up.
 /// Products that underflow are off by at most 2⁻¹⁴⁹ each, which the least normal number added to them has room for.
-pub(crate) const LONE_STEEP: f32 = 8.0;
+pub(crate) const SINGLE_RAY_STEEP: f32 = 8.0;
 
 /// Error of `t` from that depth, relative to itself: two roundings; and of a `t` that is rounded to `f32`, of the ends of a
 /// stretch, and of a sum of these: rounded up.
-pub(crate) const LONE_DEPTH: f32 = 8.0 * U;
+pub(crate) const SINGLE_RAY_DEPTH: f32 = 8.0 * U;
 
-/// Error of the slopes of rays through one point: computed in `f64` and rounded once; they are below 2.
-pub(crate) const FAN_SLOPE: f32 = 2.0 * U;
+/// Error of the slopes of a ray bundle: computed in `f64` and rounded once; they are below 2.
+pub(crate) const BUNDLE_SLOPE: f32 = 2.0 * U;
 
-/// How far a box is widened for rays through one point, per metre of the largest coordinates of mesh and point together:
-/// subtraction, point and slope are off by at most 2u, u and 2u of it, and the product with a slope below 2 by 2u more;
+/// How far a box is widened for a ray bundle, per metre of the largest coordinates of mesh and common origin together:
+/// subtraction, origin and slope are off by at most 2u, u and 2u of it, and the product with a slope below 2 by 2u more;
 /// doubled for the slope.
-pub(crate) const FAN_PAD: f32 = 16.0 * U;
+pub(crate) const BUNDLE_PAD: f32 = 16.0 * U;
 
 /// How far the slopes at which a box is seen may be off: those that rays below 2 are compared with, by a difference, a
 /// quotient's and a product's roundings, 3u of 2; rounded up.
-pub(crate) const FAN_BOX: f32 = 8.0 * U;
+pub(crate) const BUNDLE_BOX: f32 = 8.0 * U;
 
-/// Error of n·(u, v, 1), n = e × p, of rays through one point, relative to the sum of its products' sizes: edge and corner
+/// Error of n·(u, v, 1), n = e × p, of a ray bundle, relative to the sum of its products' sizes: edge and corner
 /// are rounded differences, a product and a component of n are rounded, as are the slopes, and two fused products: 7u,
 /// rounded up. A box of slopes has room for as much again: its middle and its half are rounded, two fused products and a
 /// sum each.
-pub(crate) const FAN_EDGE: f32 = 8.0 * U;
+pub(crate) const BUNDLE_EDGE: f32 = 8.0 * U;
 
 /// Error of n·(u, v, 1) whose n was computed in `f64`, relative to |n|·(|u|, |v|, 1): n and the slopes are rounded once,
 /// and two fused products; rounded up.
-pub(crate) const FAN_PLANE: f32 = 5.0 * U;
+pub(crate) const BUNDLE_PLANE: f32 = 5.0 * U;
 
 /// Error of `(e × f) · p`, relative to the sum of its products' sizes: 3u and 4u in the two products of a component, u in
 /// the corner's, and three sums of products; rounded up.
-pub(crate) const FAN_TOP: f32 = 8.0 * U;
+pub(crate) const BUNDLE_TOP: f32 = 8.0 * U;
 
 /// Error of a depth from roundings alone, relative to itself: a quotient of two rounded numbers, and sums with bounds;
 /// rounded up.
-pub(crate) const FAN_DEPTH: f32 = 8.0 * U;
+pub(crate) const BUNDLE_DEPTH: f32 = 8.0 * U;
 
 /// Error of top₁ n₂ − top₂ n₁ in `f64`, relative to each product: two roundings of products and one of a difference;
 /// rounded up.
@@ -191,19 +191,19 @@ pub(crate) const ORDER_ERROR: f64 = 4.0 * W;
 /// products; rounded up.
 pub(crate) const ORDER_SHEAR: f64 = 256.0 * W;
 
-/// How far lines may pass a point by to be taken for lines through it, per metre that they run: ends of rays that were
-/// given in `f32` lie within a few roundings of each other.
-pub(crate) const FAN_SPREAD: f32 = 64.0 * U;
+/// How far lines may pass a point by to be traced as a bundle with that common origin, per metre that they run: ends of
+/// rays that were given in `f32` lie within a few roundings of each other.
+pub(crate) const BUNDLE_SPREAD: f32 = 64.0 * U;
 
 /// Most that slopes of rays may be to be traced together: so far below 2 that no error takes them there, which all bounds of
-/// rays through one point rest on.
-pub(crate) const FAN_STEEP: f32 = 1.9;
+/// ray bundles rest on.
+pub(crate) const BUNDLE_STEEP: f32 = 1.9;
 
-/// Most that the `t` of a triangle may be off, relative to itself, for its plane to be taken at its word: a 64th of what
-/// `f32` can hold.
+/// Largest relative error of a triangle's `t` for which the `f64` plane equation is trusted: a 64th of what `f32` can
+/// hold.
 pub(crate) const DEPTH_ERROR: f64 = 1.0 / (1_u64 << 30) as f64;
 
-/// How far the start of a way to a light may be off that was settled in `f64` on a mesh, per metre of its reach.
+/// How far the start of a shadow ray may be off that was computed in `f64` on a mesh, per metre of its reach.
 ///
 /// The distance `t` from where the ray began is off by [`DEPTH_ERROR`]; the reach holds `t` times [`END_ERROR`] over
 /// [`POINT_ERROR`], two thirds of it. The other half has room for what `f64` rounds, below [`BOUNDS_ERROR`].

@@ -1,4 +1,4 @@
-//! Where the samples of a pixel lie.
+//! Sample patterns: positions of samples within a pixel.
 
 use crate::numeric::SAMPLE_STEP;
 use crate::sampler::{share, sobol};

@@ -1,4 +1,4 @@
-//! What lies under a point of the picture.
+//! Picks the entity and the point under a pixel of the picture.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{EntityId, Span};
@@ -28,7 +28,7 @@ pub fn pick(snapshot: &Snapshot, view: &View, x: f64, y: f64) -> Option<Pick> {
     let hit = snapshot.nearest(&snapshot.own_ray(&ray), Span::AHEAD, None)?;
     let normal = hit.crossing.normal;
     Some(Pick {
-        entity: snapshot.entities()[hit.place.prim as usize],
+        entity: snapshot.entities()[hit.surface.prim as usize],
         point: ray.at(hit.crossing.t),
         distance: hit.crossing.t * ray.direction.length(),
         normal: if normal.dot(ray.direction) > 0.0 { -normal } else { normal },

@@ -1,4 +1,4 @@
-//! How many threads work on pictures.
+//! The thread pool that pictures are traced on.
 
 /// Threads that trace; made once and used for many pictures.
 #[derive(Debug)]

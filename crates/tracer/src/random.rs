@@ -1,4 +1,4 @@
-//! Which numbers do tests try? The same ones every time.
+//! Random numbers of tests: the same ones every time.
 
 use catoptra_core::glam::DVec3;
 

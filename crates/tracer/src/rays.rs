@@ -1,4 +1,4 @@
-//! Rays that a caller supplies and what they meet, side by side in blocks.
+//! Lists of rays that a caller supplies and of their hits, in blocks of columns.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Span};
@@ -30,8 +30,8 @@ impl RayBlock {
     };
 }
 
-/// Rays of the world in `f64`, each asked about on the closed stretch `min <= t <= max`, where `t` counts in lengths of
-/// the ray's direction.
+/// Rays of the world in `f64`, each with a closed span `min <= t <= max` that is searched; `t` counts in lengths of the
+/// ray's direction.
 ///
 /// What lies behind the origin is never met, so a negative `min` counts as 0. A ray that is not
 /// [valid](Ray::is_valid), and a stretch whose ends are not in order, meet nothing.
@@ -39,7 +39,7 @@ impl RayBlock {
 pub struct RayList {
     length: usize,
     blocks: Vec<RayBlock>,
-    /// The places that rays leave from; empty where no ray leaves a surface.
+    /// The surfaces that rays leave; empty where no ray leaves a surface.
     pub(crate) prim: Vec<u32>,
     pub(crate) facet: Vec<u32>,
 }
@@ -63,14 +63,14 @@ impl RayList {
         self.length == 0
     }
 
-    /// Appends a ray of the world, asked about on `min <= t <= max`, that may leave a surface: what it leaves is not
-    /// met again there.
+    /// Appends a ray of the world to be searched on `min <= t <= max`. It may leave a surface, which it does not meet again
+    /// at its origin.
     pub fn push(&mut self, ray: &Ray, [min, max]: [f64; 2], leaving: Option<SurfaceId>) {
         let (block, lane) = (self.length / RAYS_PER_BLOCK, self.length % RAYS_PER_BLOCK);
         if lane == 0 {
             self.blocks.push(RayBlock::EMPTY);
             if !self.prim.is_empty() {
-                self.make_room_for_places();
+                self.make_room_for_surfaces();
             }
         }
         let rays = &mut self.blocks[block];
@@ -79,14 +79,14 @@ impl RayList {
             rays.direction[axis][lane] = ray.direction[axis];
         }
         (rays.min[lane], rays.max[lane]) = (min, max);
-        if let Some(place) = leaving {
-            self.make_room_for_places();
-            (self.prim[self.length], self.facet[self.length]) = (place.prim, place.facet);
+        if let Some(surface) = leaving {
+            self.make_room_for_surfaces();
+            (self.prim[self.length], self.facet[self.length]) = (surface.prim, surface.facet);
         }
         self.length += 1;
     }
 
-    fn make_room_for_places(&mut self) {
+    fn make_room_for_surfaces(&mut self) {
         let room = self.blocks.len() * RAYS_PER_BLOCK;
         self.prim.resize(room, NOTHING);
         self.facet.resize(room, 0);
@@ -138,7 +138,7 @@ impl RaySlice<'_> {
         Ray::new(vector(&rays.origin), vector(&rays.direction))
     }
 
-    /// The stretch that a ray is asked about; `None` where it is empty.
+    /// The span that a ray is searched on; `None` where it is empty.
     ///
     /// # Panics
     /// A number that is not below [`len`](Self::len).
@@ -151,7 +151,7 @@ impl RaySlice<'_> {
         (min <= max && max >= 0.0).then(|| Span { min: min.max(0.0), max })
     }
 
-    /// The place that a ray leaves from.
+    /// The surface that a ray leaves.
     ///
     /// # Panics
     /// A number that is not below [`len`](Self::len).
@@ -163,14 +163,14 @@ impl RaySlice<'_> {
         (prim != NOTHING).then(|| SurfaceId { prim, facet: self.rays.facet[self.first + at] })
     }
 
-    /// The block that a ray stands in, and where in it.
+    /// The block that holds a ray, and its index there.
     #[inline(always)]
     pub(crate) fn block(&self, at: usize) -> (&RayBlock, usize) {
         let at = self.first + at;
         (&self.rays.blocks[at / RAYS_PER_BLOCK], at % RAYS_PER_BLOCK)
     }
 
-    /// Asks memory for the block that a ray stands in.
+    /// Prefetches the block that holds a ray.
     #[inline(always)]
     pub(crate) fn prefetch(&self, at: usize) {
         if let Some(first) = self.rays.blocks.first() {
@@ -220,7 +220,7 @@ pub struct HitList {
 }
 
 impl HitList {
-    /// How many rays were asked about.
+    /// How many rays were searched.
     #[must_use]
     pub fn len(&self) -> usize {
         self.length
@@ -234,7 +234,7 @@ impl HitList {
 
     /// What a ray meets first: where, and at which `t` in lengths of its direction. `None` where it meets nothing.
     ///
-    /// The place is the right one. `t` is what `f64` makes of it: the parameter of the plane or sphere of that place.
+    /// The surface is the right one. `t` is what `f64` makes of it: the parameter of the plane or sphere it belongs to.
     ///
     /// # Panics
     /// A number that is not below [`len`](Self::len).
@@ -269,8 +269,8 @@ impl HitSlice<'_> {
     /// # Panics
     /// A number past the room.
     pub fn set(&mut self, at: usize, hit: Option<(SurfaceId, f64)>) {
-        let (place, t) = hit.unwrap_or((SurfaceId { prim: NOTHING, facet: 0 }, 0.0));
-        (self.prim[at], self.facet[at], self.t[at]) = (place.prim, place.facet, t);
+        let (surface, t) = hit.unwrap_or((SurfaceId { prim: NOTHING, facet: 0 }, 0.0));
+        (self.prim[at], self.facet[at], self.t[at]) = (surface.prim, surface.facet, t);
     }
 
     /// Answers ray by ray what is met first.
@@ -282,7 +282,7 @@ impl HitSlice<'_> {
     ) -> Stats {
         for at in 0..rays.len() {
             let hit = rays.follow(snapshot, at, &search);
-            self.set(at, hit.map(|hit| (hit.place, hit.crossing.t)));
+            self.set(at, hit.map(|hit| (hit.surface, hit.crossing.t)));
         }
         Stats::default()
     }
@@ -295,13 +295,13 @@ mod tests {
     #[test]
     fn a_list_gives_back_what_was_put_in() {
         let mut rays = RayList::new();
-        let place = SurfaceId { prim: 3, facet: 4 };
+        let surface = SurfaceId { prim: 3, facet: 4 };
         for i in 0..200 {
             let ray = Ray::new(DVec3::splat(f64::from(i)), DVec3::X);
-            rays.push(&ray, [0.5, 2.0], (i == 100).then_some(place));
+            rays.push(&ray, [0.5, 2.0], (i == 100).then_some(surface));
         }
         assert_eq!(rays.as_slice().ray(199).origin, DVec3::splat(199.0));
-        assert_eq!(rays.as_slice().leaving(100), Some(place));
+        assert_eq!(rays.as_slice().leaving(100), Some(surface));
         assert_eq!(rays.as_slice().leaving(101), None);
         assert!(rays.as_slice().span(7).unwrap().contains(0.5));
     }

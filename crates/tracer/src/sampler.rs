@@ -1,4 +1,4 @@
-//! Which numbers does a random choice go by? A pure function of seed, pixel, sample and dimension: nothing is drawn one
+//! Random numbers for sampling: a pure function of seed, pixel, sample and dimension: nothing is drawn one
 //! after another, so crops, tiles, threads and resuming cannot matter.
 //!
 //! Sobol's first two dimensions, scrambled by Owen's method with a hash and used again for every pair of dimensions, with
@@ -18,7 +18,7 @@ impl<W: Word> Sampler<W> {
     pub(crate) fn new(seed: u32, x: W, y: W) -> Self {
         let columns = mixed(seed);
         let rows = mixed(columns ^ GOLDEN);
-        // Mixed apart, so that no column holds what another one holds some rows further down.
+        // Hashed separately, so that no column holds what another one holds some rows further down.
         Self { pixel: mixed(mixed(x.plus_number(columns)).plus(mixed(y.plus_number(rows)))) }
     }
 
@@ -58,8 +58,7 @@ fn scrambled_reversed<W: Word>(bits: W, seed: W) -> W {
         .fold(bits.plus(seed), |x, factor| x.xor(x.times_number(factor)))
 }
 
-/// A number from which nothing is to be told of the one it was made of (`lowbias32`, Wellons, "Prospecting for Hash
-/// Functions", 2018, with the constants found since).
+/// An integer hash (`lowbias32`, Wellons, "Prospecting for Hash Functions", 2018, with the constants found since).
 #[inline(always)]
 fn mixed<W: Word>(bits: W) -> W {
     let x = bits.xor(bits.shift_down(16)).times_number(0x21f0_aaad);

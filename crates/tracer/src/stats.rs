@@ -1,4 +1,4 @@
-//! What a render did, in counts.
+//! Counts of what a render did: rays, tests, skipped work.
 
 use catoptra_core::exact::answered_exactly;
 use serde::Serialize;
@@ -42,7 +42,7 @@ pub struct Skipped {
     pub shadow_off: u64,
     /// Shadow rays: the material shows no light of its own.
     pub unlit_material: u64,
-    /// Shadow rays answered without tracing: nothing stands between the tile's surfaces and the light.
+    /// Shadow rays answered without tracing: nothing lies between the tile's surfaces and the light.
     pub nothing_between: u64,
     /// Reflection rays: nothing but darkness lies where the rays of their stream go.
     pub nothing_ahead: u64,

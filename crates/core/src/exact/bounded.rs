@@ -6,7 +6,7 @@ use super::{Located, Number, Root, Undecided, Verdict};
 use crate::Span;
 use crate::numeric::{ROOT_PRECISION, UNIT_ROUNDOFF_F64 as U, WHOLE_PRODUCT};
 
-/// An `f64` and a bound on its distance from the number that it stands for.
+/// An `f64` and a bound on its distance from the exact number.
 ///
 /// Running error analysis (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., section 3.3): rounding to
 /// nearest is off by at most u times the *result*, so every operation adds u|v| to what its operands bring along.
@@ -98,7 +98,7 @@ impl Number for Bounded {
         Self { value, error: (brought + U * value.abs()) * INFLATION + f64::MIN_POSITIVE }
     }
 
-    /// Products of numbers without error are told apart by what rounding takes from them, which is a number of `f64`
+    /// Products of numbers without error are compared by their rounding errors, each a number of `f64`
     /// (Dekker, Numerische Mathematik 18, 1971) unless it underflows.
     fn compare_products([a, b]: [&Self; 2], [c, d]: [&Self; 2]) -> Verdict<Ordering> {
         let by_bounds = a.times(b).minus(&c.times(d)).sign();
@@ -180,7 +180,7 @@ mod tests {
         prop_oneof![whole, any, -2.0..2.0_f64]
     }
 
-    /// How far a number is from what it stands for, in units of its bound; 0 where both are 0.
+    /// How far a number is from the exact one, in units of its bound; 0 where both are 0.
     fn off(bounded: &Bounded, exact: &Dyadic) -> f64 {
         let (value, error) = bounded.parts();
         let off = Dyadic::of(value).minus(exact);
@@ -211,7 +211,7 @@ mod tests {
         #[test]
         fn products_compare_as_they_are(a in number(), b in number(), c in number(), e in -600..600_i32) {
             let scale = 2.0_f64.powi(e);
-            // Often equal, or so near that only what rounding takes away tells them apart.
+            // Often equal, or so near that only their rounding errors differ.
             for [a, b, c, d] in [[a, b, b, a], [a, b, c, a * b / c], [a, b, a.next_up(), b.next_down()]] {
                 let [a, b, c, d] = [a * scale, b, c, d * scale];
                 prop_assume!(d.is_finite());

@@ -1,9 +1,9 @@
 //! How is a question about a ray answered for certain? One formula over any kind of [`Number`], first with numbers
-//! that know how far they may be off, then, where those cannot tell, with exact ones.
+//! that carry error bounds, then, where those cannot decide, with exact ones.
 //!
 //! Every `f64` is a whole number times a power of two, so sums and products of them are too, and the sign of a
 //! polynomial in them can be had without any rounding. That is slow and almost never needed: [`Bounded`] carries a
-//! running bound on its error, operation by operation, and gives way to [`Dyadic`] only where the bound reaches zero.
+//! running bound on its error, operation by operation, and is replaced by [`Dyadic`] only where the bound reaches zero.
 //! (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", Discrete &
 //! Computational Geometry 18, 1997, has the same plan with static bounds and expansions; those need more care at the
 //! ends of the exponent range, where whole numbers need none.)
@@ -30,7 +30,7 @@ pub struct Undecided;
 /// An answer, unless the numbers at hand are too coarse.
 pub type Verdict<T> = Result<T, Undecided>;
 
-/// What a formula of geometry asks of its numbers. Exact ones answer always.
+/// What a formula of geometry needs of its numbers. Exact ones always decide.
 pub trait Number: Clone {
     /// A finite number as it is.
     fn of(value: f64) -> Self;
@@ -75,7 +75,7 @@ pub trait Number: Clone {
     ///
     /// # Errors
     /// When the root may or may not lie on the stretch, or is not known as well as
-    /// [`ROOT_PRECISION`](crate::numeric::ROOT_PRECISION) asks.
+    /// [`ROOT_PRECISION`](crate::numeric::ROOT_PRECISION) requires.
     fn locate(root: &Root<Self>, span: Span) -> Verdict<Option<Located>>;
 
     /// Its square.

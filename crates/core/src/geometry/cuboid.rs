@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 
-use super::{Geometry, Meeting};
+use super::{FacetRoot, Geometry};
 use crate::exact::{Located, Number, Root, Verdict};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
@@ -66,22 +66,22 @@ impl Geometry for Cuboid {
         Ray::new(self.to_object.point(ray.origin), self.to_object.vector(ray.direction))
     }
 
-    fn meet<N: Number>(
+    fn nearest_root<N: Number>(
         &self,
         _: u32,
         own: &Ray,
         span: Span,
         leaving: Option<u32>,
-    ) -> Verdict<Option<Meeting<N>>> {
+    ) -> Verdict<Option<FacetRoot<N>>> {
         if leaving.is_some_and(|facet| outwards(facet).dot(own.direction) > 0.0) {
             return Ok(None);
         }
         let Some(ends) = slabs::<N>(&self.bounds, own)? else { return Ok(None) };
         for (root, facet) in ends {
             if leaving != Some(facet)
-                && let Some(meeting) = Meeting::on(span, root, facet)?
+                && let Some(found) = FacetRoot::on(span, root, facet)?
             {
-                return Ok(Some(meeting));
+                return Ok(Some(found));
             }
         }
         Ok(None)

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::plane::plane_root;
-use super::{Geometry, Meeting};
+use super::{FacetRoot, Geometry};
 use crate::exact::{Located, Number, Vector, Verdict};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
@@ -79,13 +79,13 @@ impl Part for Disk {
 }
 
 impl Geometry for Disk {
-    fn meet<N: Number>(
+    fn nearest_root<N: Number>(
         &self,
         _: u32,
         own: &Ray,
         span: Span,
         leaving: Option<u32>,
-    ) -> Verdict<Option<Meeting<N>>> {
+    ) -> Verdict<Option<FacetRoot<N>>> {
         if leaving.is_some() {
             return Ok(None);
         }
@@ -97,7 +97,7 @@ impl Geometry for Disk {
         if from_center.squared().minus(&reach.squared()).sign()?.is_gt() {
             return Ok(None);
         }
-        Meeting::on(span, root, 0)
+        FacetRoot::on(span, root, 0)
     }
 
     fn crossing(&self, _: &Ray, at: Located, facet: u32) -> Option<Crossing> {

@@ -1,7 +1,7 @@
 //! A triangle mesh standing somewhere.
 
 use super::triangle::{meet_triangle, unit_normal, weights};
-use super::{Geometry, Meeting};
+use super::{FacetRoot, Geometry};
 use crate::exact::{Located, Number, Verdict};
 use crate::part::Given;
 use crate::{
@@ -9,7 +9,7 @@ use crate::{
     Value, Values,
 };
 
-/// A mesh from a file; its triangles are stored once however often it stands somewhere.
+/// A mesh from a file; its triangles are stored once, however many instances it has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     source: MeshSource,
@@ -18,7 +18,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Where it stands in its own space.
+    /// An instance in the mesh's own space.
     #[must_use]
     pub fn new(source: MeshSource) -> Self {
         Self { source, to_world: Placement::IDENTITY, to_object: Placement::IDENTITY }
@@ -73,13 +73,13 @@ impl Geometry for Mesh {
         Ray::new(self.to_object.point(ray.origin), self.to_object.vector(ray.direction))
     }
 
-    fn meet<N: Number>(
+    fn nearest_root<N: Number>(
         &self,
         triangle: u32,
         own: &Ray,
         span: Span,
         leaving: Option<u32>,
-    ) -> Verdict<Option<Meeting<N>>> {
+    ) -> Verdict<Option<FacetRoot<N>>> {
         if leaving == Some(triangle) {
             return Ok(None);
         }

@@ -29,8 +29,8 @@ use crate::{Aabb, Crossing, Placement, Ray, Span};
 
 /// What the tracer and the editor ask of a shape.
 ///
-/// A shape says where a ray meets it once, in [`meet`](Self::meet), over any kind of number; [`cross`](Self::cross) asks
-/// that first in `f64` with bounds, then, where those do not decide, exactly. So hit or miss, and which crossing comes
+/// A shape says where a ray meets it once, in [`nearest_root`](Self::nearest_root), over any kind of number;
+/// [`cross`](Self::cross) computes that first in `f64` with bounds, then, where those do not decide, exactly. So hit or miss, and which crossing comes
 /// first, is the answer of exact arithmetic on the shape's numbers and those of [`own_ray`](Self::own_ray).
 pub trait Geometry {
     /// How many pieces it is made of that are met one by one, each a facet of that number: the triangles of a mesh. 1 for
@@ -48,14 +48,14 @@ pub trait Geometry {
     /// [`cross`](Self::cross).
     ///
     /// # Errors
-    /// When such numbers cannot tell.
-    fn meet<N: Number>(
+    /// When such numbers cannot decide.
+    fn nearest_root<N: Number>(
         &self,
         piece: u32,
         own: &Ray,
         span: Span,
         leaving: Option<u32>,
-    ) -> Verdict<Option<Meeting<N>>>;
+    ) -> Verdict<Option<FacetRoot<N>>>;
 
     /// Normals and texture coordinates where a ray in the shape's own space meets a facet; `None` without a normal.
     fn crossing(&self, own: &Ray, at: Located, facet: u32) -> Option<Crossing>;
@@ -66,8 +66,8 @@ pub trait Geometry {
             return None;
         }
         let (at, facet) = decide(
-            || self.meet::<Bounded>(piece, own, span, leaving).map(found),
-            || self.meet::<Dyadic>(piece, own, span, leaving).map(found),
+            || self.nearest_root::<Bounded>(piece, own, span, leaving).map(located),
+            || self.nearest_root::<Dyadic>(piece, own, span, leaving).map(located),
         )?;
         self.crossing(own, at, facet)
     }
@@ -75,7 +75,7 @@ pub trait Geometry {
     /// The root behind a crossing that [`cross_piece`](Self::cross_piece) has found on a facet.
     ///
     /// # Errors
-    /// When such numbers cannot tell whether there is one.
+    /// When such numbers cannot decide whether there is one.
     fn root<N: Number>(
         &self,
         facet: u32,
@@ -84,10 +84,10 @@ pub trait Geometry {
         leaving: Option<u32>,
     ) -> Verdict<Option<Root<N>>> {
         let piece = if self.pieces() > 1 { facet } else { 0 };
-        Ok(self.meet(piece, own, span, leaving)?.map(|meeting| meeting.root))
+        Ok(self.nearest_root(piece, own, span, leaving)?.map(|found| found.root))
     }
 
-    /// How the places of two crossings that [`cross_piece`](Self::cross_piece) has found compare.
+    /// How the positions of two crossings that [`cross_piece`](Self::cross_piece) has found compare.
     fn order(&self, own: &Ray, span: Span, leaving: Option<u32>, [a, b]: [&Crossing; 2]) -> Ordering {
         a.order(
             b,
@@ -115,11 +115,11 @@ pub trait Geometry {
         best
     }
 
-    /// An axis-aligned box round it, `None` where it has no end: the smallest to rounding, except round a turned
+    /// An axis-aligned box round it, `None` if it is unbounded: the smallest to rounding, except round a turned
     /// [`Mesh`], where it is the box of its turned box, so that no triangle need be looked at.
     fn bounds(&self) -> Option<Aabb>;
 
-    /// The same shape standing elsewhere.
+    /// The same shape, placed elsewhere.
     #[must_use]
     fn placed(&self, placement: &Placement) -> Self
     where
@@ -129,9 +129,9 @@ pub trait Geometry {
     fn is_closed(&self) -> bool;
 }
 
-/// Where a ray meets a piece of a shape.
+/// Where a ray meets a facet of a shape.
 #[derive(Debug, Clone)]
-pub struct Meeting<N> {
+pub struct FacetRoot<N> {
     /// Where on the ray, as an equation's root.
     pub root: Root<N>,
     /// Where on the ray, in `f64`.
@@ -140,18 +140,18 @@ pub struct Meeting<N> {
     pub facet: u32,
 }
 
-impl<N: Number> Meeting<N> {
+impl<N: Number> FacetRoot<N> {
     /// Where a root lies on the stretch.
     ///
     /// # Errors
-    /// When such numbers cannot tell.
+    /// When such numbers cannot decide.
     fn on(span: Span, root: Root<N>, facet: u32) -> Verdict<Option<Self>> {
         Ok(N::locate(&root, span)?.map(|at| Self { root, at, facet }))
     }
 }
 
-fn found<N>(meeting: Option<Meeting<N>>) -> Option<(Located, u32)> {
-    meeting.map(|m| (m.at, m.facet))
+fn located<N>(root: Option<FacetRoot<N>>) -> Option<(Located, u32)> {
+    root.map(|root| (root.at, root.facet))
 }
 
 crate::part::parts! {
@@ -203,7 +203,7 @@ impl Shape {
     /// The root behind a crossing that [`cross`](Self::cross) has found on a facet.
     ///
     /// # Errors
-    /// When such numbers cannot tell whether there is one.
+    /// When such numbers cannot decide whether there is one.
     pub fn root<N: Number>(
         &self,
         facet: u32,

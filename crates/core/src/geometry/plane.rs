@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::{Geometry, Meeting};
+use super::{FacetRoot, Geometry};
 use crate::exact::{Bounded, Dyadic, Located, Number, Root, Vector, Verdict, decide};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
@@ -89,18 +89,18 @@ impl Part for Plane {
 }
 
 impl Geometry for Plane {
-    fn meet<N: Number>(
+    fn nearest_root<N: Number>(
         &self,
         _: u32,
         own: &Ray,
         span: Span,
         leaving: Option<u32>,
-    ) -> Verdict<Option<Meeting<N>>> {
+    ) -> Verdict<Option<FacetRoot<N>>> {
         if leaving.is_some() {
             return Ok(None);
         }
         match plane_root(self.point, self.upwards, own)? {
-            Some(root) => Meeting::on(span, root, 0),
+            Some(root) => FacetRoot::on(span, root, 0),
             None => Ok(None),
         }
     }

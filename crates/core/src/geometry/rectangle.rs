@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Geometry, Meeting};
+use super::{FacetRoot, Geometry};
 use crate::exact::{Located, Number, Root, Vector, Verdict};
 use crate::numeric::RIGHT_ANGLE_TOLERANCE;
 use crate::part::{Given, degrees};
@@ -97,13 +97,13 @@ impl Geometry for Rectangle {
     /// Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", Journal of Graphics Tools 2(1), 1997: with
     /// the edges u and v and T from the corner to the origin, the place is (v · (T × u), T · (d × v), d · (T × u)) over
     /// u · (d × v), as ray parameter and shares of the edges.
-    fn meet<N: Number>(
+    fn nearest_root<N: Number>(
         &self,
         _: u32,
         own: &Ray,
         span: Span,
         leaving: Option<u32>,
-    ) -> Verdict<Option<Meeting<N>>> {
+    ) -> Verdict<Option<FacetRoot<N>>> {
         if leaving.is_some() {
             return Ok(None);
         }
@@ -120,7 +120,7 @@ impl Geometry for Rectangle {
                 return Ok(None);
             }
         }
-        Meeting::on(span, root, 0)
+        FacetRoot::on(span, root, 0)
     }
 
     fn crossing(&self, own: &Ray, at: Located, facet: u32) -> Option<Crossing> {

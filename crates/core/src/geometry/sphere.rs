@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::{Geometry, Meeting};
+use super::{FacetRoot, Geometry};
 use crate::exact::{Located, Number, Radical, Root, Vector, Verdict};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
@@ -99,19 +99,19 @@ impl Part for Sphere {
 }
 
 impl Geometry for Sphere {
-    fn meet<N: Number>(
+    fn nearest_root<N: Number>(
         &self,
         _: u32,
         own: &Ray,
         span: Span,
         leaving: Option<u32>,
-    ) -> Verdict<Option<Meeting<N>>> {
+    ) -> Verdict<Option<FacetRoot<N>>> {
         if leaving.is_some() {
-            return self.chord(own)?.map_or(Ok(None), |end| Meeting::on(span, end, 0));
+            return self.chord(own)?.map_or(Ok(None), |end| FacetRoot::on(span, end, 0));
         }
         let Some([near, far]) = self.roots::<N>(own, span)? else { return Ok(None) };
-        match Meeting::on(span, near, 0)? {
-            None => Meeting::on(span, far, 0),
+        match FacetRoot::on(span, near, 0)? {
+            None => FacetRoot::on(span, far, 0),
             near => Ok(near),
         }
     }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::triangle::{check_area, corner_values, meet_triangle, unit_normal};
-use super::{Geometry, Meeting};
+use super::{FacetRoot, Geometry};
 use crate::exact::{Located, Number, Vector, Verdict};
 use crate::numeric::EDGE_ROUNDING;
 use crate::part::Given;
@@ -78,13 +78,13 @@ impl Geometry for Tetrahedron {
         4
     }
 
-    fn meet<N: Number>(
+    fn nearest_root<N: Number>(
         &self,
         face: u32,
         own: &Ray,
         span: Span,
         leaving: Option<u32>,
-    ) -> Verdict<Option<Meeting<N>>> {
+    ) -> Verdict<Option<FacetRoot<N>>> {
         match leaving {
             Some(left) if left == face || runs_out::<N>(&self.face(left), own)? => Ok(None),
             _ => meet_triangle(&self.face(face), own, span, face),

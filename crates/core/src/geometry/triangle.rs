@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use glam::{DVec2, DVec3};
 
-use super::{Geometry, Meeting};
+use super::{FacetRoot, Geometry};
 use crate::exact::{Dyadic, Located, Number, Root, Vector, Verdict};
 use crate::numeric::{EDGE_ROUNDING, EDGE_VALUE_ERROR, NORMAL_SINE};
 use crate::part::Given;
@@ -53,13 +53,13 @@ impl Part for Triangle {
 }
 
 impl Geometry for Triangle {
-    fn meet<N: Number>(
+    fn nearest_root<N: Number>(
         &self,
         _: u32,
         own: &Ray,
         span: Span,
         leaving: Option<u32>,
-    ) -> Verdict<Option<Meeting<N>>> {
+    ) -> Verdict<Option<FacetRoot<N>>> {
         if leaving.is_some() { Ok(None) } else { meet_triangle(&self.corners, own, span, 0) }
     }
 
@@ -91,7 +91,7 @@ pub(super) fn meet_triangle<N: Number>(
     ray: &Ray,
     span: Span,
     facet: u32,
-) -> Verdict<Option<Meeting<N>>> {
+) -> Verdict<Option<FacetRoot<N>>> {
     if passes_by(corners, ray) {
         return Ok(None);
     }
@@ -107,7 +107,7 @@ pub(super) fn meet_triangle<N: Number>(
     let [p, q, r] = corners.map(Vector::<N>::of);
     let normal = q.minus(&p).cross(&r.minus(&p));
     match Root::ratio(&normal.dot(&a), &normal.dot(&direction))? {
-        Some(root) => Meeting::on(span, root, facet),
+        Some(root) => FacetRoot::on(span, root, facet),
         None => Ok(None),
     }
 }

@@ -45,9 +45,9 @@ impl Emitter for AmbientLight {
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
         let zero = Triple::splat(point.x.number(0.0));
         Arrival {
-            towards: zero,
-            way: zero,
-            nearness: zero.x,
+            direction: zero,
+            to_light: zero,
+            inverse_distance: zero.x,
             distance: zero.x,
             strength: zero.x,
             lit: zero.x.less(zero.x),

@@ -11,7 +11,7 @@ use crate::{Field, FieldKind, InvalidPart, Lane, Part, Placement, Rgb, Triple, V
 #[derive(Debug, Clone, PartialEq)]
 pub struct DirectionalLight {
     direction: DVec3,
-    towards: Constant3,
+    to_light: Constant3,
     irradiance: Constant3,
     shadow: bool,
 }
@@ -48,7 +48,7 @@ impl Part for DirectionalLight {
         let direction = given.direction("direction")?;
         Ok(Self {
             direction,
-            towards: (-direction.normalize()).into(),
+            to_light: (-direction.normalize()).into(),
             irradiance: given.quantity("irradiance")?.into(),
             shadow: given.flag("shadow")?,
         })
@@ -66,11 +66,11 @@ impl Emitter for DirectionalLight {
     #[inline(always)]
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
         let like = point.x;
-        let towards = Triple::of(like, &self.towards);
+        let to_light = Triple::of(like, &self.to_light);
         Arrival {
-            towards,
-            way: towards,
-            nearness: like.number(1.0),
+            direction: to_light,
+            to_light,
+            inverse_distance: like.number(1.0),
             distance: like.number(f64::INFINITY),
             strength: like.number(1.0),
             lit: like.number(0.0).less(like.number(1.0)),
@@ -83,11 +83,11 @@ impl Emitter for DirectionalLight {
 
     fn placed(&self, placement: &Placement) -> Self {
         let direction = placement.direction(self.direction);
-        Self { direction, towards: (-direction.normalize()).into(), ..self.clone() }
+        Self { direction, to_light: (-direction.normalize()).into(), ..self.clone() }
     }
 
     fn direction(&self) -> Option<DVec3> {
-        Some(-self.towards.vector())
+        Some(-self.to_light.vector())
     }
 
     fn shadow(&self) -> bool {

@@ -1,6 +1,6 @@
-//! Which lights there are, and what a light must answer.
+//! The list of lights, and the trait that each implements.
 //!
-//! A light says what would arrive at a point if nothing stood in the way; it never asks whether something does.
+//! A light says what would arrive at a point if nothing occluded it; shadows are the tracer's work.
 //! A new light is one file here, its `mod` line and its name in the list below.
 
 mod ambient;
@@ -21,11 +21,11 @@ use crate::{Constant3, Field, FieldKind, Lane, Placement, Rgb, Triple, Value};
 #[derive(Debug, Clone, Copy)]
 pub struct Arrival<L: Lane> {
     /// Unit vector from the point to the light.
-    pub towards: Triple<L>,
-    /// The whole way from the point to the light; a unit vector for a light at infinity.
-    pub way: Triple<L>,
-    /// 1 over the length of the way.
-    pub nearness: L,
+    pub direction: Triple<L>,
+    /// The vector from the point to the light; a unit vector for a light at infinity.
+    pub to_light: Triple<L>,
+    /// 1 over the length of that vector.
+    pub inverse_distance: L,
     /// Metres to the light; infinite for a light at infinity.
     pub distance: L,
     /// Irradiance on a surface that faces the light, in parts of the light's [colour](Emitter::color).
@@ -35,14 +35,14 @@ pub struct Arrival<L: Lane> {
 }
 
 impl<L: Lane> Arrival<L> {
-    /// The cosine between a unit normal and the way to the light.
+    /// The cosine between a unit normal and the direction to the light.
     #[inline(always)]
     pub fn cosine(&self, normal: Triple<L>) -> L {
-        self.way.dot(normal) * self.nearness
+        self.to_light.dot(normal) * self.inverse_distance
     }
 }
 
-/// What the tracer and the editor ask of a light.
+/// What a light provides to the tracer and the editor.
 pub trait Emitter {
     /// Whether there are directions in which it does not shine.
     const HAS_CONE: bool = false;
@@ -53,7 +53,7 @@ pub trait Emitter {
     /// What [`Arrival::strength`] is given in: W/m² per channel for a light at infinity, W/sr for others.
     fn color(&self) -> &Constant3;
 
-    /// The same light standing elsewhere.
+    /// The same light, placed elsewhere.
     #[must_use]
     fn placed(&self, placement: &Placement) -> Self
     where
@@ -64,7 +64,7 @@ pub trait Emitter {
         Rgb::BLACK
     }
 
-    /// Where it stands, if it stands anywhere.
+    /// Its position, if it has one.
     fn position(&self) -> Option<DVec3> {
         None
     }
@@ -83,9 +83,9 @@ pub trait Emitter {
     fn shadow(&self) -> bool;
 }
 
-/// What wants to know a light's kind before it asks many questions.
+/// Work that is compiled once per kind of light; called with one light.
 pub trait LightVisitor {
-    /// Asks a light of some kind.
+    /// Works with a light of some kind.
     fn visit<E: Emitter>(self, light: &E);
 }
 
@@ -105,7 +105,7 @@ crate::part::parts! {
 }
 
 impl Light {
-    /// Shows a visitor what kind of light it is.
+    /// Calls a visitor with the light as its own type.
     #[inline(always)]
     pub fn visit(&self, visitor: impl LightVisitor) {
         each_light!(self, light => visitor.visit(light));
@@ -186,14 +186,14 @@ const SHADOW: Field =
 /// What arrives from a point that shines alike in all directions: the inverse square law.
 #[inline(always)]
 fn from_point<L: Lane>(position: Triple<L>, point: Triple<L>) -> Arrival<L> {
-    let way = position - point;
-    let distance2 = way.dot(way);
+    let to_light = position - point;
+    let distance2 = to_light.dot(to_light);
     let distance = distance2.sqrt();
     let inverse = distance.number(1.0) / distance;
     Arrival {
-        towards: way.scale(inverse),
-        way,
-        nearness: inverse,
+        direction: to_light.scale(inverse),
+        to_light,
+        inverse_distance: inverse,
         distance,
         strength: inverse * inverse,
         lit: distance2.number(0.0).less(distance2),

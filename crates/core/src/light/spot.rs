@@ -134,7 +134,7 @@ impl Emitter for SpotLight {
         let like = point.x;
         let arrival = from_point(Triple::of(like, &self.position), point);
         // 1 − cos α is half the square of the difference of the two unit vectors, which keeps its digits near the axis.
-        let aside = arrival.towards + Triple::of(like, &self.axis);
+        let aside = arrival.direction + Triple::of(like, &self.axis);
         let above_outer = like.of(self.outer_depth) - aside.dot(aside) * like.number(0.5);
         let (zero, one) = (like.number(0.0), like.number(1.0));
         let share = (above_outer * like.of(self.slope)).max(zero).min(one).power(self.falloff);

@@ -47,9 +47,9 @@ impl<L: Lane> Scatter<L> for Diffuse<L> {
 
     #[inline(always)]
     fn sample(&self, at: &ShadingPoint<L>, u: [L; 2]) -> Sample<L> {
-        let (towards, cosine) = Self::direction(at.normal, u);
+        let (direction, cosine) = Self::direction(at.normal, u);
         let lanes = cosine.number(0.0).less(cosine);
-        Sample { towards, cosine, pdf: cosine * cosine.of(LAMBERT), lanes }
+        Sample { direction, cosine, pdf: cosine * cosine.of(LAMBERT), lanes }
     }
 }
 
@@ -76,7 +76,7 @@ mod tests {
         let at = seen(DVec3::new(0.6, 0.0, -0.8), 10.0);
         for u in [[0.1, 0.7], [0.999, 0.5], [0.5, 0.5], [0.25, 0.01]] {
             let sample = diffuse.sample(&at, u);
-            let weight = diffuse.evaluate(&at, sample.towards, sample.cosine).y / sample.pdf;
+            let weight = diffuse.evaluate(&at, sample.direction, sample.cosine).y / sample.pdf;
             assert!(sample.lanes && (weight - 0.5).abs() < 1e-15, "{u:?}");
         }
     }

@@ -1,4 +1,4 @@
-//! The mirror lobe: which way does light come that is seen reflected, and how much of it counts?
+//! The mirror lobe: from which direction does the light come that is seen reflected, and how much of it counts?
 
 use super::ShadingPoint;
 use crate::optics::reflect;
@@ -15,7 +15,7 @@ pub struct Mirror<L: Lane> {
 #[derive(Debug, Clone, Copy)]
 pub struct Mirrored<L: Lane> {
     /// Unit vector to where the light comes from; below the surface where a smooth normal leans too far.
-    pub towards: Triple<L>,
+    pub direction: Triple<L>,
     /// Radiance shown for each unit of radiance from there.
     pub weight: Triple<L>,
 }
@@ -27,7 +27,7 @@ impl<L: Lane> Mirror<L> {
     pub fn scatter(&self, at: &ShadingPoint<L>) -> Mirrored<L> {
         let to_viewer = at.to_viewer;
         let from_viewer = Triple::new(-to_viewer.x, -to_viewer.y, -to_viewer.z);
-        Mirrored { towards: reflect(from_viewer, at.normal), weight: self.tint }
+        Mirrored { direction: reflect(from_viewer, at.normal), weight: self.tint }
     }
 }
 
@@ -44,10 +44,10 @@ mod tests {
         for normal in [DVec3::Y, DVec3::new(-2.0, 1.0, -2.0) / 3.0] {
             for degrees in [0.0, 30.0, 89.0] {
                 let at = seen(normal, degrees);
-                let Mirrored { towards, weight } = mirror.scatter(&at);
-                let half = DVec3::from(towards + at.to_viewer);
+                let Mirrored { direction, weight } = mirror.scatter(&at);
+                let half = DVec3::from(direction + at.to_viewer);
                 assert!(half.normalize().distance(normal) < 1e-14, "{degrees}");
-                assert!((DVec3::from(towards).length() - 1.0).abs() < 1e-15);
+                assert!((DVec3::from(direction).length() - 1.0).abs() < 1e-15);
                 assert_eq!(weight, mirror.tint);
             }
         }
@@ -57,8 +57,8 @@ mod tests {
     fn light_runs_both_ways_alike() {
         let mirror = Mirror { tint: Triple::splat(0.5) };
         let at = seen(DVec3::Y, 40.0);
-        let there = mirror.scatter(&at).towards;
-        let back = mirror.scatter(&ShadingPoint { to_viewer: there, ..at }).towards;
+        let there = mirror.scatter(&at).direction;
+        let back = mirror.scatter(&ShadingPoint { to_viewer: there, ..at }).direction;
         assert!(DVec3::from(back).distance(at.to_viewer.into()) < 1e-15);
     }
 }

@@ -1,6 +1,6 @@
 //! Which lobes a surface may have, and what a lobe must answer.
 //!
-//! A lobe is one way in which light leaves a surface: alike in all directions, in a highlight, mirrored. Materials answer
+//! A lobe is one part of how light leaves a surface: alike in all directions, in a highlight, mirrored. Materials answer
 //! with a set of them ([`Lobes`]) and integrators know every lobe in the set, so it is closed. A new lobe is one file
 //! here, its `mod` line and its line in the list below.
 
@@ -20,7 +20,7 @@ use crate::{Lane, Triple};
 /// Where and from where a surface is seen.
 #[derive(Debug, Clone, Copy)]
 pub struct ShadingPoint<L: Lane> {
-    /// The point, metres, relative to the origin that the material has been told of; see
+    /// The point, metres, relative to the origin that the material was made for; see
     /// [`Surface::relative_to`](crate::Surface::relative_to).
     pub position: Triple<L>,
     /// Unit normal on the viewer's side.
@@ -43,12 +43,12 @@ impl ShadingPoint<f64> {
 
 /// A lobe that spreads light over a range of directions.
 pub trait Scatter<L: Lane> {
-    /// Radiance shown for each unit of irradiance (at normal incidence) from the direction `towards`, a unit vector
+    /// Radiance shown for each unit of irradiance (at normal incidence) from `direction`, a unit vector
     /// whose `cosine` to the normal is positive: the BRDF times the cosine.
-    fn evaluate(&self, at: &ShadingPoint<L>, towards: Triple<L>, cosine: L) -> Triple<L>;
+    fn evaluate(&self, at: &ShadingPoint<L>, direction: Triple<L>, cosine: L) -> Triple<L>;
 
-    /// How densely [`sample`](Self::sample) spreads directions over solid angle at `towards`, 1/sr, as above.
-    fn pdf(&self, at: &ShadingPoint<L>, towards: Triple<L>, cosine: L) -> L;
+    /// How densely [`sample`](Self::sample) spreads directions over solid angle at `direction`, 1/sr, as above.
+    fn pdf(&self, at: &ShadingPoint<L>, direction: Triple<L>, cosine: L) -> L;
 
     /// A direction that light may come from, chosen by two numbers in 0..1 such that
     /// [`evaluate`](Self::evaluate)` / `[`pdf`](Self::pdf) is bounded.
@@ -59,7 +59,7 @@ pub trait Scatter<L: Lane> {
 #[derive(Debug, Clone, Copy)]
 pub struct Sample<L: Lane> {
     /// Unit vector.
-    pub towards: Triple<L>,
+    pub direction: Triple<L>,
     /// Its cosine to the normal.
     pub cosine: L,
     /// [`Scatter::pdf`] there.
@@ -114,9 +114,9 @@ macro_rules! lobes {
             /// [`Scatter::evaluate`] summed over the glossy lobes, if there are any.
             #[inline(always)]
             #[must_use]
-            pub fn glossy(&self, at: &ShadingPoint<L>, towards: Triple<L>, cosine: L) -> Option<Triple<L>> {
+            pub fn glossy(&self, at: &ShadingPoint<L>, direction: Triple<L>, cosine: L) -> Option<Triple<L>> {
                 let sum = None;
-                $(let sum = add(sum, evaluate(&self.$glossy, at, towards, cosine));)*
+                $(let sum = add(sum, evaluate(&self.$glossy, at, direction, cosine));)*
                 sum
             }
 
@@ -142,7 +142,7 @@ macro_rules! lobes {
             }
         }
 
-        /// Which lobes a material has: what it lacks is asked nowhere.
+        /// Which lobes a material has, so that nothing is computed for those it lacks.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
         pub struct LobeKinds {
             /// Whether anything is seen but what delta lobes send on.
@@ -212,9 +212,9 @@ impl<L: Lane> Lobes<L> {
     /// [`Scatter::evaluate`] summed over the diffuse and the glossy lobes, before the base's [share](Self::share).
     #[inline(always)]
     #[must_use]
-    pub fn evaluate(&self, at: &ShadingPoint<L>, towards: Triple<L>, cosine: L) -> Triple<L> {
-        let diffuse = evaluate(&self.diffuse, at, towards, cosine);
-        match add(diffuse, self.glossy(at, towards, cosine)) {
+    pub fn evaluate(&self, at: &ShadingPoint<L>, direction: Triple<L>, cosine: L) -> Triple<L> {
+        let diffuse = evaluate(&self.diffuse, at, direction, cosine);
+        match add(diffuse, self.glossy(at, direction, cosine)) {
             Some(sum) => sum,
             None => Triple::splat(cosine.number(0.0)),
         }
@@ -236,11 +236,11 @@ impl LobeKinds {
 fn evaluate<L: Lane>(
     lobe: &Option<impl Scatter<L>>,
     at: &ShadingPoint<L>,
-    towards: Triple<L>,
+    direction: Triple<L>,
     cosine: L,
 ) -> Option<Triple<L>> {
     match lobe {
-        Some(lobe) => Some(lobe.evaluate(at, towards, cosine)),
+        Some(lobe) => Some(lobe.evaluate(at, direction, cosine)),
         None => None,
     }
 }
@@ -266,14 +266,14 @@ mod tests {
 
     #[test]
     fn lobes_add_up() {
-        let (at, towards) = (&ShadingPoint::HEAD_ON, Triple::new(0.6, 0.0, 0.8));
+        let (at, direction) = (&ShadingPoint::HEAD_ON, Triple::new(0.6, 0.0, 0.8));
         let phong = Phong { specular: grey(0.5), shape: PhongShape::new(3.0, PhongModel::Normalised) };
         let lobes = Lobes { phong: Some(phong), ..Lobes::matte(grey(0.25)) };
         let [diffuse, glossy] =
-            [lobes.diffuse.unwrap().evaluate(at, towards, 0.8), phong.evaluate(at, towards, 0.8)];
-        assert_eq!(lobes.evaluate(at, towards, 0.8), diffuse + glossy);
-        assert_eq!(lobes.glossy(at, towards, 0.8), Some(glossy));
-        assert_eq!(Lobes::none(0.0).evaluate(at, towards, 0.8), grey(0.0));
+            [lobes.diffuse.unwrap().evaluate(at, direction, 0.8), phong.evaluate(at, direction, 0.8)];
+        assert_eq!(lobes.evaluate(at, direction, 0.8), diffuse + glossy);
+        assert_eq!(lobes.glossy(at, direction, 0.8), Some(glossy));
+        assert_eq!(Lobes::none(0.0).evaluate(at, direction, 0.8), grey(0.0));
         assert_eq!(lobes.without_glossy(grey(2.0), grey(0.0)), grey(0.5));
         let lit = lobes.without_glossy(grey(0.0), grey(std::f64::consts::PI));
         assert!((lit.x - 0.25).abs() < 1e-16);

@@ -74,8 +74,8 @@ impl<L: Lane> Phong<L> {
     /// cosⁿ θ, and how long the sum of the unit vectors to the light and the viewer is. That is zero only for light from
     /// straight behind, where the cosine is not positive.
     #[inline(always)]
-    fn highlight(&self, at: &ShadingPoint<L>, towards: Triple<L>) -> [L; 2] {
-        let half = towards + at.to_viewer;
+    fn highlight(&self, at: &ShadingPoint<L>, direction: Triple<L>) -> [L; 2] {
+        let half = direction + at.to_viewer;
         let length = half.dot(half).sqrt();
         let along = half.dot(at.normal) / length;
         [along.max(length.number(0.0)).power(self.shape.exponent), length]
@@ -84,8 +84,8 @@ impl<L: Lane> Phong<L> {
 
 impl<L: Lane> Scatter<L> for Phong<L> {
     #[inline(always)]
-    fn evaluate(&self, at: &ShadingPoint<L>, towards: Triple<L>, cosine: L) -> Triple<L> {
-        let [highlight, _] = self.highlight(at, towards);
+    fn evaluate(&self, at: &ShadingPoint<L>, direction: Triple<L>, cosine: L) -> Triple<L> {
+        let [highlight, _] = self.highlight(at, direction);
         let classic = highlight * cosine.of(self.shape.scale);
         self.specular.scale(match self.shape.model {
             PhongModel::Classic => classic,
@@ -96,8 +96,8 @@ impl<L: Lane> Scatter<L> for Phong<L> {
     /// Half vectors h are as dense as (n + 1) / 2π cosⁿ θ; a solid angle of them makes 4 (h · viewer) times as much of
     /// directions, and h · viewer is half the length of the sum of the unit vectors to light and viewer.
     #[inline(always)]
-    fn pdf(&self, at: &ShadingPoint<L>, towards: Triple<L>, _: L) -> L {
-        let [highlight, length] = self.highlight(at, towards);
+    fn pdf(&self, at: &ShadingPoint<L>, direction: Triple<L>, _: L) -> L {
+        let [highlight, length] = self.highlight(at, direction);
         highlight * length.number((self.shape.exponent.wide + 1.0) / (4.0 * PI)) / length
     }
 
@@ -112,10 +112,10 @@ impl<L: Lane> Scatter<L> for Phong<L> {
         let across = (one - along * along).max(zero).sqrt();
         let half = about(at.normal, disk.raised(across, along));
         let facing = half.dot(at.to_viewer);
-        let towards = half.scale(facing + facing) - at.to_viewer;
-        let cosine = towards.dot(at.normal);
-        let pdf = self.pdf(at, towards, cosine);
-        Sample { towards, cosine, pdf, lanes: zero.less(cosine) & zero.less(facing) & zero.less(pdf) }
+        let direction = half.scale(facing + facing) - at.to_viewer;
+        let cosine = direction.dot(at.normal);
+        let pdf = self.pdf(at, direction, cosine);
+        Sample { direction, cosine, pdf, lanes: zero.less(cosine) & zero.less(facing) & zero.less(pdf) }
     }
 }
 
@@ -170,7 +170,7 @@ mod tests {
             for i in 0..1000 {
                 let sample = phong.sample(&at, [f64::from(i) / 1000.0, (0.618 * f64::from(i)).fract()]);
                 if sample.lanes {
-                    let weight = phong.evaluate(&at, sample.towards, sample.cosine).x / sample.pdf;
+                    let weight = phong.evaluate(&at, sample.direction, sample.cosine).x / sample.pdf;
                     assert!(weight <= 8.0 / (exponent + 1.0) * (1.0 + 1e-9), "n = {exponent}: {weight}");
                 }
             }
@@ -181,8 +181,8 @@ mod tests {
     fn a_normalised_highlight_runs_both_ways_alike() {
         let phong = phong(16.0, PhongModel::Normalised);
         let [a, b] = [seen(DVec3::Z, 60.0), seen(DVec3::Z, -35.0)];
-        let brdf = |at: &ShadingPoint<f64>, towards: Triple<f64>| {
-            phong.evaluate(at, towards, towards.z).x / towards.z
+        let brdf = |at: &ShadingPoint<f64>, direction: Triple<f64>| {
+            phong.evaluate(at, direction, direction.z).x / direction.z
         };
         let (there, back) = (brdf(&a, b.to_viewer), brdf(&b, a.to_viewer));
         assert!(there > 0.01 && (there - back).abs() < 1e-15, "{there} and {back}");

@@ -23,7 +23,7 @@ pub(super) struct Found {
     pub(super) albedo: f64,
 }
 
-/// The origin of a surface with that normal, seen so many degrees off it.
+/// The origin of a surface with that normal, seen from `degrees` off the normal.
 pub(super) fn seen(normal: DVec3, degrees: f64) -> ShadingPoint<f64> {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let to_viewer = normal * cos + normal.any_orthonormal_vector() * sin;
@@ -41,8 +41,8 @@ pub(super) fn check(lobe: &impl Scatter<f64>, at: &ShadingPoint<f64>) -> Found {
         let sample = lobe.sample(at, u);
         if sample.lanes {
             hold_together(lobe, at, &sample);
-            counted[cell_of(at, sample.towards.into())] += 1.0 / f64::from(COUNT);
-            weight += lobe.evaluate(at, sample.towards, sample.cosine).x / sample.pdf / f64::from(COUNT);
+            counted[cell_of(at, sample.direction.into())] += 1.0 / f64::from(COUNT);
+            weight += lobe.evaluate(at, sample.direction, sample.cosine).x / sample.pdf / f64::from(COUNT);
         }
     }
     for (cell, (counted, expected)) in counted.iter().zip(&cells).enumerate() {
@@ -53,10 +53,10 @@ pub(super) fn check(lobe: &impl Scatter<f64>, at: &ShadingPoint<f64>) -> Found {
 }
 
 fn hold_together(lobe: &impl Scatter<f64>, at: &ShadingPoint<f64>, sample: &Sample<f64>) {
-    let towards = DVec3::from(sample.towards);
-    assert!((towards.length() - 1.0).abs() < 1e-14, "{}", towards.length());
-    assert!((towards.dot(at.normal.into()) - sample.cosine).abs() < 1e-14, "{}", sample.cosine);
-    let pdf = lobe.pdf(at, sample.towards, sample.cosine);
+    let direction = DVec3::from(sample.direction);
+    assert!((direction.length() - 1.0).abs() < 1e-14, "{}", direction.length());
+    assert!((direction.dot(at.normal.into()) - sample.cosine).abs() < 1e-14, "{}", sample.cosine);
+    let pdf = lobe.pdf(at, sample.direction, sample.cosine);
     assert!((pdf - sample.pdf).abs() <= 1e-9 * pdf, "{} and {pdf}", sample.pdf);
 }
 
@@ -68,8 +68,8 @@ fn frame(at: &ShadingPoint<f64>) -> [DVec3; 3] {
 }
 
 /// Which cell of equal angles a direction lies in.
-fn cell_of(at: &ShadingPoint<f64>, towards: DVec3) -> usize {
-    let [x, y, z] = frame(at).map(|axis| axis.dot(towards));
+fn cell_of(at: &ShadingPoint<f64>, direction: DVec3) -> usize {
+    let [x, y, z] = frame(at).map(|axis| axis.dot(direction));
     let polar = z.clamp(0.0, 1.0).acos() / FRAC_PI_2;
     let azimuth = y.atan2(x).rem_euclid(2.0 * PI) / (2.0 * PI);
     let [ring, sector] = [polar, azimuth].map(|part| ((part * COARSE as f64) as usize).min(COARSE - 1));
@@ -85,12 +85,12 @@ fn quadrature(lobe: &impl Scatter<f64>, at: &ShadingPoint<f64>) -> (Vec<f64>, Fo
     for (ring, sector) in (0..FINE).flat_map(|ring| (0..FINE).map(move |sector| (ring, sector))) {
         let (sin, cos) = middle(ring, FRAC_PI_2).sin_cos();
         let (across, along) = middle(sector, 2.0 * PI).sin_cos();
-        let towards = Triple::from((x * along + y * across) * sin + normal * cos);
+        let direction = Triple::from((x * along + y * across) * sin + normal * cos);
         let solid_angle = sin * (FRAC_PI_2 / FINE as f64) * (2.0 * PI / FINE as f64);
-        let share = lobe.pdf(at, towards, cos) * solid_angle;
+        let share = lobe.pdf(at, direction, cos) * solid_angle;
         cells[ring * COARSE / FINE * COARSE + sector * COARSE / FINE] += share;
         found.spread += share;
-        found.albedo += lobe.evaluate(at, towards, cos).x * solid_angle;
+        found.albedo += lobe.evaluate(at, direction, cos).x * solid_angle;
     }
     (cells, found)
 }

@@ -16,7 +16,7 @@ pub struct Checker {
     color: Constant3,
     other: Constant3,
     scale: Coefficient,
-    /// Cell numbers along x and z at the origin of the positions that are asked about, less a multiple of two.
+    /// Cell numbers along x and z at the origin that positions are relative to, less a multiple of two.
     phase: [Coefficient; 2],
     mirror: MirrorShare,
 }

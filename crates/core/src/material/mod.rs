@@ -1,6 +1,6 @@
 //! Which materials there are, and what a material must answer.
 //!
-//! A material says in which [lobes](crate::lobe) light leaves it towards the viewer; it never asks what arrives. A new
+//! A material says in which [lobes](crate::lobe) light leaves it towards the viewer; it does not depend on the light that arrives. A new
 //! material is one file here, its `mod` line and its name in the list below.
 
 mod checker;
@@ -21,7 +21,7 @@ use glam::DVec3;
 use crate::{Lane, LobeKinds, Lobes, ShadingPoint};
 use mirror_share::MirrorShare;
 
-/// What the integrator asks of a material.
+/// What a material provides to integrators.
 pub trait Surface {
     /// How light leaves it where and from where it is seen. Which lobes there are depends on the material alone, how
     /// strong they are on the point.
@@ -81,7 +81,7 @@ impl Material {
     }
 
     /// What is made of its lobes. The work is compiled for each kind of material, so lobes that the kind lacks cost nothing,
-    /// and only what it needs is asked of `at`.
+    /// and of `at` only what it needs is computed.
     #[inline(always)]
     pub fn visit_lobes<L: Lane, T>(
         &self,

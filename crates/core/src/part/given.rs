@@ -1,4 +1,4 @@
-//! How a part's constructor asks for its values, each of the kind and range that its field states.
+//! Checked access of a part's constructor to its values, each of the kind and range that its field states.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ pub const LARGEST: f64 = f32::MAX as f64;
 
 const WITHIN_LARGEST: &str = "must be at most 3.4e38 in magnitude";
 
-/// Values as a part's constructor asks for them: by name, of the kind its field states, with defaults filled in.
+/// Values as a part's constructor reads them: by name, of the kind its field states, with defaults filled in.
 #[derive(Debug, Clone, Copy)]
 pub struct Given<'a> {
     pub(super) fields: &'static [Field],
@@ -26,7 +26,7 @@ impl Given<'_> {
         value.ok_or_else(|| InvalidPart::new(name, "must be given", "missing"))
     }
 
-    /// Refuses a number; angles are told in degrees, as they are written.
+    /// Refuses a number; the message gives angles in degrees, as they are written.
     fn refuse(&self, name: &'static str, requirement: &str, found: f64) -> InvalidPart {
         match self.fields.iter().find(|field| field.name == name).map(|field| field.kind) {
             Some(FieldKind::Angle) => InvalidPart::new(name, requirement, degrees(found)),
@@ -136,7 +136,7 @@ impl Given<'_> {
         }
     }
 
-    /// The place of a word in the field's list of choices.
+    /// The index of a word in the field's list of choices.
     ///
     /// # Errors
     /// Missing or none of the words.

@@ -46,7 +46,7 @@ pub struct Field {
     pub name: &'static str,
     /// What it takes.
     pub kind: FieldKind,
-    /// What it is when left out; `None` where nothing stands for it.
+    /// What it is when left out; `None` where it has no default.
     pub default: Option<fn() -> Value>,
     /// Whether it may be left out.
     pub may_be_missing: bool,
@@ -68,13 +68,13 @@ impl Field {
         Self { name, kind, default: None, may_be_missing: false, unit, doc }
     }
 
-    /// The same field, left out without anything standing for it.
+    /// The same field, which may be left out and has no default.
     #[must_use]
     pub const fn optional(self) -> Self {
         Self { may_be_missing: true, ..self }
     }
 
-    /// The same field, with a value that stands when it is left out.
+    /// The same field, with a default for when it is left out.
     #[must_use]
     pub const fn or(self, default: fn() -> Value) -> Self {
         Self { default: Some(default), may_be_missing: true, ..self }
@@ -121,7 +121,7 @@ pub trait Part: Sized {
     fn values(&self) -> Values;
 }
 
-/// Makes a part from values: what stands behind [`Kind::make`].
+/// Makes a part from values: the work of [`Kind::make`].
 ///
 /// # Errors
 /// A value that is missing, of the wrong sort, or refused.
@@ -131,7 +131,7 @@ pub fn make<P: Part>(values: &Values) -> Result<P, InvalidPart> {
 
 /// Declares an enum with one variant per kind of part, and what follows from the list: the table of kinds,
 /// making, naming and changing parts, and a macro `$each!(value, part => expression)` that evaluates the
-/// expression with `part` bound to whatever the value holds. (`$d` stands for a dollar sign.)
+/// expression with `part` bound to whatever the value holds. (`$d` is a dollar sign.)
 macro_rules! parts {
     ($d:tt $each:ident $(#[$meta:meta])* $vis:vis enum $name:ident { $($(#[$doc:meta])* $variant:ident),+ $(,)? }) => {
         $(#[$meta])*

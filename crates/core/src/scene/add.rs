@@ -19,7 +19,7 @@ impl Scene {
         Ok(id)
     }
 
-    /// Adds a shape that wears `material`, as the last member of `parent` or at the top.
+    /// Adds a shape of `material`, as the last member of `parent` or at the top.
     ///
     /// # Errors
     /// A name that is empty or taken, a material or parent that is not there, a parent that is no group.

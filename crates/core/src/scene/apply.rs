@@ -9,8 +9,8 @@ use crate::{Camera, Light, Placement, Shape};
 
 impl Scene {
     /// Does an edit, writes it into the log, and answers with the edit that takes it back: ids, names, order and
-    /// members included. The inverse of an insertion is [`Edit::Remove`], which tells the id of what was
-    /// inserted; the inverse of a new material tells its id alike.
+    /// members included. The inverse of an insertion is [`Edit::Remove`] with the id of what was
+    /// inserted; the inverse of a new material likewise holds its id.
     ///
     /// # Errors
     /// What the edit names is not there, or the scene would no longer hold together; the scene is then as it was.
@@ -91,7 +91,7 @@ impl Scene {
         self.log.push(Change { revision: self.revision, subject, what });
     }
 
-    /// Notes that an entity is something else, or stands elsewhere in its group, from this revision on.
+    /// Notes that an entity or its placement in its group has changed in this revision.
     fn touch(&mut self, entity: hecs::Entity) {
         if let Ok(touched) = self.world.query_one_mut::<&mut Touched>(entity) {
             touched.0 = self.revision;

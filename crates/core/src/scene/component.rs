@@ -5,7 +5,7 @@ use super::EntityId;
 /// What kind of entity something is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
-    /// Something to be seen: a [`Shape`](crate::Shape) that wears a material.
+    /// A visible [`Shape`](crate::Shape) with a material.
     Shape,
     /// Something that gives light: a [`Light`](crate::Light).
     Light,
@@ -30,7 +30,7 @@ impl std::fmt::Display for Role {
 #[derive(Debug, Clone)]
 pub(super) struct Name(pub(super) String);
 
-/// Component of every entity: the revision of the last edit of what it is or where it stands in its group.
+/// Component of every entity: the revision of the last edit of what it is or of its placement in its group.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touched(pub(super) u64);
 

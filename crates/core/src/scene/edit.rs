@@ -28,7 +28,7 @@ pub enum Edit {
     Order(EntityId, usize),
     /// Renames an entity.
     Name(EntityId, String),
-    /// Changes a material, on every shape that wears it.
+    /// Changes a material, on every shape that has it.
     Material(MaterialId, Material),
     /// Adds a material. Its inverse is `RemoveMaterial` with the new material's id.
     AddMaterial {
@@ -36,10 +36,10 @@ pub enum Edit {
         name: String,
         /// The material.
         material: Material,
-        /// The id to have; `None` for a new one. An undone removal keeps its id this way.
+        /// The id to have; `None` for a new one. This is how an undone removal keeps its id.
         id: Option<MaterialId>,
     },
-    /// Removes a material that no shape wears.
+    /// Removes a material that no shape has.
     RemoveMaterial(MaterialId),
     /// Renames a material.
     RenameMaterial(MaterialId, String),
@@ -57,14 +57,14 @@ impl Edit {
     }
 }
 
-/// One line of the edit log: what was changed in which way.
+/// One line of the edit log: what was changed, and what about it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Change {
     /// The scene's revision after the edit that did it; all changes of one edit share it.
     pub revision: u64,
     /// What was changed.
     pub subject: Subject,
-    /// In which way.
+    /// What about it was changed.
     pub what: ChangeKind,
 }
 
@@ -80,7 +80,7 @@ pub enum Subject {
     Settings,
 }
 
-/// In which way something was changed.
+/// What about something was changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ChangeKind {
     /// It is new, or has come back. Members that came with their group have lines of their own.
@@ -93,9 +93,9 @@ pub enum ChangeKind {
     Light,
     /// The camera of a camera entity.
     Camera,
-    /// Where an entity stands within its group.
+    /// The placement of an entity within its group.
     Placement,
-    /// Which material a shape wears.
+    /// Which material a shape has.
     Material,
     /// Which group an entity is a member of, and its place among its siblings.
     Parent,

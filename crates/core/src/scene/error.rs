@@ -21,10 +21,10 @@ pub enum SceneError {
     /// Two materials may not have one name.
     #[error("the name \"{0}\" is taken by another material")]
     MaterialNameTaken(String),
-    /// An inserted entity asks for an id that is in use.
+    /// An inserted entity names an id that is in use.
     #[error("{0} is in the scene already")]
     IdTaken(EntityId),
-    /// An added material asks for an id that is in use.
+    /// An added material names an id that is in use.
     #[error("{0} is in the scene already")]
     MaterialIdTaken(MaterialId),
     /// Every number that an id can have has been used.

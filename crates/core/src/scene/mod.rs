@@ -125,7 +125,7 @@ impl Scene {
         self.component(id)
     }
 
-    /// The material that a shape entity wears.
+    /// The material of a shape entity.
     #[must_use]
     pub fn material_of(&self, id: EntityId) -> Option<MaterialId> {
         self.component(id)
@@ -143,7 +143,7 @@ impl Scene {
         self.component(id)
     }
 
-    /// Where an entity stands, relative to its group or, outside any group, to the world.
+    /// The placement of an entity relative to its group or, outside any group, to the world.
     #[must_use]
     pub fn placement(&self, id: EntityId) -> Option<Placement> {
         self.component(id)
@@ -214,7 +214,7 @@ impl Scene {
         self.revision
     }
 
-    /// What was changed after the scene had that revision, in order; an undone edit stands here as two.
+    /// What was changed after the scene had that revision, in order; an undone edit counts as two.
     /// Searches by halves, and copies nothing.
     #[must_use]
     pub fn changes_since(&self, revision: u64) -> &[Change] {

@@ -6,11 +6,11 @@ use crate::{Camera, Light, Placement, Shape};
 /// One entity with its members, outside any scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Node {
-    /// The id to have in the scene; `None` for a new one. An undone removal keeps its ids this way.
+    /// The id to have in the scene; `None` for a new one. This is how an undone removal keeps its ids.
     pub id: Option<EntityId>,
     /// The name, unique among all entities of the scene.
     pub name: String,
-    /// Where it stands, relative to its group or, outside any group, to the world.
+    /// Its placement relative to its group or, outside any group, to the world.
     pub placement: Placement,
     /// What it is.
     pub content: Content,
@@ -19,7 +19,7 @@ pub struct Node {
 /// What an entity is.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Content {
-    /// Something to be seen, with the material it wears.
+    /// A visible shape, with its material.
     Shape(Shape, MaterialId),
     /// Something that gives light.
     Light(Light),
@@ -47,7 +47,7 @@ impl Node {
         Self { id: None, name: name.into(), placement: Placement::IDENTITY, content }
     }
 
-    /// A shape that wears `material`.
+    /// A shape of `material`.
     #[must_use]
     pub fn shape(name: impl Into<String>, shape: impl Into<Shape>, material: MaterialId) -> Self {
         Self::new(name, Content::Shape(shape.into(), material))

@@ -8,7 +8,7 @@ use super::component::{Parent, Touched};
 use super::{EntityId, MaterialId, Scene};
 use crate::{Camera, Light, Placement, Shape};
 
-/// A part of a scene where it stands in the world.
+/// A part of a scene, placed in the world.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed<T> {
     /// Which entity it is.
@@ -76,7 +76,7 @@ impl Scene {
         list
     }
 
-    /// Every component of a type where its entity stands, with the material that the entity wears, by age.
+    /// Every component of a type, placed in the world, with the material of its entity, by age.
     fn placed<T: hecs::Component>(
         &self,
         place: impl Fn(&T, &Placement) -> Option<T>,

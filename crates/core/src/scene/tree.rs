@@ -52,7 +52,7 @@ impl Scene {
         places
     }
 
-    /// Where an entity stands in the world: its own placement, then those of the groups round it.
+    /// The placement of an entity in the world: its own, then those of the groups round it.
     #[must_use]
     pub fn world_placement(&self, id: EntityId) -> Option<Placement> {
         let own = self.placement(id)?;

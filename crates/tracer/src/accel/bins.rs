@@ -126,7 +126,7 @@ pub(super) struct Set<S: Simd> {
 }
 
 impl<S: Simd> Set<S> {
-    /// Of all that stands there, from the first place on.
+    /// Of all these triangles, from the first slot on.
     pub(super) fn of(s: S, items: &[Item]) -> Self {
         let empty = Extent::empty(s);
         let (first, count, room) = (0, items.len(), 0);
@@ -152,7 +152,7 @@ impl<S: Simd> Set<S> {
         [first, Self { first: second, count: counts[1], room: self.room - room, ..first }]
     }
 
-    /// This and what stands right after it.
+    /// This set and the one right after it.
     pub(super) fn with(self, o: Self) -> Self {
         Self {
             count: self.count + o.count,
@@ -213,7 +213,7 @@ pub(super) struct Plane {
 /// Most bins along an axis that any preset has.
 pub(super) const MOST_BINS: usize = 32;
 
-/// What so many triangles cost, in tests of one: whole blocks are tested, so sets that fill theirs are preferred.
+/// Cost of `count` triangles, in tests of one: whole blocks are tested, so sets that fill theirs are preferred.
 #[inline(always)]
 pub(super) fn weight(count: usize) -> f32 {
     count.next_multiple_of(WIDTH) as f32
@@ -233,20 +233,20 @@ impl Bins {
         let mut bins = Self { around: [[Item::NONE; MOST_BINS]; 3], count: [[0; MOST_BINS]; 3] };
         for item in items {
             let extent = Extent::of(s, item);
-            let places = scale.bins_of(extent);
-            bins.add(s, 0, places[0], extent);
-            bins.add(s, 1, places[1], extent);
-            bins.add(s, 2, places[2], extent);
+            let found = scale.bins_of(extent);
+            bins.add(s, 0, found[0], extent);
+            bins.add(s, 1, found[1], extent);
+            bins.add(s, 2, found[2], extent);
         }
         bins
     }
 
     #[inline(always)]
-    fn add<S: Simd>(&mut self, s: S, axis: usize, place: i32, extent: Extent<S>) {
-        let place = place as usize % MOST_BINS;
-        let bin = &mut self.around[axis][place];
-        Extent::of(s, bin).union(extent).store(bin);
-        self.count[axis][place] += 1;
+    fn add<S: Simd>(&mut self, s: S, axis: usize, bin: i32, extent: Extent<S>) {
+        let bin = bin as usize % MOST_BINS;
+        let around = &mut self.around[axis][bin];
+        Extent::of(s, around).union(extent).store(around);
+        self.count[axis][bin] += 1;
     }
 
     /// Of these and other triangles.

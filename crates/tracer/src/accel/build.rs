@@ -1,4 +1,4 @@
-//! How a tree is built: top down, by the binned surface area heuristic.
+//! Builds a tree over shapes: top down, by the binned surface area heuristic.
 //!
 //! Wald, "On fast construction of SAH-based bounding volume hierarchies", IEEE RT 2007.
 

@@ -1,4 +1,4 @@
-//! What is left of a triangle on either side of a plane: a box round it that is never too small.
+//! Clips a triangle at a plane: boxes round the parts on either side, which are never too small.
 //!
 //! The part on one side is the convex hull of the corners there and of the two points where edges cross the plane, so a
 //! box that holds those holds it. A crossing lies exactly in the plane; its other coordinates

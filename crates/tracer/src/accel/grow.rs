@@ -18,7 +18,7 @@ use crate::Pool;
 /// Measured on three meshes of 66,000 to 871,000 triangles: single rays test an eighth to a quarter fewer blocks than with 32
 /// and visit a twentieth more nodes; 16 was not faster beyond the noise and takes 3 bytes a triangle more.
 const FULL_LEAF: usize = 24;
-/// Stretches longer than this are shared out among threads, so many triangles at a time.
+/// Stretches longer than this are shared out among threads, this many triangles at a time.
 const PARALLEL: usize = 8192;
 /// A leaf has at most this many triangles, and never fewer than could be split: a block is tested in one go, so two
 /// smaller leaves would cost more.
@@ -194,8 +194,8 @@ impl<S: Simd> Grower<'_, S> {
         Some([0, 1].map(|at| Set { around: around[at], centres: centres[at], aside, ..sets[at] }))
     }
 
-    /// What of a set stands on either side of a plane that cuts space, where that is cheaper than to sort its triangles,
-    /// and worth the trouble.
+    /// The parts of a set on either side of a plane that cuts space, where such a spatial split is cheaper than sorting
+    /// its triangles by an object split, by enough to be worth it; `None` elsewhere.
     fn cut(
         self,
         items: &[Item],
@@ -212,7 +212,7 @@ impl<S: Simd> Grower<'_, S> {
             }
             None => set.around.half_area() * weight(set.count),
         };
-        let cut = cheapest_cut(self.mesh, items, &set.around.bounds(), (set.room, PARALLEL))?;
+        let cut = cheapest_cut(self.mesh, items, &set.around.bounds(), set.room, PARALLEL)?;
         if !(cut.cost < cost) {
             return None;
         }
@@ -223,7 +223,7 @@ impl<S: Simd> Grower<'_, S> {
         parts.iter().all(|part| !part.is_empty()).then_some(parts)
     }
 
-    /// Lets two parts stand in place of a set.
+    /// Replaces a set by two parts.
     fn put_back(self, items: &mut [Item], set: &Set<S>, parts: &[Vec<Item>; 2]) -> [Set<S>; 2] {
         let counts = [0, 1].map(|side: usize| parts[side].len());
         let room = set.room + set.count - counts[0] - counts[1];
@@ -277,8 +277,8 @@ impl<S: Simd> Grower<'_, S> {
         sorted.iter().fold(nothing, |a, (_, b)| [a[0].union(b[0]), a[1].union(b[1])])
     }
 
-    /// Copies what lies before the plane to the front, the rest from the end of all places on, without a branch that could go either way;
-    /// how many lie before it, and the boxes round the centres of both.
+    /// Copies what lies before the plane to the front and the rest to the back, without a branch that is hard to predict;
+    /// returns how many lie before it, and the boxes round the centres of both.
     fn sort_into(
         self,
         items: &[Item],
@@ -295,8 +295,8 @@ impl<S: Simd> Grower<'_, S> {
                     let extent = Extent::of(self.s, item);
                     let first = scale.lies_before(extent, plane);
                     let from_end = last.wrapping_sub(at - count);
-                    let place = from_end ^ ((from_end ^ count) & first.wrapping_neg());
-                    to[place] = *item;
+                    let slot = from_end ^ ((from_end ^ count) & first.wrapping_neg());
+                    to[slot] = *item;
                     count += first;
                     let centre = Extent::point(extent.centre2());
                     below = below.union(centre.only_if(self.s, first == 1));
@@ -307,15 +307,15 @@ impl<S: Simd> Grower<'_, S> {
         (count, [below, above])
     }
 
-    /// A set of these triangles, which stand where another is said to.
-    fn measured(self, items: &[Item], place: Set<S>) -> Set<S> {
+    /// The set of these triangles, in the slots of a given one.
+    fn measured(self, items: &[Item], slots: Set<S>) -> Set<S> {
         let parts = items.par_chunks(PARALLEL).map(|items| Set::of(self.s, items));
         let set = parts.reduce_with(Set::with).unwrap_or_else(|| Set::of(self.s, items));
-        Set { first: place.first, room: place.room, aside: place.aside, ..set }
+        Set { first: slots.first, room: slots.room, aside: slots.aside, ..set }
     }
 }
 
-/// Triangles with free places behind them, and as much room to sort them.
+/// Triangles with free slots behind them, and as much room to sort them.
 type Room<'a> = (&'a mut [Item], &'a mut [Item]);
 
 /// Brings the triangles of a leaf that stand aside to where the tree looks for them.
@@ -366,7 +366,7 @@ mod tests {
         TriangleMesh::new(positions, triangles, None, None).unwrap()
     }
 
-    /// Looks at every node: that it lies within all boxes above; the boxes of the leaves that each triangle stands in.
+    /// Checks that every node lies within all boxes above it; returns the boxes of the leaves that hold each triangle.
     fn leaves(mesh: &TriangleMesh, tree: &WideTree) -> Vec<Vec<Box32>> {
         let mut leaves = vec![Vec::new(); mesh.triangles().len()];
         let everything = Box32 { min: [f32::NEG_INFINITY; 3], max: [f32::INFINITY; 3] };

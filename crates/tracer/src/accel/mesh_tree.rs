@@ -1,4 +1,4 @@
-//! A mesh with its tree: built once, shared by every place where the mesh stands.
+//! A mesh with its tree: built once, shared by all instances of the mesh.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! How few things a ray is tested against: trees of boxes.
+//! Acceleration structures: bounding volume hierarchies over shapes and over the triangles of meshes.
 
 mod bins;
 mod build;

@@ -9,9 +9,9 @@ use super::wide_tree::{Block8, Node8, WIDTH};
 
 /// Blocks that are kept in mind for each number of free places. A twentieth of all places stays empty on the meshes measured.
 const OPEN: usize = 8;
-/// Stretches of so many blocks are shared out among threads.
+/// Threads share out the blocks in stretches of this many.
 const PARALLEL: usize = 1024;
-/// Leaves of so many nodes share blocks with each other only, so that stretches of them are laid out side by side.
+/// Leaves of this many nodes share blocks with each other only, so that threads can lay out such groups independently.
 const NODES: usize = 128;
 
 /// Stands for no triangle.
@@ -56,7 +56,7 @@ fn lay_out(nodes: &mut [Node8], items: &[Item]) -> Vec<u32> {
 #[derive(Default)]
 struct Order {
     ids: Vec<u32>,
-    /// Ends of the blocks that have so many free places before them, the last one first; 0 for none.
+    /// Ends of the open blocks by how many free slots they have, the last one first; 0 for none.
     open: [[usize; OPEN]; WIDTH],
 }
 
@@ -82,7 +82,7 @@ impl Order {
         first
     }
 
-    /// The last block with so many free places.
+    /// The last block with `room` free slots.
     fn take(&mut self, room: usize) -> usize {
         let open = &mut self.open[room];
         let end = open[0];
@@ -91,7 +91,7 @@ impl Order {
         end
     }
 
-    /// Keeps a block in mind that has free places, in place of the oldest with as many.
+    /// Remembers a block that has free slots, in place of the oldest with as many.
     fn leave_open(&mut self, end: usize, room: usize) {
         if room != 0 {
             let open = &mut self.open[room];
@@ -120,7 +120,7 @@ fn block(mesh: &TriangleMesh, ids: &[u32]) -> Block8 {
 mod tests {
     use super::*;
 
-    /// Triangles beside each other, and a node for every eight leaves of so many each.
+    /// Triangles in a row, and a node for every eight leaves; `counts` is how many triangles each leaf has.
     fn rows(counts: &[u8]) -> (TriangleMesh, Vec<Node8>, Vec<Item>) {
         let all: u32 = counts.iter().map(|&count| u32::from(count)).sum();
         let corner =

@@ -1,4 +1,4 @@
-//! How much time is spent on a mesh's tree.
+//! Presets: how much time is spent on building a mesh's tree.
 
 /// How carefully a tree is built. All answers are the same.
 ///
@@ -37,7 +37,7 @@ impl Preset {
         Self::ALL.iter().copied().find(|preset| preset.name() == name)
     }
 
-    /// Bins along an axis for a set of so many triangles.
+    /// Bins along an axis for a set of `count` triangles.
     pub(super) fn bins(self, count: usize) -> usize {
         let (most, few) = match self {
             Self::Fast => (8, 4),
@@ -47,7 +47,7 @@ impl Preset {
         (few + count / 8).min(most)
     }
 
-    /// How many triangles may be added to so many by cutting some in two.
+    /// How many triangles spatial splits may add to `count` triangles.
     pub(super) fn room(self, count: usize) -> usize {
         match self {
             Self::Fast | Self::Balanced => 0,

@@ -1,4 +1,4 @@
-//! How triangles that overlap are told apart: by cutting space, so that a triangle may stand on both sides of a cut.
+//! Spatial splits: nodes are split by cutting space, so that a triangle across the cut goes to both sides.
 //!
 //! Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies", HPG 2009. Each side keeps a box round
 //! that part of a triangle that lies there, never too small ([`halves`]), so a ray finds every point of it in some leaf.
@@ -29,7 +29,7 @@ impl Planes {
     }
 
     /// Where a slice begins; not before where the one before it does.
-    fn place(&self, slice: usize) -> f32 {
+    fn start_of(&self, slice: usize) -> f32 {
         self.low + self.step * slice as f32
     }
 
@@ -40,16 +40,16 @@ impl Planes {
         let near = |v: f32| (((v - self.low) / self.step) as usize).min(SLICES - 1);
         let (mut first, mut last) = (near(low), near(high));
         // The quotients may be off by a rounding; the planes are what counts.
-        while first > 0 && self.place(first) > low {
+        while first > 0 && self.start_of(first) > low {
             first -= 1;
         }
-        while first + 1 < SLICES && self.place(first + 1) <= low {
+        while first + 1 < SLICES && self.start_of(first + 1) <= low {
             first += 1;
         }
-        while last > first && self.place(last) >= high {
+        while last > first && self.start_of(last) >= high {
             last -= 1;
         }
-        while last + 1 < SLICES && self.place(last + 1) < high {
+        while last + 1 < SLICES && self.start_of(last + 1) < high {
             last += 1;
         }
         (first, last.max(first))
@@ -77,7 +77,7 @@ impl Slices {
         if first < last {
             let corners = mesh.corners(item.id());
             for slice in first..last {
-                let [before, past] = halves(&corners, &rest, planes.axis, planes.place(slice + 1));
+                let [before, past] = halves(&corners, &rest, planes.axis, planes.start_of(slice + 1));
                 self.around[slice] = self.around[slice].union(&before);
                 rest = past;
             }
@@ -106,13 +106,14 @@ pub(super) struct Cut {
     pub(super) cost: f32,
 }
 
-/// The cheapest cut of triangles in a box that makes at most so many more of them; stretches of so many are shared out
-/// among threads.
+/// The cheapest cut of triangles in a box that adds at most `room` triangles; threads share out the triangles in
+/// stretches of `stretch`.
 pub(super) fn cheapest_cut(
     mesh: &TriangleMesh,
     items: &[Item],
     around: &Box32,
-    (room, stretch): (usize, usize),
+    room: usize,
+    stretch: usize,
 ) -> Option<Cut> {
     let mut best: Option<Cut> = None;
     for planes in (0..3).filter_map(|axis| Planes::across(around, axis)) {
@@ -154,7 +155,7 @@ fn sweep(planes: &Planes, slices: &Slices, most: usize, best: &mut Option<Cut>) 
 }
 
 impl Cut {
-    /// What stands before the plane and what past it; a triangle that reaches across stands on one side as a whole where
+    /// The triangles before the plane and those past it; a triangle across the plane goes to one side as a whole where
     /// that is cheaper.
     pub(super) fn share_out(&self, mesh: &TriangleMesh, items: &[Item]) -> [Vec<Item>; 2] {
         let mut parts = self.counts.map(Vec::with_capacity);
@@ -173,11 +174,11 @@ impl Cut {
         parts
     }
 
-    /// What of a triangle that reaches across stands on either side.
+    /// The parts of a triangle across the plane on either side.
     fn sides(&self, mesh: &TriangleMesh, item: &Item) -> [Option<Item>; 2] {
         let bounds = item.bounds();
-        let place = self.planes.place(self.slice);
-        let [before, past] = halves(&mesh.corners(item.id()), &bounds, self.planes.axis, place);
+        let start = self.planes.start_of(self.slice);
+        let [before, past] = halves(&mesh.corners(item.id()), &bounds, self.planes.axis, start);
         let whole = [[Some(*item), None], [None, Some(*item)]];
         let areas = self.around.map(|b| b.half_area());
         let counts = self.counts.map(|count| count as f32);

@@ -7,7 +7,7 @@ use super::build;
 use crate::Pool;
 use crate::numeric::BOUNDS_ERROR;
 
-/// An axis-aligned box in `f32`, never smaller than what it stands for.
+/// An axis-aligned box in `f32`, rounded outwards: never smaller than the `f64` box it was made from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Box32 {
     pub(crate) min: [f32; 3],
@@ -77,7 +77,7 @@ impl From<Aabb> for Box32 {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Node {
     pub(crate) bounds: Box32,
-    /// A leaf's first place in the order of items; an inner node's second child.
+    /// A leaf's first index in the order of items; an inner node's second child.
     pub(crate) link: u32,
     /// How many items a leaf has; 0 for an inner node.
     pub(crate) count: u16,

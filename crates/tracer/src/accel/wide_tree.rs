@@ -71,13 +71,13 @@ pub(crate) struct WideTree {
 }
 
 impl WideTree {
-    /// The number in its mesh of the triangle at a place in the blocks.
+    /// The number in its mesh of the triangle at a slot of the blocks.
     #[inline(always)]
     pub(crate) fn facet(&self, slot: u32) -> u32 {
         self.blocks[slot as usize / WIDTH].facet[slot as usize % WIDTH]
     }
 
-    /// The corners of the triangle at a place in the blocks.
+    /// The corners of the triangle at a slot of the blocks.
     #[inline(always)]
     pub(crate) fn triangle(&self, slot: u32) -> [[f32; 3]; 3] {
         self.blocks[slot as usize / WIDTH].triangle(slot as usize)

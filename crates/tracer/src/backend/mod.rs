@@ -1,4 +1,4 @@
-//! Which ways there are to trace, and what a way must do.
+//! The list of backends, and the trait that each implements.
 //!
 //! A new backend is one file here, its `mod` line and its name in the list below.
 
@@ -9,7 +9,7 @@ mod wide;
 use crate::rays::{HitSlice, RaySlice};
 use crate::{Frame, Snapshot, Stats, Tile, View};
 
-/// A way to trace.
+/// Traces tiles of a frame.
 pub trait Backend: Send + Sync {
     /// Its name on the command line.
     fn name(&self) -> &'static str;

@@ -1,4 +1,4 @@
-//! The backend that is obviously right: every ray against every shape and triangle, in `f64`.
+//! The reference backend: every ray against every shape and triangle, in `f64`, without trees.
 
 use super::Backend;
 use crate::integrator::{Exhaustive, trace_pixels};

@@ -1,4 +1,4 @@
-//! Packets of rays at the CPU's native width: `f32` kernels propose, `f64` settles.
+//! Packets of rays at the CPU's native SIMD width: `f32` kernels propose hits, `f64` decides what they leave open.
 
 use super::Backend;
 use crate::integrator::trace_packets;

@@ -1,4 +1,4 @@
-//! In which directions the rays of a stream run, and so which shapes they cannot meet.
+//! Bounds of the origins and directions of a stream's rays, and of the shapes that they may meet.
 
 use catoptra_core::Aabb;
 use catoptra_core::glam::DVec3;
@@ -26,7 +26,7 @@ pub(crate) enum Crosses {
     Never,
     /// In no other place.
     Within(PointBounds),
-    /// Perhaps without an end.
+    /// Perhaps unbounded.
     Anywhere,
 }
 

@@ -140,7 +140,7 @@ impl Candidates {
         self.find_points(frustum, columns, faced);
     }
 
-    /// Puts the faces that may be seen of shapes with faces in the place of the shapes; answers whether each fills the
+    /// Replaces shapes with faces by those of their faces that may be seen; answers whether each fills the
     /// frustum.
     fn keep_faces(&mut self, frustum: &Frustum, columns: &Columns) -> bool {
         let Self { near, bounded, faces, .. } = self;
@@ -164,8 +164,7 @@ impl Candidates {
         all
     }
 
-    /// Finds out where the points lie that may be seen, where shapes do not go on without an end. `faced` says that each
-    /// face fills the frustum.
+    /// Finds bounds of the points that may be seen, where those are bounded. `faced` says that each face fills the frustum.
     fn find_points(&mut self, frustum: &Frustum, columns: &Columns, faced: bool) {
         if self.tree || !columns.general_unbounded.is_empty() {
             return;
@@ -231,8 +230,8 @@ impl Candidates {
             light.behind[i] != 0.0 && points.iter().any(|place| place.may_lie_beyond(row, light.behind[i]))
         };
         let meets = |prim: u32, ball: &Ball| {
-            let left = outside && columns.is_convex(prim);
-            points.iter().any(|place| !(left && place.prim == prim) && place.shaft_meets(light, ball))
+            let passes_by = outside && columns.is_convex(prim);
+            points.iter().any(|place| !(passes_by && place.prim == prim) && place.shaft_meets(light, ball))
         };
         self.keep(columns, crosses, meets);
     }

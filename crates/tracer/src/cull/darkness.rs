@@ -1,5 +1,5 @@
-//! Which reflections go into darkness, found out before a single point is refined: where rays may meet a surface and
-//! which ways they come tells which ways they may be sent on.
+//! Culls reflections that meet nothing but a black background, before any hit is refined: bounds of the points and of the
+//! directions of arriving rays give bounds of the reflected ones.
 
 use super::beam::Beam;
 use super::point_bounds::PointBounds;

@@ -30,7 +30,7 @@ pub(crate) fn quarters(region: Region) -> impl Iterator<Item = Region> {
 pub(crate) struct Frustum {
     eye: DVec3,
     corners: [DVec3; 4],
-    /// Inward unit normals of the four sides, once they have been asked for.
+    /// Inward unit normals of the four sides, computed when they are first needed.
     sides: OnceCell<[DVec3; 4]>,
 }
 
@@ -92,7 +92,7 @@ impl Frustum {
         ]
     }
 
-    /// Where the points of a plane lie that are seen through the frustum; `None` where they may have no end.
+    /// Bounds of the points of a plane that are seen through the frustum; `None` where they may be unbounded.
     pub(crate) fn place_on(&self, row: &PlaneRow) -> Option<PointBounds> {
         let inverse_t = self.inverse_t(row);
         let margin = PLAN_MARGIN * inverse_t.iter().fold(0.0, |m, w| w.abs().max(m));
@@ -113,7 +113,7 @@ impl Frustum {
     /// How much of the frustum a face takes up.
     ///
     /// Directions that meet a triangle make a convex cone with three sides, as those of the frustum make one with four:
-    /// they are apart where all corners of one lie beyond a side of the other, and the frustum lies within the triangle
+    /// they are disjoint where all corners of one lie beyond a side of the other, and the frustum lies within the triangle
     /// where its corners do.
     pub(crate) fn coverage(&self, face: &TriangleRow) -> Coverage {
         let corners = face.corners().map(|corner| corner - self.eye);
@@ -195,7 +195,7 @@ impl Frustum {
         })
     }
 
-    /// Whether a plane cannot stand between the eye and a place.
+    /// Whether a plane certainly does not lie between the eye and these points.
     pub(crate) fn is_free_of(&self, row: &PlaneRow, place: &PointBounds) -> bool {
         self.behind(row).is_some_and(|behind| !place.may_lie_beyond(row, behind))
     }

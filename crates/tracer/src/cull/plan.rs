@@ -1,5 +1,5 @@
-//! What is known of a part of a picture before its light is gathered: which lights reach it, what may stand in their way,
-//! and which of its mirrors show nothing but darkness.
+//! The plan of a part of a picture, made before its light is gathered: which lights reach it, what may occlude them, and
+//! which of its mirrors show nothing but a black background.
 
 use catoptra_core::Rgb;
 
@@ -31,7 +31,7 @@ pub(crate) struct TilePlan {
 }
 
 impl TilePlan {
-    /// Starts anew: every light reaches everything, nothing is known to be dark. What stands in the way of lights is left to
+    /// Starts anew: every light reaches everything, nothing is known to be dark. Occluders are found by
     /// [`plan_lights`](Self::plan_lights).
     pub(crate) fn start(&mut self, snapshot: &Snapshot) {
         let lights = snapshot.light_rows().len();

@@ -1,4 +1,4 @@
-//! Where the points of one shape lie that are seen, and what that tells of lights and of what stands in their way.
+//! Bounds of the visible points of one shape, and tests which lights reach them and which shapes may occlude those.
 
 use catoptra_core::Aabb;
 use catoptra_core::glam::DVec3;
@@ -42,7 +42,7 @@ impl PointBounds {
         light.light.may_reach(self.center, self.radius * (1.0 + PLAN_MARGIN) + CONE_MARGIN * farthest)
     }
 
-    /// Whether the ways from the points to a light may meet a ball.
+    /// Whether shadow rays from the points to a light may meet a ball.
     pub(crate) fn shaft_meets(&self, light: &LightRow, ball: &Ball) -> bool {
         let to_ball = ball.center - self.center;
         let reach =

@@ -1,4 +1,4 @@
-//! What does a picture show? Which integrators there are, over any way of answering what a ray meets.
+//! The list of integrators, each over any ray search.
 //!
 //! An integrator says what light arrives along a camera ray. A new one is its name in `catoptra_core`'s list, one file
 //! here, its `mod` line and its name in the list below.

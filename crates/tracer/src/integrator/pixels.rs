@@ -51,7 +51,7 @@ fn trace_pixel<I: Integrate, S: Search>(walker: &mut Walker<'_, S>, tile: &mut T
         if (u, v) == (grid / 2, grid / 2) {
             let distance = |hit: Hit| (hit.crossing.t * ray.direction.length()) as f32;
             tile.depth[i] = first.map_or(f32::INFINITY, distance);
-            tile.surface[i] = first.map_or(NOTHING, |hit| hit.place.prim);
+            tile.surface[i] = first.map_or(NOTHING, |hit| hit.surface.prim);
         }
     }
     for (channel, light) in tile.radiance.iter_mut().zip(sum.to_array()) {

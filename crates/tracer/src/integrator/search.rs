@@ -1,10 +1,10 @@
-//! How is it answered what a ray meets? By the trees, or by trying everything.
+//! Finds what a ray meets: by the trees, or by trying every shape.
 
 use catoptra_core::{Ray, Span};
 
 use crate::{Hit, Snapshot, SurfaceId};
 
-/// A way of answering what a ray meets.
+/// Ray queries on a snapshot, one ray at a time.
 pub(crate) trait Search {
     /// What a ray meets first.
     fn nearest(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit>;

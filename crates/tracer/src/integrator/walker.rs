@@ -1,4 +1,4 @@
-//! What does an integrator have at hand that follows one path at a time in `f64`?
+//! The state of an integrator that follows one path at a time in `f64`, and the surfaces that its rays hit.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Material, Ray, ShadingPoint};
@@ -7,7 +7,7 @@ use super::Search;
 use crate::sampler::Sampler;
 use crate::{Frame, Hit, Stats};
 
-/// A ray from the camera, in the snapshot's frame, and what random choices along its path go by.
+/// A ray from the camera, in the snapshot's frame, and the sampler of its path.
 pub(crate) struct CameraRay {
     pub(super) ray: Ray,
     /// The numbers of the pixel.
@@ -16,7 +16,7 @@ pub(crate) struct CameraRay {
     pub(super) sample: u32,
 }
 
-/// Answers for paths of one frame, and counts them.
+/// Follows paths of one frame, and counts their rays.
 pub(crate) struct Walker<'a, S> {
     pub(super) search: &'a S,
     pub(super) frame: &'a Frame<'a>,
@@ -24,7 +24,7 @@ pub(crate) struct Walker<'a, S> {
 }
 
 /// Where a ray has met a surface.
-pub(super) struct Meeting<'a> {
+pub(super) struct SurfaceHit<'a> {
     pub(super) hit: Hit,
     pub(super) ray: Ray,
     pub(super) material: &'a Material,
@@ -36,14 +36,14 @@ pub(super) struct Meeting<'a> {
 }
 
 impl<'a, S: Search> Walker<'a, S> {
-    /// What is known where a ray has hit something.
-    pub(super) fn meet(&self, hit: Hit, ray: Ray) -> Meeting<'a> {
+    /// The surface at a hit of a ray.
+    pub(super) fn surface_at(&self, hit: Hit, ray: Ray) -> SurfaceHit<'a> {
         let snapshot = self.frame.snapshot;
-        let prim = &snapshot.prims()[hit.place.prim as usize];
+        let prim = &snapshot.prims()[hit.surface.prim as usize];
         let point = ray.at(hit.crossing.t);
         let side = if hit.crossing.normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
         let length = ray.direction.length();
-        Meeting {
+        SurfaceHit {
             hit,
             ray,
             material: &snapshot.materials()[prim.material as usize],

@@ -1,4 +1,4 @@
-//! What the kernel of a shape must answer.
+//! The trait that the kernel of a shape implements.
 
 use catoptra_core::glam::DVec3;
 use fearless_simd::Simd;
@@ -69,12 +69,12 @@ pub(crate) struct Crossing<S: Simd> {
     pub(crate) lanes: M<S>,
 }
 
-/// What a kernel says of the way to a target.
+/// What a kernel finds out about segments to a target.
 pub(crate) struct Obstacle<S: Simd> {
     pub(crate) blocking: Blocking<S>,
     /// The facet in question, where it is the same in all lanes.
     pub(crate) facet: Option<u32>,
-    /// Lanes that are told about.
+    /// Lanes that it holds for.
     pub(crate) lanes: M<S>,
 }
 
@@ -93,7 +93,7 @@ pub(crate) trait NearHit<S: Simd> {
     fn facets(&self) -> (U<S>, M<S>);
 }
 
-/// A shape that `f32` can tell about.
+/// A shape that packets are tested against in `f32`.
 pub(crate) trait Kernel {
     /// A face of a solid with flat faces.
     type Face: AsRef<PlaneRow>;
@@ -108,7 +108,7 @@ pub(crate) trait Kernel {
     /// Passes on the nearest crossing ahead of each piece of the shape.
     fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, tried: &Tried<S>, found: impl FnMut(Crossing<S>));
 
-    /// Passes on what stands between the rays' origins and a target.
+    /// Passes on what blocks the segments from the rays' origins to a target.
     fn block<S: Simd>(
         &self,
         s: S,

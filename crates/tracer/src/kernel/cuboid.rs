@@ -54,10 +54,10 @@ impl CuboidRow {
         Self { faces, slabs }
     }
 
-    /// The crossing nearest ahead, and on which facet it lies. `left` tells through which facet rays have come that run
-    /// from the box's surface into it, and is [`NOTHING`] for all others.
+    /// The crossing nearest ahead, and on which facet it lies. `entered` is the facet of rays that run from the box's
+    /// surface into it, and [`NOTHING`] for all others.
     #[inline(always)]
-    pub(crate) fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, left: U<S>) -> (Proposal<S>, U<S>) {
+    pub(crate) fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, entered: U<S>) -> (Proposal<S>, U<S>) {
         let zero = F::splat(s, 0.0);
         let x = self.slabs[0].stretch(s, rays);
         let y = self.slabs[1].stretch(s, rays);
@@ -71,9 +71,10 @@ impl CuboidRow {
             return (nothing, U::splat(s, 0));
         }
         let crosses = enter[1].less(leave[0]);
-        let ahead = zero.less(enter[0]) & left.is(NOTHING);
-        let entered = x.has_begun(zero, left, 0) & y.has_begun(zero, left, 2) & z.has_begun(zero, left, 4);
-        let inside = entered & zero.less(leave[0]);
+        let ahead = zero.less(enter[0]) & entered.is(NOTHING);
+        let begun =
+            x.has_begun(zero, entered, 0) & y.has_begun(zero, entered, 2) & z.has_begun(zero, entered, 4);
+        let inside = begun & zero.less(leave[0]);
         let by_x = x.may_count(inside, enter[0], leave[1]);
         let by_y = y.may_count(inside, enter[0], leave[1]);
         let by_z = z.may_count(inside, enter[0], leave[1]);
@@ -189,8 +190,8 @@ impl Slab {
 impl<S: Simd> Stretch<S> {
     /// Rays that have entered this slab, with the lower one of these facets and the next, for certain.
     #[inline(always)]
-    fn has_begun(&self, zero: F<S>, left: U<S>, lower: u32) -> M<S> {
-        self.near[1].less(zero) | left.is(lower) | left.is(lower + 1)
+    fn has_begun(&self, zero: F<S>, entered: U<S>, lower: u32) -> M<S> {
+        self.near[1].less(zero) | entered.is(lower) | entered.is(lower + 1)
     }
 
     /// Rays that may enter the box through a side of this slab, or leave it there where they begin `inside`: neither is

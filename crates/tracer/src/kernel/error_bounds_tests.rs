@@ -30,17 +30,17 @@ struct Record {
     worst: f64,
 }
 
-/// Aims at a target of the size of so many metres, from so far away.
+/// Makes a ray at a target; the numbers are the target's size and the distance, in metres.
 type Aim = fn(&mut Random, &Target, f64, f64) -> Shot;
 
-/// A place near a rim, of shapes in so many metres.
+/// A point near a rim of a shape whose size is about `unit` metres.
 fn place_near(random: &mut Random, rim: &[DVec3], unit: f64) -> DVec3 {
     let (a, b) = (rim[random.bits() as usize % rim.len()], rim[random.bits() as usize % rim.len()]);
     let share = [0.0, 0.5, random.number()][random.bits() as usize % 3];
     a.lerp(b, share) + random.point() * unit * random.power(-40, -10)
 }
 
-/// From so far away, towards the rim.
+/// From a given distance, towards the rim.
 fn from_afar(random: &mut Random, (_, rim): &Target, unit: f64, reach: f64) -> Shot {
     let target = place_near(random, rim, unit);
     // Some run along an axis, or as good as.
@@ -77,9 +77,9 @@ fn packet<S: Simd>(s: S, shots: &[Shot]) -> Rays<S> {
 /// What a kernel says, and on which facets; `None` for shapes without a kernel.
 fn propose<S: Simd>(s: S, shape: &Shape, shots: &[Shot]) -> Option<(Proposal<S>, U<S>)> {
     let rays = &packet(s, shots);
-    let left = U::load(s, &shots.iter().map(|shot| shot.1.unwrap_or(NOTHING)).collect::<Vec<_>>());
+    let leaving = U::load(s, &shots.iter().map(|shot| shot.1.unwrap_or(NOTHING)).collect::<Vec<_>>());
     let proposal = match shape {
-        Shape::Cuboid(cuboid) => return Some(CuboidRow::new(cuboid, cuboid, 0).propose(s, rays, left)),
+        Shape::Cuboid(cuboid) => return Some(CuboidRow::new(cuboid, cuboid, 0).propose(s, rays, leaving)),
         Shape::Plane(plane) => PlaneRow::new(plane.point(), plane.normal(), 0).propose(s, rays),
         Shape::Sphere(sphere) => {
             SphereRow::new(sphere.center(), sphere.radius()).propose(s, rays, M::splat(s, false))
@@ -92,7 +92,7 @@ fn propose<S: Simd>(s: S, shape: &Shape, shots: &[Shot]) -> Option<(Proposal<S>,
     Some((proposal, U::splat(s, 0)))
 }
 
-/// Targets of the size of so many metres.
+/// Aims at targets of random sizes, which the function gets in metres.
 fn attack(target: impl Fn(&mut Random, f64) -> Option<Target>) -> Record {
     attack_by(from_afar, target)
 }
@@ -113,15 +113,15 @@ fn attack_by(aim: Aim, target: impl Fn(&mut Random, f64) -> Option<Target>) -> R
 fn try_one<S: Simd>(s: S, shape: &Shape, shot: &mut impl FnMut() -> Shot, record: &mut Record) {
     let shots: Vec<Shot> = (0..F::<S>::LANES).map(|_| shot()).collect();
     let Some((proposal, facet)) = propose(s, shape, &shots) else { return };
-    for (lane, (ray, left)) in shots.iter().enumerate() {
+    for (lane, (ray, leaving)) in shots.iter().enumerate() {
         let is = |mask: M<S>| mask.bits() >> lane & 1 == 1;
         if is(proposal.undecided) {
             record.undecided += 1;
             continue;
         }
         record.certain += 1;
-        record.within += u64::from(left.is_some());
-        let exact = shape.cross(ray, Span::AHEAD, *left);
+        record.within += u64::from(leaving.is_some());
+        let exact = shape.cross(ray, Span::AHEAD, *leaving);
         assert_eq!(is(proposal.hit), exact.is_some(), "{ray:?} {shape:?}");
         if let Some(crossing) = exact {
             assert_eq!(facet.lane(lane), crossing.facet, "{ray:?} {shape:?}");

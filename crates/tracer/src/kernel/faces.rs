@@ -1,4 +1,4 @@
-//! Rays against a triangle that stands alone, or against the faces of a solid, one after another.
+//! Rays against a single triangle, or against the faces of a solid, one after another.
 
 use catoptra_core::glam::DVec3;
 use fearless_simd::Simd;

@@ -11,7 +11,7 @@ use super::{
 use crate::lanes::{D3, F, F3, M, U, splat3};
 use crate::numeric::{POINT_ERROR, rounded};
 
-/// A flat shape with an end.
+/// A bounded flat shape.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FlatRow {
     pub(crate) plane: PlaneRow,

@@ -1,4 +1,4 @@
-//! How a packet of rays is tested against one shape in `f32`: what is proposed, and what cannot be decided.
+//! Kernels: test a packet of rays against one shape in `f32`, and mark the lanes that `f32` cannot decide.
 //!
 //! A kernel may leave a lane undecided, never decide it wrongly: undecided lanes go to `f64`, one ray at a time.
 //! A shape without a kernel leaves every lane undecided: slower, the same answer.
@@ -52,7 +52,7 @@ impl<S: Simd> Rays<S> {
     }
 }
 
-/// What a kernel says of the nearest crossing ahead.
+/// The nearest crossing ahead that a kernel proposes.
 #[derive(Clone, Copy)]
 pub(crate) struct Proposal<S: Simd> {
     /// Parameter of the crossing where `hit` holds.
@@ -61,25 +61,25 @@ pub(crate) struct Proposal<S: Simd> {
     pub(crate) error: F<S>,
     /// Where there is a crossing ahead, for certain unless undecided.
     pub(crate) hit: M<S>,
-    /// Where `f32` cannot say.
+    /// Where `f32` cannot decide.
     pub(crate) undecided: M<S>,
 }
 
-/// What a kernel says of a segment.
+/// Whether a kernel finds a segment blocked.
 #[derive(Clone, Copy)]
 pub(crate) struct Blocking<S: Simd> {
     /// Where the segment is blocked, for certain unless undecided.
     pub(crate) blocked: M<S>,
-    /// Where `f32` cannot say.
+    /// Where `f32` cannot decide.
     pub(crate) undecided: M<S>,
 }
 
 /// Where segments end, as kernels see it.
 #[derive(Clone, Copy)]
 pub(crate) struct Target<S: Simd> {
-    /// Metres along each ray; infinite for segments without an end.
+    /// Metres along each ray; infinite for unbounded segments.
     pub(crate) distance: F<S>,
-    /// Where all of them end, if that is known to be one place.
+    /// Where all of them end, if they are known to have a common end.
     pub(crate) end: Option<End>,
 }
 

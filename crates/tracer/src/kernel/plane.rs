@@ -80,7 +80,7 @@ impl PlaneRow {
         }
     }
 
-    /// A plane stands between two points that lie on different sides of it; the target lies `target_behind` it.
+    /// A plane blocks a segment between two points on different sides of it; the target lies `target_behind` it.
     #[inline(always)]
     pub(crate) fn block<S: Simd>(&self, s: S, rays: &Rays<S>, target_behind: f64) -> Blocking<S> {
         let (behind, error) = self.behind(s, rays);

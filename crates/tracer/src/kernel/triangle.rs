@@ -12,7 +12,7 @@ use super::{PlaneRow, Proposal, Rays};
 use crate::lanes::{F, M, cross, magnitude, splat3};
 use crate::numeric::{EDGE_ERROR, magnitude_of, rounded};
 
-/// A triangle that stands alone or is a face of a solid.
+/// A single triangle, or a face of a solid.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TriangleRow {
     /// The plane that it lies in.
@@ -60,7 +60,7 @@ impl TriangleRow {
     }
 }
 
-/// On which side of a triangle's edges rays pass, as far as `f32` can tell.
+/// On which side of a triangle's edges rays pass, within the error bounds of `f32`.
 struct Within<S: Simd> {
     inside: M<S>,
     miss: M<S>,

@@ -1,4 +1,4 @@
-//! Numbers side by side, from the start of a cache line on: so no packet's share of them straddles two lines.
+//! Columns of numbers, aligned to cache lines so that no packet's part of them straddles two lines.
 
 use std::ops::{Deref, DerefMut};
 
@@ -25,7 +25,7 @@ impl<T: Clone> Column<T> {
 
 impl<T> Default for Column<T> {
     fn default() -> Self {
-        // 0 stands for the least alignment of the type, which is a cache line.
+        // 0 means the least alignment of the type, which is a cache line.
         Self(AVec::new(0))
     }
 }

@@ -1,4 +1,4 @@
-//! Which vector instructions the CPU runs, and which functions are compiled for them.
+//! Detects which vector instructions the CPU has, and runs code that is compiled for them.
 
 use fearless_simd::{Level, Simd};
 
@@ -6,7 +6,7 @@ use fearless_simd::{Level, Simd};
 pub(crate) trait Work {
     type Output;
 
-    /// Does it with the instructions that `s` stands for.
+    /// Does it with the instruction set of `s`.
     fn with<S: Simd>(self, s: S) -> Self::Output;
 }
 

@@ -300,14 +300,14 @@ impl<S: Simd> U<S> {
     /// The numbers in the lanes of a mask, each with all lanes that hold it.
     #[inline(always)]
     pub(crate) fn groups(self, mask: M<S>) -> impl Iterator<Item = (u32, M<S>)> {
-        let mut left = mask;
+        let mut remaining = mask;
         std::iter::from_fn(
             #[inline(always)]
             move || {
-                let bits = left.bits();
+                let bits = remaining.bits();
                 let number = (bits != 0).then(|| self.lane(bits.trailing_zeros() as usize))?;
-                let lanes = left & self.is(number);
-                left = left & !lanes;
+                let lanes = remaining & self.is(number);
+                remaining = remaining & !lanes;
                 Some((number, lanes))
             },
         )

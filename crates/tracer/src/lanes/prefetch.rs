@@ -6,7 +6,7 @@ use prefetch_index::prefetch_index;
 const LINE: usize = 64;
 
 /// Asks for all of element `at` of a slice of `T`, whole lines each; `first` is what the first element begins with.
-/// Nothing is read, so no place has to be looked up, and one beyond the end does no harm.
+/// Nothing is read, so no bounds check is needed, and one beyond the end does no harm.
 #[inline(always)]
 pub(crate) fn prefetch<T, P>(first: &[P], at: usize) {
     let (lines, parts) = (size_of::<T>() / LINE, LINE / size_of::<P>());

@@ -1,4 +1,4 @@
-//! What is kept of a sum of light that is not finite?
+//! Replaces sums of light that are not finite by values that a film can hold.
 
 use catoptra_core::Lane;
 

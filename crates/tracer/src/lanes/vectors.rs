@@ -26,19 +26,19 @@ pub(crate) fn splat_wide<S: Simd>(s: S, v: DVec3) -> D3<S> {
     Triple::new(D::splat(s, v.x), D::splat(s, v.y), D::splat(s, v.z))
 }
 
-/// A packet's lanes from place `at` on of three columns.
+/// A packet's lanes of three columns, from index `at` on.
 #[inline(always)]
 pub(crate) fn load3<S: Simd>(s: S, [x, y, z]: &[impl Deref<Target = [f32]>; 3], at: usize) -> F3<S> {
     Triple::new(F::load(s, &x[at..]), F::load(s, &y[at..]), F::load(s, &z[at..]))
 }
 
-/// A packet's lanes from place `at` on of three columns, in `f64`.
+/// A packet's lanes of three columns, from index `at` on, in `f64`.
 #[inline(always)]
 pub(crate) fn load_wide3<S: Simd>(s: S, [x, y, z]: &[impl Deref<Target = [f64]>; 3], at: usize) -> D3<S> {
     Triple::new(D::load(s, &x[at..]), D::load(s, &y[at..]), D::load(s, &z[at..]))
 }
 
-/// Writes a packet's lanes from place `at` on of three columns.
+/// Writes a packet's lanes into three columns, from index `at` on.
 #[inline(always)]
 pub(crate) fn store3<S: Simd>(v: F3<S>, [x, y, z]: &mut [impl DerefMut<Target = [f32]>; 3], at: usize) {
     v.x.store(&mut x[at..]);
@@ -46,7 +46,7 @@ pub(crate) fn store3<S: Simd>(v: F3<S>, [x, y, z]: &mut [impl DerefMut<Target = 
     v.z.store(&mut z[at..]);
 }
 
-/// Writes a packet's lanes from place `at` on of three columns, in `f64`.
+/// Writes a packet's lanes into three columns, from index `at` on, in `f64`.
 #[inline(always)]
 pub(crate) fn store_wide3<S: Simd>(v: D3<S>, [x, y, z]: &mut [impl DerefMut<Target = [f64]>; 3], at: usize) {
     v.x.store(&mut x[at..]);
@@ -60,7 +60,7 @@ pub(crate) fn compress3<S: Simd>(v: F3<S>, mask: M<S>) -> F3<S> {
     Triple::new(v.x.compressed(mask), v.y.compressed(mask), v.z.compressed(mask))
 }
 
-/// Writes the lanes where the mask holds one after another from place `at` on of three columns, and anything after
+/// Writes the lanes where the mask holds one after another into three columns, from index `at` on, and anything after
 /// them, up to all lanes.
 #[inline(always)]
 pub(crate) fn compress_wide3<S: Simd>(

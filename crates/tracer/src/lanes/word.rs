@@ -1,4 +1,4 @@
-//! How one formula over bits serves one number and a register of them: whole numbers of 32 bits.
+//! Whole numbers of 32 bits, one or a register of them, so that one formula over bits serves both.
 
 use fearless_simd::prelude::*;
 
@@ -16,9 +16,9 @@ pub(crate) trait Word: Copy {
     fn xor(self, other: Self) -> Self;
     /// Bits that are set in both.
     fn and(self, other: Self) -> Self;
-    /// Every bit so many places up; fewer than 32.
+    /// Shifts bits to the left by `places`, which is below 32.
     fn shift_up(self, places: u32) -> Self;
-    /// Every bit so many places down; fewer than 32.
+    /// Shifts bits to the right by `places`, which is below 32.
     fn shift_down(self, places: u32) -> Self;
 
     /// Sum with a constant.

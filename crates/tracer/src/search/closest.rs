@@ -1,4 +1,4 @@
-//! What the rays of a packet meet first.
+//! The closest hits of a packet.
 
 use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
@@ -9,12 +9,12 @@ use super::packet::{Packet, PreciseRays};
 use crate::SurfaceId;
 use crate::cull::Candidates;
 use crate::film::NOTHING;
-use crate::kernel::{Kernel, Proposal, Tried};
+use crate::kernel::{Crossing, Kernel, Proposal, Tried};
 use crate::lanes::{Bits, F, M, U, outlined};
 use crate::numeric::{CERTAIN, SETTLED_ERROR};
 use crate::snapshot::{Instance, KernelVisitor, RaySegment};
 
-/// A shape that may be the nearest, as far as `f32` can tell.
+/// A shape that may be the nearest, within the error bounds of `f32`.
 #[derive(Clone, Copy)]
 struct Doubtful<S: Simd> {
     prim: u32,
@@ -22,12 +22,12 @@ struct Doubtful<S: Simd> {
     facet: Option<U<S>>,
     t: F<S>,
     error: F<S>,
-    /// Lanes where `t` is a crossing for certain, and only its place in the order is in doubt.
+    /// Lanes where `t` is a crossing for certain, and only its order among the others is in doubt.
     known: M<S>,
 }
 
 impl<S: Simd> Searcher<'_, S> {
-    /// What every ray meets first of the given shapes.
+    /// The closest hit of every ray among the given shapes.
     #[inline(always)]
     pub(crate) fn closest<P: PreciseRays<S>>(
         &mut self,
@@ -39,7 +39,7 @@ impl<S: Simd> Searcher<'_, S> {
         best
     }
 
-    /// Looks among the given shapes for what is nearer than what has been found.
+    /// Searches the given shapes for hits that are nearer than those found so far.
     #[inline(always)]
     pub(crate) fn look<P: PreciseRays<S>>(
         &mut self,
@@ -51,7 +51,7 @@ impl<S: Simd> Searcher<'_, S> {
         for &row in &shapes.planes {
             let plane = &columns.planes[row as usize];
             let proposal = plane.propose(self.s, &packet.rays);
-            self.consider(packet, best, packet.live, (plane.prim, 0), proposal);
+            self.consider(packet, best, packet.live, SurfaceId { prim: plane.prim, facet: 0 }, proposal);
         }
         for &prim in &columns.general_unbounded {
             self.decide_all(packet, best, packet.live, prim);
@@ -83,7 +83,8 @@ impl<S: Simd> Searcher<'_, S> {
                 for &row in faces {
                     let face = &self.snapshot.columns().triangles[row as usize];
                     let proposal = face.propose(self.s, &packet.rays);
-                    self.consider(&packet, &mut best, packet.live, (face.plane.prim, face.facet), proposal);
+                    let surface = SurfaceId { prim: face.plane.prim, facet: face.facet };
+                    self.consider(&packet, &mut best, packet.live, surface, proposal);
                 }
             },
         );
@@ -109,24 +110,28 @@ impl<S: Simd> Searcher<'_, S> {
         packet: &Packet<'_, S, P>,
         best: &mut Hits<S>,
         live: M<S>,
-        place: (u32, u32),
+        surface: SurfaceId,
         proposal: Proposal<S>,
     ) {
-        let allowed =
-            if packet.leaving.any { live & !packet.leaving.from(self.s, place.0, place.1) } else { live };
-        self.accept(packet, best, allowed, (place.0, U::splat(self.s, place.1)), proposal);
+        let allowed = if packet.leaving.any {
+            live & !packet.leaving.from(self.s, surface.prim, surface.facet)
+        } else {
+            live
+        };
+        let facet = U::splat(self.s, surface.facet);
+        self.accept(packet, best, surface.prim, Crossing { proposal, facet, lanes: allowed });
     }
 
-    /// Takes over a proposal where it is nearer; what cannot be decided is settled in `f64`.
+    /// Takes over a proposal where it is nearer; what `f32` cannot decide is decided in `f64`.
     #[inline(always)]
     fn accept<P: PreciseRays<S>>(
         &mut self,
         packet: &Packet<'_, S, P>,
         best: &mut Hits<S>,
-        allowed: M<S>,
-        (prim, facet): (u32, U<S>),
-        proposal: Proposal<S>,
+        prim: u32,
+        crossing: Crossing<S>,
     ) {
+        let Crossing { proposal, facet, lanes: allowed } = crossing;
         self.stats.tests.shapes += F::<S>::LANES as u64;
         let doubt = proposal.error + best.error;
         let hit = allowed & proposal.hit;
@@ -207,7 +212,7 @@ impl<S: Simd> Searcher<'_, S> {
             let other = best.prim.lane(lane);
             let held = (other != NOTHING).then(|| SurfaceId { prim: other, facet: best.facet.lane(lane) });
             let first = match (facet, held) {
-                // Both are met for certain: only which is first is asked, unless the stretch may begin behind one.
+                // Both are met for certain: only their order is to be decided, unless the span may begin behind one.
                 (Some(facet), Some(held)) if known && P::FROM_ORIGIN => snapshot
                     .surface_precedes(&segment, SurfaceId { prim, facet }, held)
                     .then_some((facet, 0.0)),
@@ -217,7 +222,7 @@ impl<S: Simd> Searcher<'_, S> {
                     let held = held.and_then(|held| cross(held.prim, Some(held.facet)));
                     let hit =
                         hit.filter(|hit| held.is_none_or(|held| snapshot.precedes(&segment, hit, &held)));
-                    hit.map(|hit| (hit.place.facet, hit.crossing.t * ray.direction.length()))
+                    hit.map(|hit| (hit.surface.facet, hit.crossing.t * ray.direction.length()))
                 }
             };
             let Some((facet, metres)) = first else { continue };
@@ -269,9 +274,7 @@ impl<S: Simd, P: PreciseRays<S>> KernelVisitor for TryShape<'_, '_, '_, S, P> {
             &packet.rays,
             &tried,
             #[inline(always)]
-            |crossing| {
-                search.accept(&packet, &mut best, crossing.lanes, (prim, crossing.facet), crossing.proposal);
-            },
+            |crossing| search.accept(&packet, &mut best, prim, crossing),
         );
         best
     }

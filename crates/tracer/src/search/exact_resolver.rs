@@ -1,4 +1,4 @@
-//! What decides for certain where bounds leave open what a mesh does to a ray: exact crossings, one ray at a time.
+//! Decides exactly, one ray at a time, what error bounds leave open between a ray and a mesh.
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::{Geometry, Ray, Span};
@@ -13,7 +13,7 @@ use crate::kernel::mesh::ExactResolver;
 use crate::snapshot::RaySegment;
 use crate::{Hit, Snapshot};
 
-/// Decides what a ray of a packet meets first.
+/// Exact closest hits of the rays of a packet.
 pub(crate) struct ClosestOfPacket<'a, S: Simd, P> {
     pub(crate) snapshot: &'a Snapshot,
     pub(crate) mesh: &'a Mesh,
@@ -44,7 +44,7 @@ impl<S: Simd, P: PreciseRays<S>> ExactResolver for ClosestOfPacket<'_, S, P> {
     }
 }
 
-/// Decides whether a segment is blocked.
+/// Exact occlusion of segments.
 pub(crate) struct AnyInTheWay<'a, S: Simd, G> {
     pub(crate) snapshot: &'a Snapshot,
     pub(crate) mesh: &'a Mesh,

@@ -1,4 +1,4 @@
-//! What rays have met, in registers and in columns.
+//! The closest hits of rays so far, in registers and in columns.
 
 use fearless_simd::Simd;
 

@@ -1,4 +1,4 @@
-//! How a packet finds the triangles of a mesh: all lanes together where they go through one point, else lane by lane.
+//! Closest hits of a packet on a mesh: as a bundle where the rays have a common origin, else ray by ray.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane, LaneMask, Ray, Span};
@@ -10,12 +10,14 @@ use super::hits::Hits;
 use super::packet::{Packet, PreciseRays, drift};
 use crate::SurfaceId;
 use crate::accel::WIDTH;
-use crate::kernel::mesh::{Bundle, ClosestHit, FanRays, LaneTriangles, Lines, RaySetup};
+use crate::kernel::mesh::{
+    BundledRays, ClosestHit, LaneTriangles, Lines, RayBundle, RaySetup, Reach, StartingRays, TreeWalk,
+};
 use crate::lanes::{Bits, D, D3, F, M, U, outlined, splat_wide};
 use crate::numeric::{BOUNDS_ERROR, END_ERROR, POINT_ERROR};
 use crate::snapshot::{Affine, Instance};
 
-/// Stands for no triangle.
+/// No triangle.
 pub(crate) const NONE: u32 = u32::MAX;
 
 impl<S: Simd> Searcher<'_, S> {
@@ -44,16 +46,15 @@ impl<S: Simd> Searcher<'_, S> {
         let Some(mesh) = snapshot.mesh_at(instance.prim) else { return };
         let before = *best;
         let mut exact = ClosestOfPacket { snapshot, mesh, prim: instance.prim, packet, before: &before };
-        let (origin, direction) = self.own_lines(packet, instance);
-        let lines = Lines { origin, direction, live: packet.live };
-        let mut rays = [FanRays::nothing(self.s)];
-        let slots = if let Some(bundle) = Bundle::of(self.s, &mut rays, |_| lines, self.reach(instance)) {
+        let lines = self.own_lines(packet, instance, packet.live);
+        let mut rays = [BundledRays::nothing(self.s)];
+        let slots = if let Some(bundle) = RayBundle::of(self.s, &mut rays, |_| lines, self.reach(instance)) {
             // From metres to depth.
             let scale = rays[0].scale * packet.inverse_length;
             let (begin, end) = (self.begin(packet, scale), self.end(best, scale));
             rays[0].start(self.s, begin, end, packet.leaving.facets_of(self.s, instance.prim));
-            bundle.fan.search(self.s, &instance.tree.tree, self.visits, &mut rays, &mut exact);
-            self.stats.settled += rays[0].settled;
+            bundle.common_origin.search(self.s, &instance.tree.tree, self.visits, &mut rays, &mut exact);
+            self.stats.settled += rays[0].decided;
             rays[0].slot
         } else {
             self.search_each(packet, &lines, best, instance, &mut exact)
@@ -72,7 +73,7 @@ impl<S: Simd> Searcher<'_, S> {
         [low * scale, high * scale * F::splat(self.s, 1.0 + END_ERROR)]
     }
 
-    /// Depths up to which it is worth looking, and bounds on their errors.
+    /// Depths up to which triangles are searched, and bounds on their errors.
     #[inline(always)]
     fn end(&self, best: &Hits<S>, scale: F<S>) -> [F<S>; 2] {
         let most = F::splat(self.s, f32::MAX);
@@ -82,7 +83,7 @@ impl<S: Simd> Searcher<'_, S> {
         [F::pick(near, end, most), F::pick(near, error, F::splat(self.s, 0.0))]
     }
 
-    /// Places of the nearest triangles in the tree's blocks, one lane after another.
+    /// Slots of the nearest triangles in the tree's blocks, one lane after another.
     #[inline(always)]
     fn search_each<P: PreciseRays<S>>(
         &mut self,
@@ -95,8 +96,8 @@ impl<S: Simd> Searcher<'_, S> {
         let leaving = packet.leaving.facets_of(self.s, instance.prim);
         self.ray_setup(lines, instance).search(
             self.s,
-            (&instance.tree.tree, self.visits),
-            (lines.live, leaving),
+            TreeWalk { tree: &instance.tree.tree, visits: self.visits },
+            StartingRays { lanes: lines.live, leaving },
             #[inline(always)]
             |lane| {
                 let found = ClosestHit::nothing_on(packet.span(lane));
@@ -105,7 +106,7 @@ impl<S: Simd> Searcher<'_, S> {
                 }
                 let (metres, length) = (best.t.lane(lane), packet.inverse_length.lane(lane));
                 let error = best.error.lane(lane) + metres * END_ERROR;
-                found.before((metres * length, error * length))
+                found.before(metres * length, error * length)
             },
             exact,
         )
@@ -114,8 +115,8 @@ impl<S: Simd> Searcher<'_, S> {
     /// Lines in a mesh's own space as single rays.
     #[inline(always)]
     pub(crate) fn ray_setup(&self, lines: &Lines<S>, instance: &Instance) -> RaySetup {
-        let (off, reach) = self.reach(instance);
-        RaySetup::of(self.s, lines, F::splat(self.s, off), reach)
+        let reach = self.reach(instance);
+        RaySetup::of(self.s, lines, F::splat(self.s, reach.off), reach.mesh)
     }
 
     /// Takes over triangles that are nearer for certain. Their `t` are functions of ray and triangle alone, however those
@@ -134,9 +135,9 @@ impl<S: Simd> Searcher<'_, S> {
         }
         let triangles = instance.triangles(self.s, slots, taken);
         let facet = triangles.facet;
-        let lines = self.own_lines(packet, instance);
+        let lines = self.own_lines(packet, instance, taken);
         let of_lane = |lane: usize| packet.segment(lane);
-        let t = self.refined_t(instance.prim, lines, taken, &triangles, of_lane).narrow();
+        let t = self.refined_t(instance.prim, &lines, &triangles, of_lane).narrow();
         let metres = (t / packet.inverse_length).min(F::splat(self.s, f32::MAX.next_down()));
         best.t = F::pick(taken, metres, best.t);
         best.error = F::pick(taken, metres * F::splat(self.s, END_ERROR), best.error);
@@ -144,18 +145,17 @@ impl<S: Simd> Searcher<'_, S> {
         best.facet = U::pick(taken, facet, best.facet);
     }
 
-    /// Where rays meet triangles of a mesh that they are known to meet.
+    /// The `t` at which live lines meet triangles of a mesh that they are known to meet.
     #[inline(always)]
     pub(crate) fn refined_t(
         &self,
         prim: u32,
-        (origin, direction): (D3<S>, D3<S>),
-        lanes: M<S>,
+        lines: &Lines<S>,
         triangles: &LaneTriangles<S>,
         segment: impl Fn(usize) -> (Ray, Span, Option<SurfaceId>),
     ) -> D<S> {
-        let (mut t, sure) = triangles.depths(self.s, origin, direction);
-        for lane in Bits((lanes & !sure).bits()) {
+        let (mut t, sure) = triangles.depths(self.s, lines.origin, lines.direction);
+        for lane in Bits((lines.live & !sure).bits()) {
             let (ray, span, leaving) = segment(lane);
             let facet = Some(triangles.facet.lane(lane));
             if let Some(hit) = self.snapshot.cross_part(prim, facet, &ray, span, leaving) {
@@ -165,24 +165,28 @@ impl<S: Simd> Searcher<'_, S> {
         t
     }
 
-    /// The rays of a packet in the mesh's own space.
+    /// The rays of some lanes of a packet in the mesh's own space.
     #[inline(always)]
     pub(crate) fn own_lines<P: PreciseRays<S>>(
         &self,
         packet: &Packet<'_, S, P>,
         instance: &Instance,
-    ) -> (D3<S>, D3<S>) {
+        lanes: M<S>,
+    ) -> Lines<S> {
         let (origin, direction) = packet.precise(self.s);
-        (instance.own_points(self.s, origin), instance.own_vectors(self.s, direction))
+        Lines {
+            origin: instance.own_points(self.s, origin),
+            direction: instance.own_vectors(self.s, direction),
+            live: lanes,
+        }
     }
 
-    /// How far origins may be off, metres of the mesh's own space, beyond what `f64` rounds of their coordinates there; and
-    /// the largest coordinate of the mesh. They are relative to the snapshot's origin, and a mesh that stands far away has
-    /// them rounded as coarsely as its own place.
-    pub(crate) fn reach(&self, instance: &Instance) -> (f32, f32) {
+    /// How far origins may be off in a mesh's own space, and the mesh's largest coordinate. Origins are relative to the
+    /// snapshot's, and those on a mesh that is far from it are rounded as coarsely as the mesh's own position.
+    pub(crate) fn reach(&self, instance: &Instance) -> Reach {
         let drifting = drift(self.snapshot.origin_in_frame()) * POINT_ERROR * instance.scale();
         let shift = instance.to_object.as_ref().map_or(0.0, |affine| affine.shift.abs().element_sum());
-        (drifting + (shift * BOUNDS_ERROR) as f32, instance.tree.reach)
+        Reach { off: drifting + (shift * BOUNDS_ERROR) as f32, mesh: instance.tree.reach }
     }
 
     /// Adds up the nodes and triangles that have been visited.
@@ -241,7 +245,7 @@ impl Instance {
         self.at_corners(s, facets, lanes, self.tree.mesh().positions())
     }
 
-    /// The same with something else that corners have in the place of their positions, such as normals.
+    /// The same with another attribute of corners instead of their positions, such as normals.
     #[inline(always)]
     pub(crate) fn at_corners<S: Simd>(
         &self,
@@ -258,7 +262,7 @@ impl Instance {
         all
     }
 
-    /// The triangles at places in the tree's blocks.
+    /// The triangles at slots of the tree's blocks.
     #[inline(always)]
     pub(crate) fn triangles<S: Simd>(&self, s: S, slots: U<S>, lanes: M<S>) -> LaneTriangles<S> {
         let mut all = LaneTriangles::nothing(s);
@@ -277,7 +281,7 @@ impl Affine {
         D3::new(splat_wide(s, x).dot(v), splat_wide(s, y).dot(v), splat_wide(s, z).dot(v))
     }
 
-    /// The other way, leaving lengths as they are.
+    /// The inverse rotation; lengths stay as they are.
     #[inline(always)]
     fn turn_back<S: Simd>(&self, s: S, v: D3<S>) -> D3<S> {
         let [x, y, z] = self.matrix.map(DVec3::normalize).map(|row| splat_wide(s, row));

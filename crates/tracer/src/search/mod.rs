@@ -1,4 +1,4 @@
-//! What rays meet: the closest surface of every lane, or whether anything stands in its way, and where exactly that is.
+//! Searches a snapshot with packets of rays: closest hits, occlusion, and the exact points and normals at hits.
 
 mod closest;
 mod exact_resolver;
@@ -32,7 +32,7 @@ pub(crate) struct Searcher<'a, S: Simd> {
     pub(crate) s: S,
     pub(crate) snapshot: &'a Snapshot,
     pub(crate) stats: Stats,
-    /// Room for walks through trees of meshes.
+    /// Stacks for walks through trees of meshes.
     pub(crate) visits: &'a mut Visits,
     /// Whether every ray stays outside all convex solids.
     pub(crate) outside: bool,

@@ -1,4 +1,4 @@
-//! Which segments are blocked: those from surfaces to a light, or any others.
+//! Occlusion of segments: of shadow rays from surfaces to a light, or of any others.
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::{LaneMask, Ray, Span};
@@ -8,13 +8,13 @@ use super::Searcher;
 use crate::Snapshot;
 use crate::cull::Candidates;
 use crate::film::NOTHING;
-use crate::kernel::mesh::{Fan, FanRays, RaySetup};
+use crate::kernel::mesh::{BundledRays, CommonOrigin, RaySetup};
 use crate::kernel::{Blocking, Kernel, Leaving, Obstacle, PlaneRow, Rays, Target, Tried};
 use crate::lanes::{Bits, F, M, U};
 use crate::numeric::CERTAIN;
 use crate::snapshot::{Instance, KernelVisitor, Row};
 
-/// Segments that are tested for anything in their way, one in every lane.
+/// Segments that are tested for occlusion, one in every lane.
 #[derive(Clone, Copy)]
 pub(crate) struct ShadowRays<'a, S: Simd> {
     /// The segments as kernels see them; how far their starts and lengths may be off is part of their reach.
@@ -41,19 +41,26 @@ impl<S: Simd> ShadowRays<'_, S> {
     }
 }
 
-/// Where shadow rays stand exactly, for what `f32` cannot decide; and how a mesh is searched for them.
+/// A shape that may block segments, or one facet of it.
+#[derive(Clone, Copy)]
+struct Blocker {
+    prim: u32,
+    facet: Option<u32>,
+}
+
+/// The `f64` segments of shadow rays, for what `f32` cannot decide; and how a mesh is searched for them.
 pub(crate) trait Segments<S: Simd> {
     /// The segment of a lane, in the snapshot's frame.
     fn segment(&self, snapshot: &Snapshot, lane: usize) -> Option<(Ray, Span)>;
 
-    /// The open ones as rays through one point of the mesh's own space, if that is what they are.
+    /// The open ones as a bundle in the mesh's own space, if they have a common origin.
     fn bundle(
         &self,
         search: &Searcher<'_, S>,
         rays: &ShadowRays<'_, S>,
         open: M<S>,
         instance: &Instance,
-    ) -> Option<(Fan, [FanRays<S>; 1])>;
+    ) -> Option<(CommonOrigin, [BundledRays<S>; 1])>;
 
     /// The open ones as single rays in the mesh's own space, and which of them are rays at all.
     fn single_rays(
@@ -70,7 +77,7 @@ pub(crate) trait Segments<S: Simd> {
 }
 
 impl<S: Simd> Searcher<'_, S> {
-    /// Which segments are blocked, where only planes and spheres may stand there and `f32` can tell.
+    /// Which segments are blocked; `None` unless all occluders are planes and spheres and `f32` decides every lane.
     #[inline(always)]
     pub(crate) fn occluded_for_certain(
         &mut self,
@@ -127,7 +134,7 @@ impl<S: Simd> Searcher<'_, S> {
             open = self.close(segments, rays, open, plane.prim, Obstacle { blocking, facet: Some(0), lanes });
         }
         for &prim in &columns.general_unbounded {
-            open = self.close_exactly(segments, rays, open, open, (prim, None));
+            open = self.close_exactly(segments, rays, open, open, Blocker { prim, facet: None });
         }
         if !open.any() {
             return rays.live;
@@ -141,7 +148,7 @@ impl<S: Simd> Searcher<'_, S> {
         rays.live & !open
     }
 
-    /// The segments still open once one bounded shape stands there.
+    /// The segments that one bounded shape does not block.
     #[inline(always)]
     pub(crate) fn occlude_by(
         &mut self,
@@ -167,11 +174,11 @@ impl<S: Simd> Searcher<'_, S> {
         self.stats.tests.shapes += F::<S>::LANES as u64;
         let Obstacle { blocking, facet, lanes } = obstacle;
         let undecided = lanes & blocking.undecided;
-        let left = open & !(lanes & blocking.blocked & !undecided);
+        let remaining = open & !(lanes & blocking.blocked & !undecided);
         if CERTAIN && undecided.any() {
-            self.close_exactly(segments, rays, left, undecided, (prim, facet))
+            self.close_exactly(segments, rays, remaining, undecided, Blocker { prim, facet })
         } else {
-            left
+            remaining
         }
     }
 
@@ -183,10 +190,10 @@ impl<S: Simd> Searcher<'_, S> {
         rays: &ShadowRays<'_, S>,
         open: M<S>,
         lanes: M<S>,
-        surface: (u32, Option<u32>),
+        blocker: Blocker,
     ) -> M<S> {
         let leaving = rays.leaving;
-        let closed = self.closed_lanes(segments, &leaving, (lanes & open).bits(), surface);
+        let closed = self.closed_lanes(segments, &leaving, (lanes & open).bits(), blocker);
         open & !M::from_bits(self.s, closed)
     }
 
@@ -197,14 +204,14 @@ impl<S: Simd> Searcher<'_, S> {
         segments: &impl Segments<S>,
         leaving: &Leaving<S>,
         lanes: u64,
-        (prim, facet): (u32, Option<u32>),
+        blocker: Blocker,
     ) -> u64 {
         let snapshot = self.snapshot;
         let mut closed = 0;
         for lane in Bits(lanes) {
             self.stats.settled += 1;
             let Some((ray, span)) = segments.segment(snapshot, lane) else { continue };
-            if snapshot.cross_part(prim, facet, &ray, span, leaving.lane(lane)).is_some() {
+            if snapshot.cross_part(blocker.prim, blocker.facet, &ray, span, leaving.lane(lane)).is_some() {
                 closed |= 1 << lane;
             }
         }
@@ -212,7 +219,7 @@ impl<S: Simd> Searcher<'_, S> {
     }
 }
 
-/// Tests segments for one shape in their way, on copies; answers those still open.
+/// Tests segments against one shape, on copies; returns those that it does not block.
 struct OccludeBy<'t, 'a, 'b, S: Simd, G> {
     search: &'t mut Searcher<'a, S>,
     segments: &'t G,
@@ -232,7 +239,7 @@ impl<S: Simd, G: Segments<S>> KernelVisitor for OccludeBy<'_, '_, '_, S, G> {
             Tried { prim, lanes: open, leaving, entered: U::splat(s, NOTHING), outside: search.outside };
         if !kernel.faces().is_empty() {
             let hits = search.self_hits_of_segments(&rays, kernel.faces());
-            open = search.close_exactly(segments, &rays, open, hits.undecided, (prim, None));
+            open = search.close_exactly(segments, &rays, open, hits.undecided, Blocker { prim, facet: None });
             tried.lanes = open & hits.possible;
             if !tried.lanes.any() {
                 return open;
@@ -261,6 +268,6 @@ impl<S: Simd, G: Segments<S>> KernelVisitor for OccludeBy<'_, '_, '_, S, G> {
     #[inline(always)]
     fn visit_none(self) -> M<S> {
         let Self { search, segments, rays, open, prim } = self;
-        search.close_exactly(segments, &rays, open, open, (prim, None))
+        search.close_exactly(segments, &rays, open, open, Blocker { prim, facet: None })
     }
 }

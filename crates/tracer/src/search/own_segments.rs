@@ -1,4 +1,4 @@
-//! A packet's own rays as segments on which anything may stand.
+//! The spans of a packet's own rays as segments for occlusion tests.
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::{Ray, Span};
@@ -9,8 +9,8 @@ use super::mesh::ends_of_segments;
 use super::occluded::{Segments, ShadowRays};
 use super::packet::{Packet, PreciseRays};
 use crate::Snapshot;
-use crate::kernel::mesh::{Bundle, Fan, FanRays, Lines, RaySetup};
-use crate::lanes::{F, M};
+use crate::kernel::mesh::{BundledRays, CommonOrigin, Lines, RayBundle, RaySetup};
+use crate::lanes::M;
 use crate::snapshot::Instance;
 
 /// The spans of a packet's rays.
@@ -29,18 +29,18 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for OwnSegments<'_, S, P> {
         rays: &ShadowRays<'_, S>,
         open: M<S>,
         instance: &Instance,
-    ) -> Option<(Fan, [FanRays<S>; 1])> {
+    ) -> Option<(CommonOrigin, [BundledRays<S>; 1])> {
         let s = search.s;
         let [start, end] = self.0.precise.ends(s, self.0.at);
         let (start, end) = (instance.own_points(s, start), instance.own_points(s, end));
         let ahead = Lines { origin: start, direction: end - start, live: open };
         let back = Lines { origin: end, direction: start - end, live: open };
-        let (mut bundled, reach) = ([FanRays::nothing(s)], search.reach(instance));
-        let bundle = Bundle::of(s, &mut bundled, |_| ahead, reach)
-            .or_else(|| Bundle::of(s, &mut bundled, |_| back, reach))?;
+        let (mut bundled, reach) = ([BundledRays::nothing(s)], search.reach(instance));
+        let bundle = RayBundle::of(s, &mut bundled, |_| ahead, reach)
+            .or_else(|| RayBundle::of(s, &mut bundled, |_| back, reach))?;
         let [begin, end] = ends_of_segments(s, bundled[0].scale, bundle.slack);
         bundled[0].start(s, begin, end, rays.leaving.facets_of(s, instance.prim));
-        Some((bundle.fan.for_any(), bundled))
+        Some((bundle.common_origin.for_any(), bundled))
     }
 
     #[inline(always)]
@@ -52,10 +52,7 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for OwnSegments<'_, S, P> {
         instance: &Instance,
         _mesh: &Mesh,
     ) -> (RaySetup, M<S>) {
-        let (origin, direction) = search.own_lines(self.0, instance);
-        let (off, reach) = search.reach(instance);
-        let lines = Lines { origin, direction, live: open };
-        (RaySetup::of(search.s, &lines, F::splat(search.s, off), reach), open)
+        (search.ray_setup(&search.own_lines(self.0, instance, open), instance), open)
     }
 
     fn span(&self, lane: usize) -> Span {

@@ -1,4 +1,4 @@
-//! A packet of rays: one in every lane, in `f32` for kernels and in `f64` behind them, whoever made it.
+//! A packet of rays: one in every lane, in `f32` for kernels and in `f64` for what they leave undecided.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, Ray, Span};
@@ -10,8 +10,8 @@ use crate::kernel::{Leaving, Rays};
 use crate::lanes::{D3, F, F3, M, magnitude};
 use crate::numeric::WORLD_DRIFT;
 
-/// Rays in `f64`, one after another, as those who make packets keep them. They are read anew where they are needed, so
-/// that they take no registers where they are not.
+/// The rays of packets in `f64`, as their source (camera, stream or caller) keeps them. They are read again where they
+/// are needed, so that they take no registers elsewhere.
 pub(crate) trait PreciseRays<S: Simd> {
     /// Whether directions are of unit length, up to rounding in `f32`.
     const UNIT: bool;
@@ -35,7 +35,7 @@ pub(crate) trait PreciseRays<S: Simd> {
     }
 
     /// Where the spans of the packet that begins with ray `at` begin and end, relative to the snapshot's origin; not finite
-    /// for those without an end.
+    /// for unbounded ones.
     fn ends(&self, s: S, at: usize) -> [D3<S>; 2];
 }
 
@@ -76,7 +76,7 @@ impl<S: Simd, P: PreciseRays<S>> Packet<'_, S, P> {
         self.precise.span(self.at + lane)
     }
 
-    /// Ray, span and the surface left of a lane.
+    /// Ray, span and the surface that the ray of a lane leaves.
     pub(crate) fn segment(&self, lane: usize) -> (Ray, Span, Option<SurfaceId>) {
         (self.ray(lane), self.span(lane), self.leaving.lane(lane))
     }

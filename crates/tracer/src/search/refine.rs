@@ -1,4 +1,4 @@
-//! Where exactly the rays of a packet meet what `f32` has found: points and normals in `f64`.
+//! Refines the hits of a packet that `f32` has found: points and normals in `f64`.
 //!
 //! One Newton step from the `f32` distance, evaluated in `f64`, leaves an error of second order: about 2⁻⁴⁵ relative
 //! where the ray is not grazing, and grazing rays have been decided before.
@@ -33,16 +33,16 @@ impl<S: Simd> Searcher<'_, S> {
         best: &Hits<S>,
         lanes: M<S>,
     ) -> Refined<S> {
-        let mut left = lanes.bits();
-        let prim = best.prim.lane(left.trailing_zeros() as usize);
+        let mut remaining = lanes.bits();
+        let prim = best.prim.lane(remaining.trailing_zeros() as usize);
         let mut mask = lanes & best.prim.is(prim);
         let mut refined = self.refine(packet, best, mask, prim);
-        left &= !mask.bits();
-        while left != 0 {
-            let prim = best.prim.lane(left.trailing_zeros() as usize);
+        remaining &= !mask.bits();
+        while remaining != 0 {
+            let prim = best.prim.lane(remaining.trailing_zeros() as usize);
             mask = lanes & best.prim.is(prim);
             refined = self.refine_too(packet, best, mask, prim, refined);
-            left &= !mask.bits();
+            remaining &= !mask.bits();
         }
         refined
     }
@@ -79,7 +79,7 @@ impl<S: Simd> Searcher<'_, S> {
         columns.visit(s, prim, Refine { search: self, packet, best, mask, prim })
     }
 
-    /// As [`refine`](Self::refine), apart; see [`outlined`].
+    /// As [`refine`](Self::refine), [`outlined`].
     #[inline(always)]
     pub(super) fn refine_apart<P: PreciseRays<S>>(
         &mut self,
@@ -136,7 +136,7 @@ impl<S: Simd> Searcher<'_, S> {
         let [of_b, of_c] = weights.map(|weight| weight / across.dot(across));
         let [at_a, at_b, at_c] = at_corners(normals);
         let blend = (at_c - at_a).scale_add(of_c, (at_b - at_a).scale_add(of_b, at_a));
-        // Normals that cancel out tell nothing, nor does NaN.
+        // Normals that cancel out give no direction, nor does NaN.
         let (zero, size) = (D::splat(self.s, 0.0), blend.dot(blend));
         let some = zero.at_most(size) & !size.at_most(zero);
         let shading = pick3(some, unit(self.s, blend), own_normal);

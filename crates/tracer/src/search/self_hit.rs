@@ -17,7 +17,7 @@ pub(crate) struct SelfHits<S: Simd> {
     own: M<S>,
     /// Those that leave another shape, or run into this one.
     pub(crate) possible: M<S>,
-    /// Those that leave it so flatly that `f32` cannot tell whether they run into it.
+    /// Those that leave it so flatly that `f32` cannot decide whether they run into it.
     pub(crate) undecided: M<S>,
 }
 
@@ -73,7 +73,7 @@ impl<S: Simd> Searcher<'_, S> {
         (least.less(slope), slope.less(-least))
     }
 
-    /// `side` tells for certain which rays run to the outer side of a face, and which to the inner.
+    /// `side` gives the rays that run to the outer side of a face for certain, and those that run to the inner.
     #[inline(always)]
     fn self_hits_by(
         &self,

@@ -1,6 +1,6 @@
-//! Points and normals of what the rays of a packet meet, in `f32`: enough to shade with.
+//! Points and normals at the hits of a packet, in `f32`: enough to shade with.
 //!
-//! Whether something stands in the way of a light, and where a reflected ray starts, is decided from the `f64` point.
+//! Shadow tests that `f32` leaves undecided and the origins of reflected rays use the `f64` point instead.
 
 use fearless_simd::Simd;
 

@@ -1,4 +1,5 @@
-//! The segments from what rays have met to a light: backwards from a lamp all lanes together, towards the sun lane by lane.
+//! Shadow rays from hits to a light. Those to a point light are traced backwards as a bundle with a common origin, those
+//! to a directional light one by one.
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::{Arithmetic, Geometry, LaneMask, Ray, Span};
@@ -9,9 +10,9 @@ use super::occluded::{Segments, ShadowRays};
 use super::packet::{Packet, PreciseRays};
 use crate::Snapshot;
 use crate::kernel::Leaving;
-use crate::kernel::mesh::{Bundle, Fan, FanRays, Lines, RaySetup};
+use crate::kernel::mesh::{BundledRays, CommonOrigin, Lines, RayBundle, RaySetup};
 use crate::lanes::{D3, F, M, pick3, splat_wide, widen3};
-use crate::numeric::{END_ERROR, FAN_STEEP, POINT_ERROR, START_ERROR};
+use crate::numeric::{BUNDLE_STEEP, END_ERROR, POINT_ERROR, START_ERROR};
 use crate::snapshot::{Instance, LightRow};
 
 /// Segments from the surfaces that the rays of a packet meet to a light.
@@ -38,7 +39,7 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
         rays: &ShadowRays<'_, S>,
         open: M<S>,
         instance: &Instance,
-    ) -> Option<(Fan, [FanRays<S>; 1])> {
+    ) -> Option<(CommonOrigin, [BundledRays<S>; 1])> {
         if self.light.at_infinity {
             return None;
         }
@@ -46,15 +47,15 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
         let common = instance.own_points(s, splat_wide(s, self.light.place));
         let (start, off) = self.own_starts(search, rays, open, instance);
         let lines = Lines { origin: common, direction: start - common, live: open };
-        let mut bundled = [FanRays::nothing(s)];
-        let bundle = Bundle::of(s, &mut bundled, |_| lines, search.reach(instance))?;
+        let mut bundled = [BundledRays::nothing(s)];
+        let bundle = RayBundle::of(s, &mut bundled, |_| lines, search.reach(instance))?;
         let (scale, zero) = (bundled[0].scale, F::splat(s, 0.0));
         let error = scale.mul_add(F::splat(s, END_ERROR), off);
         let leaving = rays.leaving.facets_of(s, instance.prim);
         bundled[0].start(s, [zero, zero], [scale, error], leaving);
         let steep = bundled[0].error_where_off(s, off);
-        // So close to the lamp that nothing is known of slopes, each goes its own way.
-        (steep < 2.0 - FAN_STEEP).then(|| (bundle.fan.for_any().with_slopes_off(steep), bundled))
+        // So close to the light that the slopes have no useful bound, rays are traced one by one.
+        (steep < 2.0 - BUNDLE_STEEP).then(|| (bundle.common_origin.for_any().with_slopes_off(steep), bundled))
     }
 
     #[inline(always)]
@@ -73,7 +74,7 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
             let lines = Lines { origin, direction: splat_wide(s, sunwards), live: open };
             (RaySetup::of(s, &lines, off, instance.tree.reach), open)
         } else {
-            // The starts of segments to one point tell nothing of their directions.
+            // Rounded starts of segments to one point give no bound on their directions.
             let own = |lane| self.segment(snapshot, lane).map(|(ray, _)| mesh.own_ray(&ray));
             let lines = Lines::gathered(s, open, own);
             let exact = F::splat(s, 0.0);
@@ -106,10 +107,10 @@ impl<S: Simd, P: PreciseRays<S>> ToLight<'_, S, P> {
             return (start, off);
         }
         let triangles = instance.facets(s, rays.leaving.facet, own);
-        let (origin, direction) = search.own_lines(self.packet, instance);
+        let lines = search.own_lines(self.packet, instance, own);
         let of_lane = |lane: usize| self.packet.segment(lane);
-        let t = search.refined_t(instance.prim, (origin, direction), own, &triangles, of_lane);
-        let refined = direction.scale_add(t, origin);
+        let t = search.refined_t(instance.prim, &lines, &triangles, of_lane);
+        let refined = lines.direction.scale_add(t, lines.origin);
         (pick3(own, refined, start), F::pick(own, reach * F::splat(s, START_ERROR), off))
     }
 }

@@ -1,4 +1,4 @@
-//! How a packet walks the trees: one box at a time against all lanes.
+//! Walks the tree over shapes with a packet: one box at a time against all lanes.
 
 use std::ops::Range;
 
@@ -20,7 +20,7 @@ struct Slabs<S: Simd> {
     inverse: F3<S>,
     /// How far boxes are widened for the rounding of the origins.
     pad: F<S>,
-    /// Which way most lanes go along each axis: what decides the order of children.
+    /// Whether most lanes run backwards along each axis: this decides the order of children.
     backwards: [bool; 3],
 }
 
@@ -99,7 +99,7 @@ impl<S: Simd> Searcher<'_, S> {
         }
     }
 
-    /// The segments still open once the scene's bounded shapes stand there. See [`outlined`].
+    /// The segments that no bounded shape of the scene blocks. See [`outlined`].
     #[inline(always)]
     pub(crate) fn occlude_by_tree(
         &mut self,
@@ -143,7 +143,7 @@ fn mostly<S: Simd>(mask: M<S>, of: M<S>) -> bool {
     2 * mask.count() > of.count()
 }
 
-/// A walk under way.
+/// State of a walk: the stack of nodes still to visit.
 struct Walk {
     stack: [u32; MAX_DEPTH],
     depth: usize,
@@ -169,7 +169,7 @@ impl Walk {
         tree.nodes.get(self.at as usize)
     }
 
-    /// Goes on with the children of the node just visited, or gives the places of a leaf's items.
+    /// Goes on with the children of the node just visited, or gives the index range of a leaf's items.
     #[inline(always)]
     fn enter(&mut self, node: &Node, backwards: [bool; 3]) -> Range<usize> {
         if node.count == 0 {

@@ -1,7 +1,7 @@
-//! A few packets on their way from what they meet to what they show.
+//! The packets that are shaded together: their hits, surfaces and light, column by column.
 //!
 //! Each step is taken for all of them before the next, so that the CPU has independent work while square roots and
-//! quotients are under way, and what one step needs stays in registers.
+//! quotients are computed, and what one step needs stays in registers.
 
 use fearless_simd::Simd;
 
@@ -15,7 +15,7 @@ pub(crate) const CHUNK: usize = 8;
 
 /// The packets of a chunk, column by column.
 pub(crate) struct Chunk<S: Simd> {
-    /// Places of their first rays in their batch.
+    /// Indices of their first rays in their batch.
     pub(crate) at: [usize; CHUNK],
     pub(crate) best: [Hits<S>; CHUNK],
     /// What they have met, relative to the snapshot's origin.

@@ -1,4 +1,4 @@
-//! What light arrives at the packets of a chunk, and which shadow rays are traced.
+//! Direct light: adds what every light contributes to the packets of a chunk, and traces shadow rays.
 
 use catoptra_core::light::LightVisitor;
 use catoptra_core::{Arithmetic, Arrival, Emitter, Lane, LaneMask};
@@ -56,7 +56,7 @@ struct Facing<S: Simd> {
 }
 
 impl<S: Simd, B: Batch<S>> AddLight<'_, '_, S, B> {
-    /// Adds a light that nothing stands in the way of, where all normals are geometric.
+    /// Adds a light that nothing occludes, where all normals are geometric.
     #[inline(always)]
     fn add_open<E: Emitter>(&mut self, light: &E) -> Faced {
         let zero = F::splat(self.shader.s, 0.0);
@@ -101,7 +101,7 @@ impl<S: Simd, B: Batch<S>> AddLight<'_, '_, S, B> {
     }
 }
 
-/// What arrives at a packet of the chunk from a light, if nothing stands in its way.
+/// What arrives at a packet of the chunk from a light, if nothing occludes it.
 #[inline(always)]
 fn face<S: Simd, E: Emitter>(
     chunk: &Chunk<S>,
@@ -135,8 +135,8 @@ impl<S: Simd> Shader<'_, S> {
         let rows = self.search.snapshot.light_rows();
         let lit = self.chunk.lit[..count].iter().map(|lit| lit.count()).sum();
         self.search.stats.skipped.unreached += lit * (rows.len() - self.plan.reached.len()) as u64;
-        for place in 0..self.plan.reached.len() {
-            let light = self.plan.reached[place];
+        for index in 0..self.plan.reached.len() {
+            let light = self.plan.reached[index];
             let row = &rows[light];
             outlined(
                 self.s,
@@ -146,7 +146,7 @@ impl<S: Simd> Shader<'_, S> {
         }
     }
 
-    /// Whether nothing stands between the chunk's points and a light, or the light throws no shadows.
+    /// Whether nothing may occlude a light from the chunk's points, or the light throws no shadows.
     #[inline(always)]
     fn is_open(&self, light: usize, shadow: bool) -> bool {
         let general = &self.search.snapshot.columns().general_unbounded;
@@ -167,7 +167,7 @@ impl<S: Simd> Shader<'_, S> {
                 #[inline(always)]
                 || at,
                 #[inline(always)]
-                |lobes| lobes.glossy(&at, facing.arrival.towards, facing.cosine),
+                |lobes| lobes.glossy(&at, facing.arrival.direction, facing.cosine),
             );
             if let Some(shown) = shown {
                 sum = F3::select(mask, shown.times_add(light, sum), sum);
@@ -176,7 +176,7 @@ impl<S: Simd> Shader<'_, S> {
         self.chunk.specular[packet] = sum;
     }
 
-    /// Lanes whose way to a light is blocked.
+    /// Lanes whose shadow rays to a light are blocked.
     #[inline(always)]
     fn shadowed(&mut self, batch: &impl Batch<S>, packet: usize, light: usize, facing: &Facing<S>) -> M<S> {
         let Facing { arrival, lanes, .. } = facing;
@@ -188,7 +188,7 @@ impl<S: Simd> Shader<'_, S> {
         let rays = ShadowRays {
             rays: Rays {
                 origin: point,
-                direction: arrival.towards,
+                direction: arrival.direction,
                 reach: best.error.mul_add(
                     F::splat(self.s, 1.0 / POINT_ERROR),
                     magnitude(point)

@@ -1,4 +1,5 @@
-//! Parts of a picture that one plane, one face of a solid or one sphere fills: every lane meets the same shape and has one material.
+//! Fast path for parts of a picture that one plane, one face of a solid or one sphere fills: every lane meets the same
+//! shape and has one material.
 
 use fearless_simd::Simd;
 
@@ -14,7 +15,7 @@ use crate::stream::{Batch, Part};
 
 /// A shape that can fill a part of a picture.
 trait Filler<S: Simd> {
-    /// What every ray meets of it, ahead of its origin.
+    /// The hit of every ray on it, ahead of the ray's origin.
     fn propose<P: PreciseRays<S>>(&self, s: S, packet: &Packet<'_, S, P>) -> Proposal<S>;
 
     /// Its surface there.
@@ -69,7 +70,7 @@ struct Filled<'a, F> {
 }
 
 impl<S: Simd, R: Filler<S>> Finder<S> for Filled<'_, R> {
-    /// Packets in which the kernel leaves anything undecided go the common way.
+    /// Packets in which the kernel leaves anything undecided are searched like any other.
     #[inline(always)]
     fn fill_slot(&self, shader: &mut Shader<'_, S>, batch: &impl Batch<S>, at: usize, slot: usize) {
         let packet = batch.packet(shader.s, at);

@@ -4,7 +4,7 @@ use fearless_simd::Simd;
 
 use crate::lanes::{M, MOST_LANES};
 
-/// The lanes of a packet by the material they have met: read and written in place, element by element.
+/// The lanes of a packet by the material at their hits: read and written in memory, element by element.
 pub(crate) struct Groups {
     count: usize,
     lanes: [u64; MOST_LANES],

@@ -63,7 +63,7 @@ impl<S: Simd> Shader<'_, S> {
         }
     }
 
-    /// Adds the light of the first packets of the chunk. Compiled apart.
+    /// Adds the light of the first packets of the chunk. See [`outlined`].
     #[inline(always)]
     fn show_chunk(&mut self, batch: &impl Batch<S>, count: usize, tile: &mut Tile, depth: u32) {
         outlined(
@@ -88,18 +88,18 @@ impl<S: Simd> Shader<'_, S> {
         let hits = best.hits() & packet.live;
         let mut lit = M::splat(self.s, false);
         if hits.any() {
-            let mut left = hits.bits();
-            let prim = best.prim.lane(left.trailing_zeros() as usize);
+            let mut remaining = hits.bits();
+            let prim = best.prim.lane(remaining.trailing_zeros() as usize);
             let mask = hits & best.prim.is(prim);
             let mut surface = self.search.surface(packet, best, mask, prim);
             lit = lit | self.add_material_group(mask, prim, slot);
-            left &= !mask.bits();
-            while left != 0 {
-                let prim = best.prim.lane(left.trailing_zeros() as usize);
+            remaining &= !mask.bits();
+            while remaining != 0 {
+                let prim = best.prim.lane(remaining.trailing_zeros() as usize);
                 let mask = hits & best.prim.is(prim);
                 surface = self.search.surface_too(packet, best, mask, prim, surface);
                 lit = lit | self.add_material_group(mask, prim, slot);
-                left &= !mask.bits();
+                remaining &= !mask.bits();
             }
             self.store_surface(packet, slot, surface);
         }
@@ -168,7 +168,7 @@ impl<S: Simd> Shader<'_, S> {
     }
 }
 
-/// The vector the other way round where the mask holds.
+/// The vector, negated where the mask holds.
 #[inline(always)]
 fn face_forward<S: Simd>(mask: M<S>, v: F3<S>) -> F3<S> {
     F3::select(mask, F3::new(-v.x, -v.y, -v.z), v)

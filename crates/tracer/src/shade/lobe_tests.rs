@@ -8,7 +8,7 @@ use fearless_simd::{Level, Simd};
 use crate::lanes::{F, F3, Work, at_level};
 use crate::random::Random;
 
-/// How far directions may lie apart: where 1 − x² is taken of an x near 1, half of the digits are lost.
+/// How far directions may differ: where 1 − x² is taken of an x near 1, half of the digits are lost.
 const APART: f64 = 1e-3;
 
 fn narrow<S: Simd>(s: S, v: Triple<f64>) -> F3<S> {
@@ -38,11 +38,11 @@ fn compare<S: Simd>(s: S, narrow: &impl Scatter<F<S>>, wide: &impl Scatter<f64>)
             continue;
         }
         let many = narrow.sample(&narrow_point(s, &at), u.map(|u| F::splat(s, u)));
-        let towards = [many.towards.x, many.towards.y, many.towards.z].map(|v| f64::from(v.lane(0)));
-        assert!(DVec3::from(towards).distance(one.towards.into()) < APART, "{u:?}: {towards:?}");
+        let direction = [many.direction.x, many.direction.y, many.direction.z].map(|v| f64::from(v.lane(0)));
+        assert!(DVec3::from(direction).distance(one.direction.into()) < APART, "{u:?}: {direction:?}");
         assert_eq!(many.lanes.bits().count_ones() as usize, F::<S>::LANES);
-        let weight = narrow.evaluate(&narrow_point(s, &at), many.towards, many.cosine).x / many.pdf;
-        let expected = wide.evaluate(&at, one.towards, one.cosine).x / one.pdf;
+        let weight = narrow.evaluate(&narrow_point(s, &at), many.direction, many.cosine).x / many.pdf;
+        let expected = wide.evaluate(&at, one.direction, one.cosine).x / one.pdf;
         assert!((f64::from(weight.lane(0)) - expected).abs() < APART * (1.0 + expected), "{u:?}");
         compared += 1;
     }

@@ -1,4 +1,4 @@
-//! Surfaces to light: what the lanes of a packet show under the light that has arrived, beside what they mirror.
+//! The radiance that the lanes of a packet show under the light that has arrived, without mirror reflection.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, LaneMask, Material, Rgb};
@@ -37,7 +37,7 @@ impl<S: Simd> Shader<'_, S> {
         if !self.search.snapshot.material_rows()[material].lobes.mirror {
             self.search.stats.skipped.not_reflective += mask.count();
         }
-        F3::select(mask, self.base(batch, slot, (mask, material)), shown)
+        F3::select(mask, self.base(batch, slot, mask, material), shown)
     }
 
     /// What the lanes of further materials show. Most packets meet one material; see [`outlined`].
@@ -58,7 +58,7 @@ impl<S: Simd> Shader<'_, S> {
 
     /// What the base of the lanes of `mask`, which have one material, shows in its share.
     #[inline(always)]
-    fn base(&mut self, batch: &impl Batch<S>, slot: usize, (mask, material): (M<S>, usize)) -> F3<S> {
+    fn base(&mut self, batch: &impl Batch<S>, slot: usize, mask: M<S>, material: usize) -> F3<S> {
         let snapshot = self.search.snapshot;
         let row = &snapshot.material_rows()[material];
         if row.is_pattern {
@@ -82,8 +82,8 @@ impl<S: Simd> Shader<'_, S> {
         shown.scale(share)
     }
 
-    /// Where `f32` cannot tell on which side of a pattern's edge a point lies, takes one for it that `f64` has found to
-    /// look the same.
+    /// Where `f32` cannot decide on which side of a pattern's edge a point lies, replaces it by one from `f64` that lies in
+    /// the same cell.
     #[inline(always)]
     fn move_off_edges(&mut self, batch: &impl Batch<S>, slot: usize, mask: M<S>, material: &Material) {
         let at = self.shading_point(slot);

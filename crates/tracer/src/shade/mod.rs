@@ -1,4 +1,4 @@
-//! From hits to light: surfaces, the light that arrives at them, what they show of it, and the rays they send on.
+//! Shading: from hits to surfaces, direct light, radiance and reflected rays.
 
 mod chunk;
 mod direct_light;
@@ -27,7 +27,7 @@ pub(crate) struct Shader<'a, S: Simd> {
     pub(crate) s: S,
     pub(crate) search: Searcher<'a, S>,
     pub(crate) view: &'a View,
-    /// What is known of the batch under way.
+    /// What culling knows about the current batch.
     pub(crate) plan: &'a mut TilePlan,
     pub(crate) chunk: &'a mut Chunk<S>,
     /// Rays that surfaces send on.

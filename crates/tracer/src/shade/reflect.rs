@@ -1,4 +1,4 @@
-//! Where the packets of a chunk send their rays on: mirrored, from their points in `f64`.
+//! Queues the mirrored rays of a chunk, from its points in `f64`.
 
 use catoptra_core::LaneMask;
 use fearless_simd::Simd;

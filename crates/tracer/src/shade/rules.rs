@@ -1,5 +1,5 @@
-//! Whitted's rules, once for a path in `f64` and for the lanes of a packet: which reflections are traced, and which way
-//! they run.
+//! Whitted's rules, written once for a path in `f64` and for the lanes of a packet: which reflections are traced, and in
+//! which direction.
 
 use catoptra_core::optics::reflect;
 use catoptra_core::{Lane, LaneMask, Triple};

@@ -1,4 +1,4 @@
-//! Shapes as the SIMD kernels read them: constants in `f32` to propose with and in `f64` to settle with.
+//! Shapes as the SIMD kernels read them: constants in `f32` to propose hits with and in `f64` to refine them with.
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use crate::kernel::{CuboidRow, FlatRow, Kernel, PlaneRow, SphereRow, TriangleRow
 use crate::lanes::outlined;
 use crate::numeric::ORDINARY;
 
-/// Where a mesh stands.
+/// A placed mesh.
 #[derive(Debug, Clone)]
 pub(crate) struct Instance {
     pub(crate) prim: u32,
@@ -71,15 +71,15 @@ impl Ball {
 #[derive(Debug, Default)]
 pub(crate) struct Columns {
     kernels: Rows,
-    /// What stands behind each shape.
+    /// The kernel row of each shape.
     pub(crate) rows: Vec<Row>,
-    /// Shapes that have an end, in the order of the tree's items.
+    /// Bounded shapes, in the order of the tree's items.
     pub(crate) bounded: Vec<u32>,
     /// A ball round each of them, in the same order.
     pub(crate) balls: Vec<Ball>,
     /// Whether any shape shades with another normal than its geometric one.
     pub(crate) smooth: bool,
-    /// Shapes without an end that have no kernel.
+    /// Unbounded shapes that have no kernel.
     pub(crate) general_unbounded: Vec<u32>,
 }
 
@@ -130,8 +130,8 @@ impl Columns {
         }
     }
 
-    /// Shows a visitor what a shape is to kernels. Kernels of common shapes are compiled into the caller, the others apart;
-    /// see [`outlined`].
+    /// Calls a visitor with the kernel of a shape. Kernels of common shapes are inlined into the caller, the others
+    /// [`outlined`].
     #[inline(always)]
     pub(crate) fn visit<S: Simd, V: KernelVisitor>(&self, s: S, prim: u32, visitor: V) -> V::Output {
         let row = self.rows[prim as usize];

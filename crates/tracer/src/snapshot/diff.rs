@@ -60,11 +60,11 @@ pub struct ShapeDiff {
     pub entity: EntityId,
     /// In which snapshot it is.
     pub presence: Presence,
-    /// Whether it has another form or stands elsewhere in the world; so does what is in one snapshot only.
+    /// Whether its form or its placement in the world differs; true for what is in one snapshot only.
     pub shape: bool,
-    /// Whether it looks different: it wears another material, or its material has other values.
+    /// Whether it looks different: it has another material, or its material has other values.
     pub material: bool,
-    /// The box in the world round the earlier shape; `None` without an end, or without a shape.
+    /// The box in the world round the earlier shape; `None` if that is unbounded, or not there.
     pub before: Option<Aabb>,
     /// The same round the later shape.
     pub after: Option<Aabb>,

@@ -1,4 +1,4 @@
-//! How is a snapshot built of what was taken out of a scene, and what does it take over from an earlier one?
+//! Builds a snapshot from what was taken out of a scene, and takes over what is unchanged from an earlier one.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ impl Snapshot {
         Extraction::of(scene).build(MeshTrees::new(preset, pool), None)
     }
 
-    /// Freezes a scene, taking over from an earlier snapshot what is still the same, and tells what is not. The
+    /// Freezes a scene, taking over from an earlier snapshot what is still the same, and returns what is not. The
     /// snapshot is the one that [`extract`](Self::extract) makes, bit for bit; the earlier one may be of another scene.
     #[must_use]
     pub fn after(scene: &Scene, earlier: &Self, pool: &Pool) -> (Self, SnapshotDiff) {

@@ -1,4 +1,4 @@
-//! What does a snapshot take out of a scene?
+//! What a snapshot takes out of a scene.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use catoptra_core::{Camera, Light, Material, MaterialId, Placed, Scene, Settings
 pub struct Extraction {
     pub(super) shapes: Vec<(Placed<Shape>, MaterialId)>,
     pub(super) parts: Arc<Parts>,
-    /// Where the first camera stands.
+    /// Position of the first camera.
     pub(super) eye: Option<DVec3>,
 }
 

@@ -1,4 +1,4 @@
-//! With what are the shapes of a snapshot searched: the kernels' columns, the tree over all shapes, trees over meshes.
+//! The search structures of a snapshot: the kernels' columns, the tree over all bounded shapes, the trees over meshes.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use crate::numeric::BOUNDS_ERROR;
 /// What follows from the shapes alone, wherever light is and whatever they wear.
 #[derive(Debug)]
 pub(super) struct Index {
-    /// Shapes that have no end.
+    /// Unbounded shapes.
     pub(super) unbounded: Vec<u32>,
     /// Shapes that have one, in the order of the tree's items.
     pub(super) bounded: Vec<u32>,
@@ -70,7 +70,7 @@ impl<'a> MeshTrees<'a> {
         self.preset
     }
 
-    /// Which of the trees stands behind a shape.
+    /// The index of a shape's mesh tree; `None` for shapes that are not meshes.
     pub(super) fn of(&mut self, shape: &Shape) -> Option<u32> {
         let Shape::Mesh(mesh) = shape else { return None };
         let mesh = &mesh.source().mesh;

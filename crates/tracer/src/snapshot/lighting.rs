@@ -1,4 +1,4 @@
-//! Materials and lights as the SIMD backend reads them: what it asks of every packet, worked out once.
+//! Materials and lights as the SIMD backend reads them: values that every packet needs, computed once per snapshot.
 
 use catoptra_core::geometry::Plane;
 use catoptra_core::glam::DVec3;
@@ -59,7 +59,7 @@ impl LightRow {
         }
     }
 
-    /// Where it stands, as kernels see it.
+    /// Where it is, as the common end of shadow rays.
     #[inline(always)]
     pub(crate) fn end(&self) -> End {
         if self.at_infinity { End::Towards(self.place) } else { End::At(self.place) }

@@ -29,14 +29,14 @@ use crate::accel::{MeshTree, Preset, Tree};
 use extraction::Parts;
 use index::Index;
 
-/// One shape of a snapshot; its number is its place in the order of entity ids.
+/// One shape of a snapshot; its number is its index in the order of entity ids.
 #[derive(Debug, Clone)]
 pub struct Prim {
-    /// The shape, where it stands in the snapshot's frame.
+    /// The shape, placed in the snapshot's frame.
     pub shape: Shape,
-    /// Which of the snapshot's materials it wears.
+    /// Index of its material in the snapshot.
     pub material: u32,
-    /// Which of the snapshot's mesh trees stands behind a mesh.
+    /// Index of its mesh tree in the snapshot, if it is a mesh.
     pub mesh: Option<u32>,
 }
 
@@ -183,7 +183,7 @@ impl Snapshot {
         self.has_mirrors
     }
 
-    /// The tree over all shapes that have an end; its items are places in [`Columns::bounded`].
+    /// The tree over all bounded shapes; its items are indices into [`Columns::bounded`].
     pub(crate) fn tree(&self) -> &Tree {
         &self.index.tree
     }

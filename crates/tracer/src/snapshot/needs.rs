@@ -1,4 +1,4 @@
-//! What a scene asks of the tracer, in counts.
+//! Counts of what a snapshot holds: shapes, materials, lights, triangles.
 
 use catoptra_core::{Light, Material};
 use serde::Serialize;
@@ -14,9 +14,9 @@ pub struct Needs {
     pub lights: Vec<(&'static str, usize)>,
     /// Materials by kind, most first.
     pub materials: Vec<(&'static str, usize)>,
-    /// Shapes without an end, which stand apart from the tree.
+    /// Unbounded shapes, which are not in the tree.
     pub unbounded: usize,
-    /// Meshes, each counted once however often it stands somewhere.
+    /// Meshes, each counted once however many instances it has.
     pub meshes: usize,
     /// Triangles of those meshes.
     pub triangles: usize,

@@ -1,6 +1,6 @@
-//! Where the coordinates of a snapshot are zero.
+//! Chooses the origin of a snapshot's coordinates.
 //!
-//! `f32` shall be spent on detail and not on distance. What is seen sharply is what stands near the eye, so the origin
+//! `f32` shall be spent on detail and not on distance. What is seen sharply is what is near the eye, so the origin
 //! follows the eye. It stays at the world's where that is near enough, which leaves every coordinate as it was given.
 
 use std::borrow::Cow;
@@ -53,7 +53,7 @@ pub(super) fn frame_for<'a>(mut shapes: impl Iterator<Item = &'a Shape>, origin:
 }
 
 /// Whether a shape can be moved to an origin without rounding. One that is turned or scaled sees rays through its
-/// placement, which rounds them in its own way.
+/// placement, which rounds them differently.
 fn moves_exactly(shape: &Shape, origin: DVec3) -> bool {
     let plain = |placement: &Placement| {
         let stays = Placement::IDENTITY.moved(placement.translation());

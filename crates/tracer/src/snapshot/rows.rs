@@ -1,9 +1,9 @@
-//! Which kernels there are, and which of them stands behind a shape.
+//! The list of kernels, and which of them each shape uses.
 
 use super::Instance;
 use crate::kernel::{CuboidRow, Faces, FlatRow, Kernel, PlaneRow, SphereRow, TriangleRow};
 
-/// What wants to know which kernel stands behind a shape.
+/// Work that is compiled once per kernel; called with the kernel of one shape.
 pub(crate) trait KernelVisitor: Sized {
     /// What the work comes to.
     type Output;
@@ -18,10 +18,11 @@ pub(crate) trait KernelVisitor: Sized {
     fn visit_none(self) -> Self::Output;
 }
 
-/// Declares the kernels: a column of rows, and the name of what stands behind a shape. Those of common shapes come first.
+/// Declares the kernels: a column of rows for each, and the enum [`Row`] that names one. Those of common shapes come
+/// first.
 macro_rules! rows {
     (common: $($common:ident: $Common:ident($CommonRow:ident)),+; other: $($other:ident: $Other:ident($OtherRow:ident)),+;) => {
-        /// What stands behind a shape of the snapshot, by its place in a column.
+        /// The kernel of a shape of the snapshot, with its index in that kernel's column.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub(crate) enum Row {
             $($Common(u32),)+
@@ -52,7 +53,7 @@ macro_rules! rows {
                 }
             }
 
-            /// Shows a visitor what else stands behind a shape.
+            /// Calls a visitor with a kernel that is not one of the common ones.
             #[inline(always)]
             pub(super) fn visit_other<V: KernelVisitor>(&self, row: Row, visitor: V) -> V::Output {
                 match row {

@@ -11,7 +11,7 @@ use super::Snapshot;
 use super::origin::{is_exact, relative};
 use crate::accel::WideTree;
 
-/// A place on a surface that a ray leaves from: that meeting is not found again.
+/// A facet of a shape. A ray that leaves from one does not meet it again at its origin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SurfaceId {
     /// Which shape of the snapshot.
@@ -23,8 +23,8 @@ pub struct SurfaceId {
 /// What a ray meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hit {
-    /// Where on which shape.
-    pub place: SurfaceId,
+    /// The facet of a shape that it meets.
+    pub surface: SurfaceId,
     /// The crossing, in the snapshot's frame.
     pub crossing: Crossing,
 }
@@ -86,21 +86,21 @@ impl Snapshot {
             let crossing = self.shape(segment, prim).cross(
                 segment.ray,
                 segment.until(best).span,
-                facet_left(prim, segment.leaving),
+                leaving_facet(prim, segment.leaving),
             );
             let hit =
-                crossing.map(|crossing| Hit { place: SurfaceId { prim, facet: crossing.facet }, crossing });
+                crossing.map(|crossing| Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing });
             self.closer(segment, best, hit)
         })
     }
 
-    /// The ray of a way relative to the origin, rounded: for boxes, which are wide enough for that.
+    /// The ray of a segment relative to the origin, rounded: for boxes, which are wide enough for that.
     fn box_ray(&self, segment: &RaySegment<'_>) -> Ray {
         let zero = if segment.in_world { self.origin } else { self.origin_in_frame() };
         Ray::new(segment.ray.origin - zero, segment.ray.direction)
     }
 
-    /// A shape where a way's ray is given.
+    /// A shape in the space that a segment's ray is given in.
     fn shape(&self, segment: &RaySegment<'_>, prim: u32) -> Cow<'_, Shape> {
         let shape = &self.prims[prim as usize].shape;
         if segment.in_world { relative(shape, -self.frame) } else { Cow::Borrowed(shape) }
@@ -119,24 +119,24 @@ impl Snapshot {
     pub(crate) fn precedes(&self, segment: &RaySegment<'_>, a: &Hit, b: &Hit) -> bool {
         let order = a.crossing.order(
             &b.crossing,
-            || [a, b].map(|hit| self.root(segment, hit.place)),
-            || [a, b].map(|hit| self.root(segment, hit.place)),
+            || [a, b].map(|hit| self.root(segment, hit.surface)),
+            || [a, b].map(|hit| self.root(segment, hit.surface)),
         );
-        comes_first(order, a.place, b.place)
+        comes_first(order, a.surface, b.surface)
     }
 
     /// As [`precedes`](Self::precedes), of hits that are known to be ones, wherever they are.
     pub(crate) fn surface_precedes(&self, segment: &RaySegment<'_>, a: SurfaceId, b: SurfaceId) -> bool {
         let order = order_of_roots(
-            || [a, b].map(|place| self.root(segment, place)),
-            || [a, b].map(|place| self.root(segment, place)),
+            || [a, b].map(|surface| self.root(segment, surface)),
+            || [a, b].map(|surface| self.root(segment, surface)),
         );
         comes_first(order, a, b)
     }
 
-    fn root<N: Number>(&self, segment: &RaySegment<'_>, place: SurfaceId) -> Verdict<Option<Root<N>>> {
-        let left = facet_left(place.prim, segment.leaving);
-        self.shape(segment, place.prim).root(place.facet, segment.ray, segment.span, left)
+    fn root<N: Number>(&self, segment: &RaySegment<'_>, surface: SurfaceId) -> Verdict<Option<Root<N>>> {
+        let leaving = leaving_facet(surface.prim, segment.leaving);
+        self.shape(segment, surface.prim).root(surface.facet, segment.ray, segment.span, leaving)
     }
 
     /// Where a ray in the snapshot's frame crosses one shape, or the facet of it alone where it is made of facets.
@@ -152,8 +152,8 @@ impl Snapshot {
             return self.cross(prim, &RaySegment::new(ray, span, leaving));
         };
         let shape = &self.prims[prim as usize].shape;
-        let crossing = shape.cross_part(facet, ray, span, facet_left(prim, leaving))?;
-        Some(Hit { place: SurfaceId { prim, facet: crossing.facet }, crossing })
+        let crossing = shape.cross_part(facet, ray, span, leaving_facet(prim, leaving))?;
+        Some(Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing })
     }
 
     /// The mesh that a shape is, if it is one.
@@ -166,19 +166,19 @@ impl Snapshot {
 
     /// Where a ray crosses one shape; meshes by their tree.
     fn cross(&self, prim: u32, segment: &RaySegment<'_>) -> Option<Hit> {
-        let left = facet_left(prim, segment.leaving);
+        let leaving = leaving_facet(prim, segment.leaving);
         let crossing = match (&*self.shape(segment, prim), self.prims[prim as usize].mesh) {
             (Shape::Mesh(mesh), Some(tree)) => {
                 let tree = &self.index.meshes[tree as usize].tree;
-                cross_mesh(mesh, tree, &mesh.own_ray(segment.ray), segment.span, left)
+                cross_mesh(mesh, tree, &mesh.own_ray(segment.ray), segment.span, leaving)
             }
-            (shape, _) => shape.cross(segment.ray, segment.span, left),
+            (shape, _) => shape.cross(segment.ray, segment.span, leaving),
         }?;
-        Some(Hit { place: SurfaceId { prim, facet: crossing.facet }, crossing })
+        Some(Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing })
     }
 }
 
-/// What is asked of a ray.
+/// A ray, the stretch of it that counts, and the surface that it leaves.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RaySegment<'a> {
     pub(crate) ray: &'a Ray,
@@ -207,13 +207,13 @@ fn comes_first(order: Ordering, a: SurfaceId, b: SurfaceId) -> bool {
 }
 
 /// The nearest crossing of a ray in a mesh's own space with its triangles; of crossings in one place, that of the lowest.
-fn cross_mesh(mesh: &Mesh, tree: &WideTree, own: &Ray, span: Span, left: Option<u32>) -> Option<Crossing> {
+fn cross_mesh(mesh: &Mesh, tree: &WideTree, own: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
     let mut best: Option<Crossing> = None;
     tree.walk(own, span, |triangle| {
         let far = |best: Option<Crossing>| best.map_or(span.max, |b| b.latest().min(span.max));
         let within = Span { max: far(best), ..span };
-        if let Some(next) = mesh.cross_piece(triangle, own, within, left) {
-            let precedes = |b: Crossing| match mesh.order(own, span, left, [&next, &b]) {
+        if let Some(next) = mesh.cross_piece(triangle, own, within, leaving) {
+            let precedes = |b: Crossing| match mesh.order(own, span, leaving, [&next, &b]) {
                 Ordering::Equal => next.facet < b.facet,
                 order => order.is_lt(),
             };
@@ -226,6 +226,6 @@ fn cross_mesh(mesh: &Mesh, tree: &WideTree, own: &Ray, span: Span, left: Option<
     best
 }
 
-fn facet_left(prim: u32, leaving: Option<SurfaceId>) -> Option<u32> {
-    leaving.filter(|place| place.prim == prim).map(|place| place.facet)
+fn leaving_facet(prim: u32, leaving: Option<SurfaceId>) -> Option<u32> {
+    leaving.filter(|surface| surface.prim == prim).map(|surface| surface.facet)
 }

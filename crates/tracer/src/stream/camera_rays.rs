@@ -49,7 +49,7 @@ pub(crate) struct CameraPackets<'a, S: Simd> {
     /// Columns and rows of the lanes of each part of a block, in pixels from the block's corner.
     within: [(D<S>, D<S>); BLOCK_PIXELS / 4],
     raster: Raster,
-    /// The sample's place within a pixel.
+    /// The sample's position within a pixel.
     share: [f64; 2],
     x: u32,
     y: u32,
@@ -57,7 +57,7 @@ pub(crate) struct CameraPackets<'a, S: Simd> {
     pub(crate) height: u32,
     /// Whether pixels hold nothing yet.
     pub(crate) fresh: bool,
-    /// Whether what is met here stands for the pixel.
+    /// Whether the hits of this sample are kept as the pixels' surfaces and depths.
     pub(crate) kept: bool,
 }
 
@@ -128,7 +128,7 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
         }
     }
 
-    /// Where the block and the part of it stand that a place in the tile's columns lies in.
+    /// Where the block and the part of it are that an index of the tile's columns belongs to.
     #[inline(always)]
     fn corner_of(&self, at: usize) -> (u32, u32, usize) {
         let (block, part) = (at as u32 / BLOCK_PIXELS as u32, at % BLOCK_PIXELS / F::<S>::LANES);
@@ -136,7 +136,7 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
         (block % blocks_across * BLOCK, block / blocks_across * BLOCK, part)
     }
 
-    /// Columns and rows of the whole picture that the packet at a place in the tile's columns has its pixels in.
+    /// Columns and rows of the whole picture that the packet at an index of the tile's columns has its pixels in.
     #[inline(always)]
     pub(crate) fn pixels_of_picture(&self, s: S, at: usize) -> [U<S>; 2] {
         let (x, y, part) = self.corner_of(at);
@@ -145,7 +145,7 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
         [columns.plus_number(self.x + x), rows.plus_number(self.y + y)]
     }
 
-    /// Directions of the packet at a place in the tile's columns: those of [`Raster::ray`], bit for bit.
+    /// Directions of the packet at an index of the tile's columns: those of [`Raster::ray`], bit for bit.
     #[inline(always)]
     pub(crate) fn directions(&self, s: S, at: usize) -> D3<S> {
         let (x, y, part) = self.corner_of(at);
@@ -165,13 +165,13 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
         self.across.scale_add(columns + D::splat(s, f64::from(self.x + x)), row)
     }
 
-    /// Which lanes at a place in the tile's columns lie within the picture.
+    /// Which lanes at an index of the tile's columns lie within the picture.
     #[inline(always)]
     pub(crate) fn live_lanes(&self, s: S, at: usize) -> M<S> {
         M::from_bits(s, self.rays.live[at])
     }
 
-    /// The packet at a place in the tile's columns.
+    /// The packet at an index of the tile's columns.
     #[inline(always)]
     pub(crate) fn packet_at(&self, s: S, at: usize) -> Packet<'_, S, Self> {
         let direction = load3(s, &self.rays.direction, at);
@@ -190,7 +190,7 @@ impl<S: Simd> PreciseRays<S> for CameraPackets<'_, S> {
     const UNIT: bool = false;
     const FROM_ORIGIN: bool = true;
 
-    /// The ray of the pixel at a place in the tile's columns.
+    /// The ray of the pixel at an index of the tile's columns.
     fn ray(&self, at: usize) -> Ray {
         let (x, y, _) = self.corner_of(at);
         let within = at as u32 % BLOCK_PIXELS as u32;

@@ -41,12 +41,12 @@ impl<S: Simd, const N: usize> LaneBounds<S, N> {
     /// Adds the lanes of a mask to the boxes of their shapes.
     #[inline(always)]
     pub(crate) fn add(&mut self, lanes: M<S>, prims: U<S>, vectors: &[F3<S>; N]) {
-        let mut left = lanes.bits();
-        while left != 0 {
-            let prim = prims.lane(left.trailing_zeros() as usize);
+        let mut remaining = lanes.bits();
+        while remaining != 0 {
+            let prim = prims.lane(remaining.trailing_zeros() as usize);
             let mask = lanes & prims.is(prim);
             self.grow(prim, mask, vectors);
-            left &= !mask.bits();
+            remaining &= !mask.bits();
         }
     }
 
@@ -59,7 +59,7 @@ impl<S: Simd, const N: usize> LaneBounds<S, N> {
         }
         if at == self.count {
             if self.count == MOST_SHAPES {
-                // The last place takes in what has no place of its own, under no name.
+                // The last entry collects all shapes that have no entry of their own, under no number.
                 at = MOST_SHAPES - 1;
                 self.prims[at] = NOTHING;
             } else {
@@ -83,7 +83,7 @@ impl<S: Simd, const N: usize> LaneBounds<S, N> {
         self.count
     }
 
-    /// The boxes of a shape; [`NOTHING`] stands for many.
+    /// The boxes of a shape; [`NOTHING`] means several shapes together.
     #[inline(always)]
     pub(crate) fn get(&self, at: usize) -> (u32, [Aabb; N]) {
         let mut bounds = [Aabb::EMPTY; N];

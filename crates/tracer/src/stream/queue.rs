@@ -98,7 +98,7 @@ impl Queue {
         }
     }
 
-    /// The rays of a packet as segments to be tested for anything in their way.
+    /// The rays of a packet as segments for occlusion tests.
     #[inline(always)]
     pub(crate) fn shadow_rays<S: Simd>(&self, s: S, packet: &Packet<'_, S, Self>) -> ShadowRays<'static, S> {
         // Lengths are off by a share of themselves, as are those of directions.
@@ -115,8 +115,8 @@ impl Queue {
     /// Which lanes from ray `at` on are rays.
     #[inline(always)]
     pub(crate) fn live_lanes<S: Simd>(&self, s: S, at: usize) -> M<S> {
-        let (lanes, left) = (F::<S>::LANES, self.length - at);
-        M::from_bits(s, if left >= lanes { u64::MAX >> (64 - lanes) } else { (1 << left) - 1 })
+        let (lanes, remaining) = (F::<S>::LANES, self.length - at);
+        M::from_bits(s, if remaining >= lanes { u64::MAX >> (64 - lanes) } else { (1 << remaining) - 1 })
     }
 
     /// How much of the light along the rays from `at` on counts.

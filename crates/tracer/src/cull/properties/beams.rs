@@ -22,7 +22,7 @@ struct Tally {
     left_out: u32,
     /// Points of planes near the border of their bounds.
     near_bounds: u32,
-    /// Beams whose rays may cross planes without an end.
+    /// Beams whose rays may cross planes in an unbounded region.
     endless: u32,
 }
 
@@ -57,7 +57,11 @@ impl Streams<'_> {
                     let prims = self.snapshot.prims();
                     format!("{ray:?} {leaving:?} {:#?} {reachable:#?} of {prims:#?}", self.beams)
                 };
-                assert!(holds(&reachable, self.snapshot, hit.place), "{hit:?} is not reachable: {}", what());
+                assert!(
+                    holds(&reachable, self.snapshot, hit.surface),
+                    "{hit:?} is not reachable: {}",
+                    what()
+                );
                 let point = ray.at(hit.crossing.t) - self.snapshot.origin_in_frame();
                 let own = reachable.points.iter().filter(|bounds| bounds.prim == prim);
                 let depth = own.map(|bounds| depth_in(bounds, point)).fold(f64::INFINITY, f64::min);
@@ -67,8 +71,8 @@ impl Streams<'_> {
             }
             tally.crossings += met;
             tally.barely += u32::from(met == 1);
-            let place = SurfaceId { prim, facet: 0 };
-            tally.left_out += u32::from(!holds(&reachable, self.snapshot, place));
+            let surface = SurfaceId { prim, facet: 0 };
+            tally.left_out += u32::from(!holds(&reachable, self.snapshot, surface));
         }
     }
 }
@@ -81,11 +85,12 @@ pub(super) fn mirrored(ray: &Ray, t: f64, normal: DVec3) -> Ray {
 
 /// The rays that surfaces send on, as beams, shape by shape.
 pub(super) fn beams_of(snapshot: &Snapshot, sent: &[Sent]) -> Vec<Beam> {
-    let mut prims: Vec<u32> = sent.iter().filter_map(|(_, place)| Some(place.as_ref()?.prim)).collect();
+    let mut prims: Vec<u32> = sent.iter().filter_map(|(_, surface)| Some(surface.as_ref()?.prim)).collect();
     prims.sort_unstable();
     prims.dedup();
     let beam = |prim: u32| {
-        let own = || sent.iter().filter(move |(_, place)| place.is_some_and(|place| place.prim == prim));
+        let own =
+            || sent.iter().filter(move |(_, surface)| surface.is_some_and(|surface| surface.prim == prim));
         let starts = own().map(|(ray, _)| ray.origin - snapshot.origin_in_frame());
         Beam::new(prim, narrow_box(starts), narrow_box(own().map(|(ray, _)| ray.direction)))
     };
@@ -108,7 +113,7 @@ fn what_mirrored_rays_cross_is_reachable() {
             .iter()
             .filter_map(|(ray, _)| {
                 let hit = snapshot.nearest(ray, Span::AHEAD, None)?;
-                Some((mirrored(ray, hit.crossing.t, hit.crossing.normal), Some(hit.place)))
+                Some((mirrored(ray, hit.crossing.t, hit.crossing.normal), Some(hit.surface)))
             })
             .collect();
         let outside = frame.outside_solids;
@@ -121,7 +126,7 @@ fn what_mirrored_rays_cross_is_reachable() {
     assert!(tally.left_out > 3_000 && tally.near_bounds > 400 && tally.endless > 50, "{tally:?}");
 }
 
-/// A box of so many metres: a cube, or one that is flat along some axes.
+/// A box of `size` metres: a cube, or one that is flat along some axes.
 pub(super) fn some_box(random: &mut Random, center: DVec3, size: f64) -> Aabb {
     let half = if one_in(random, 2) {
         DVec3::splat(size)

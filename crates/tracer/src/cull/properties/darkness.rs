@@ -1,4 +1,4 @@
-//! Do mirrors that are said to send rays on into darkness do so?
+//! Do mirrors that are marked as dark reflect nothing but the background?
 
 use catoptra_core::geometry::Sphere;
 use catoptra_core::glam::DVec3;
@@ -35,25 +35,34 @@ fn send_on(snapshot: &Snapshot, plan: &TilePlan, rays: &[Sent]) -> Vec<Sent> {
     };
     let sent: Vec<(Ray, Hit)> = rays.iter().filter_map(meet).collect();
     for (ray, hit) in &sent {
-        if plan.dark.contains(&hit.place.prim) {
-            let next = snapshot.nearest(ray, Span::AHEAD, Some(hit.place));
+        if plan.dark.contains(&hit.surface.prim) {
+            let next = snapshot.nearest(ray, Span::AHEAD, Some(hit.surface));
             let prims = snapshot.prims();
-            assert!(next.is_none(), "{next:?} after {:?} on {ray:?}: {:?} {prims:#?}", hit.place, plan.dark);
+            assert!(
+                next.is_none(),
+                "{next:?} after {:?} on {ray:?}: {:?} {prims:#?}",
+                hit.surface,
+                plan.dark
+            );
         }
     }
-    sent.into_iter().map(|(ray, hit)| (ray, Some(hit.place))).collect()
+    sent.into_iter().map(|(ray, hit)| (ray, Some(hit.surface))).collect()
 }
 
 /// How many rays leave dark mirrors.
 fn dark_ones(plan: &TilePlan, sent: &[Sent]) -> u32 {
-    sent.iter().filter(|(_, place)| place.is_some_and(|place| plan.dark.contains(&place.prim))).count() as u32
+    sent.iter()
+        .filter(|(_, surface)| surface.is_some_and(|surface| plan.dark.contains(&surface.prim)))
+        .count() as u32
 }
 
 /// Mirrors of which only one of the rays tried meets anything.
 fn nearly_dark(snapshot: &Snapshot, sent: &[Sent]) -> u32 {
     let prims = 0..snapshot.prims().len() as u32;
-    let meets = |(ray, place): &&Sent| snapshot.nearest(ray, Span::AHEAD, *place).is_some();
-    let own = |prim: u32| sent.iter().filter(move |(_, place)| place.is_some_and(|place| place.prim == prim));
+    let meets = |(ray, surface): &&Sent| snapshot.nearest(ray, Span::AHEAD, *surface).is_some();
+    let own = |prim: u32| {
+        sent.iter().filter(move |(_, surface)| surface.is_some_and(|surface| surface.prim == prim))
+    };
     prims.filter(|&prim| own(prim).count() > 4 && own(prim).filter(meets).count() == 1).count() as u32
 }
 

@@ -1,5 +1,5 @@
 //! Do the bounds keep all that matters? Rays aimed at the very borders of what they let go, against the shapes' own exact
-//! answers, and counts that tell whether those borders were met at all.
+//! answers, and counts that show whether those borders were met at all.
 
 mod beams;
 mod darkness;
@@ -15,18 +15,18 @@ use super::{Candidates, Frustum, PointBounds};
 use crate::snapshot::Row;
 use crate::{Frame, Region, Snapshot, SurfaceId};
 
-/// Whether a search among candidates would find a place.
-fn holds(candidates: &Candidates, snapshot: &Snapshot, place: SurfaceId) -> bool {
+/// Whether a search among candidates would find a surface.
+fn holds(candidates: &Candidates, snapshot: &Snapshot, surface: SurfaceId) -> bool {
     let columns = snapshot.columns();
-    match columns.rows[place.prim as usize] {
+    match columns.rows[surface.prim as usize] {
         Row::Plane(row) => candidates.planes.contains(&row),
-        Row::General if columns.general_unbounded.contains(&place.prim) => true,
+        Row::General if columns.general_unbounded.contains(&surface.prim) => true,
         _ => {
             let face = |row: &u32| {
                 let face = &columns.triangles[*row as usize];
-                face.plane.prim == place.prim && face.facet == place.facet
+                face.plane.prim == surface.prim && face.facet == surface.facet
             };
-            candidates.tree || candidates.bounded.contains(&place.prim) || candidates.faces.iter().any(face)
+            candidates.tree || candidates.bounded.contains(&surface.prim) || candidates.faces.iter().any(face)
         }
     }
 }

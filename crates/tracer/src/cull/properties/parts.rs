@@ -17,7 +17,7 @@ pub(super) fn one_of<'a, T>(random: &mut Random, list: &'a [T]) -> &'a T {
     &list[random.bits() as usize % list.len()]
 }
 
-/// Whether something of such a chance, one in so many, comes to pass.
+/// True with a chance of one in `many`.
 pub(super) fn one_in(random: &mut Random, many: u64) -> bool {
     random.bits().is_multiple_of(many)
 }
@@ -72,7 +72,7 @@ fn some_mesh(random: &mut Random, size: f64) -> MeshSource {
     MeshSource { path: String::new(), mesh: Arc::new(mesh) }
 }
 
-/// A part of some kind, about so many metres large, near zero.
+/// A part of some kind near zero, about `size` metres large.
 fn some_part<T>(random: &mut Random, kind: &Kind<T>, size: f64) -> T {
     let mut part = || {
         let mut given = Given::default();

@@ -1,4 +1,4 @@
-//! Does a plan keep every light that reaches what is seen, and all that stands in its way?
+//! Does a plan keep every light that reaches what is seen, and all that may occlude it?
 
 use std::f64::consts::{PI, TAU};
 
@@ -21,14 +21,14 @@ use crate::{Frame, Skip, Snapshot, SurfaceId};
 #[derive(Debug, Default)]
 struct Tally {
     blocked: u32,
-    /// Shapes in the way of the light to one point only.
+    /// Shapes that occlude the light from one point only.
     barely: u32,
-    /// Lights with nothing in their way.
+    /// Lights that nothing occludes.
     open: u32,
     lit: u32,
     /// Lights that shine on one point only.
     barely_lit: u32,
-    /// Points on which a light shines in `f64` and not in `f32`, or the other way round.
+    /// Points that a light reaches in `f64` and not in `f32`, or the reverse.
     differently_lit: u32,
     /// Lights that reach nothing.
     unreached: u32,
@@ -55,7 +55,7 @@ struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// Whatever stands between a point and a light is among its occluders, and what is lit is known to be.
+    /// Whatever occludes a light from a point is among its occluders, and what is lit is known to be.
     fn check(&self, tally: &mut Tally) {
         let snapshot = self.snapshot;
         let mut plan = TilePlan::default();
@@ -90,13 +90,13 @@ impl Scene<'_> {
             // Not up to a light that lies in a plane but for rounding: on which side it is said to be differs.
             let span = if span.max < 1.0 { Span::until(1.0 - 1e-12) } else { span };
             // What faces a light is not shadowed by its own convex solid.
-            let own = leaving.is_some_and(|place| place.prim == prim);
+            let own = leaving.is_some_and(|surface| surface.prim == prim);
             if own && self.outside && self.snapshot.columns().is_convex(prim) {
                 continue;
             }
             if let Some(hit) = self.snapshot.cross_part(prim, None, &ray, span, *leaving) {
                 blocked += 1;
-                let found = holds(occluders, self.snapshot, hit.place);
+                let found = holds(occluders, self.snapshot, hit.surface);
                 let prims = self.snapshot.prims();
                 assert!(found, "{hit:?} on {ray:?}: {leaving:?} {occluders:?} {:#?} {prims:#?}", self.bounds);
             }
@@ -122,7 +122,7 @@ fn what_keeps_light_from_what_is_seen_is_among_its_occluders() {
         let rays = stage.rays(&frame, &region).into_iter();
         let seen = rays.filter_map(|ray| {
             let hit = snapshot.nearest(&ray, Span::AHEAD, None)?;
-            Some((ray.at(hit.crossing.t), Some(hit.place)))
+            Some((ray.at(hit.crossing.t), Some(hit.surface)))
         });
         let seen: Vec<Seen> = seen.collect();
         let visible = seen_in(&frame, &region);
@@ -142,7 +142,9 @@ fn what_keeps_light_from_what_is_seen_is_among_its_occluders() {
 pub(super) fn bounds_of(snapshot: &Snapshot, seen: &[Seen]) -> Vec<PointBounds> {
     let prims = 0..snapshot.prims().len() as u32;
     let own = |prim: u32| {
-        seen.iter().filter(move |(_, place)| place.is_some_and(|place| place.prim == prim)).map(|(p, _)| *p)
+        seen.iter()
+            .filter(move |(_, surface)| surface.is_some_and(|surface| surface.prim == prim))
+            .map(|(p, _)| *p)
     };
     let bounds = |prim: u32| {
         let points = own(prim).map(|p| p - snapshot.origin_in_frame());
@@ -151,7 +153,7 @@ pub(super) fn bounds_of(snapshot: &Snapshot, seen: &[Seen]) -> Vec<PointBounds> 
     prims.filter(|&prim| own(prim).next().is_some()).map(bounds).collect()
 }
 
-/// A light of any kind at a place, shining some way.
+/// A light of any kind at a point, shining along `way`.
 fn light_at(random: &mut Random, place: DVec3, way: DVec3) -> Light {
     let mut light = some_light(random, DVec3::ZERO, 1.0);
     for field in light.kind().fields {
@@ -164,7 +166,7 @@ fn light_at(random: &mut Random, place: DVec3, way: DVec3) -> Light {
     light
 }
 
-/// Shapes that just stand in the way from a point, which lies outwards in its box, to a light.
+/// Shapes that only just block the segment from a point, which lies outwards in its box, to a light.
 fn just_between(random: &mut Random, way: &Ray, reach: f64, outwards: DVec3, unit: f64) -> Vec<Shape> {
     let mut shapes = Vec::new();
     let along = way.direction.normalize();
@@ -177,7 +179,7 @@ fn just_between(random: &mut Random, way: &Ray, reach: f64, outwards: DVec3, uni
         };
         let radius = unit * random.power(-12, 4);
         let any = if one_in(random, 4) { random.point() } else { outwards };
-        // Beside the way; beyond its ends only along it.
+        // Beside the segment; beyond its ends only along it.
         let beyond = if share == 0.0 { -along } else { along };
         let ends = share == 0.0 || share == 1.0;
         let aside = if ends { beyond } else { any.reject_from(along).normalize_or(DVec3::X) };

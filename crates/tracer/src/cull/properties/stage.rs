@@ -93,7 +93,7 @@ pub(super) struct Stage<'a> {
 }
 
 impl<'a> Stage<'a> {
-    /// With so many shapes at most.
+    /// With `most` shapes at most.
     pub(super) fn new(random: &'a mut Random, most: u64) -> Self {
         let count = if one_in(random, 2) { 1 + random.bits() % 2 } else { 1 + random.bits() % most };
         let stand = Stand::random(random);
@@ -146,7 +146,7 @@ impl<'a> Stage<'a> {
             f64::from(region.y) + f64::from(region.size.height) / 2.0,
         ];
         let inwards = raster.ray(middle[0], middle[1]).direction - ray.direction;
-        // Perpendicular to the ray and to the nearest side of the picture, or to the way to the middle.
+        // Perpendicular to the ray and to the nearest side of the picture, or to the direction to the middle.
         let ways = [raster.across, raster.down, inwards.cross(ray.direction)];
         let normal = one_of(self.random, &ways).cross(ray.direction).normalize_or(DVec3::X);
         let inwards = normal * inwards.dot(normal).signum();

@@ -61,9 +61,9 @@ impl Look<'_> {
     }
 
     fn check(&mut self, ray: &Ray, hit: &Hit) {
-        let prim = hit.place.prim;
+        let prim = hit.surface.prim;
         let point = ray.at(hit.crossing.t) - self.snapshot.origin_in_frame();
-        let held = holds(self.seen, self.snapshot, hit.place) || self.is_on_face(prim, point);
+        let held = holds(self.seen, self.snapshot, hit.surface) || self.is_on_face(prim, point);
         assert!(held, "{hit:?} is not among the candidates: {}", self.what(ray));
         assert!(
             !self.seen.is_empty() || !self.snapshot.columns().general_unbounded.is_empty(),
@@ -124,7 +124,7 @@ impl Look<'_> {
     /// Rays through the whole region, and aimed at what is met by a hair.
     fn shoot(&mut self, stage: &mut Stage<'_>) {
         let places = stage.places(self.frame, &self.region).into_iter();
-        let met: Vec<Option<u32>> = places.map(|at| self.meet(at).map(|hit| hit.place.prim)).collect();
+        let met: Vec<Option<u32>> = places.map(|at| self.meet(at).map(|hit| hit.surface.prim)).collect();
         let count = |prim: Option<u32>| met.iter().filter(|&&other| other == prim).count();
         self.tally.barely += u32::from(met.iter().any(|prim| prim.is_some() && count(*prim) == 1));
         let most = met.iter().filter(|prim| prim.is_some()).map(|&prim| count(prim)).max().unwrap_or(0);

@@ -7,7 +7,7 @@ use catoptra_core::{Ray, Rgb, Span};
 use super::DIRECTION;
 use crate::Hit;
 use crate::integrator::Search;
-use crate::integrator::walker::{CameraRay, Meeting, Walker};
+use crate::integrator::walker::{CameraRay, SurfaceHit, Walker};
 use crate::sampler::share;
 
 impl<S: Search> Walker<'_, S> {
@@ -17,23 +17,23 @@ impl<S: Search> Walker<'_, S> {
         let Some(hit) = self.search.nearest(self.frame.snapshot, &camera.ray, Span::AHEAD, None) else {
             return (Rgb::WHITE, None);
         };
-        let meeting = self.meet(hit, camera.ray);
+        let surface = self.surface_at(hit, camera.ray);
         let numbers = camera.sampler.pair(camera.sample, DIRECTION).map(share);
-        let (direction, _) = Diffuse::direction(meeting.shading.normal, numbers);
-        let light = if self.sees_sky(&meeting, direction.into()) { Rgb::WHITE } else { Rgb::BLACK };
+        let (direction, _) = Diffuse::direction(surface.shading.normal, numbers);
+        let light = if self.sees_sky(&surface, direction.into()) { Rgb::WHITE } else { Rgb::BLACK };
         (light, Some(hit))
     }
 
     /// Whether nothing is met along a direction; directions below the surface that a smooth normal leads to meet the
     /// surface itself.
-    fn sees_sky(&mut self, meeting: &Meeting<'_>, direction: DVec3) -> bool {
-        if !(direction.dot(meeting.normal) > 0.0) {
+    fn sees_sky(&mut self, surface: &SurfaceHit<'_>, direction: DVec3) -> bool {
+        if !(direction.dot(surface.normal) > 0.0) {
             self.stats.skipped.below_surface += 1;
             return false;
         }
         self.stats.rays.occlusion += 1;
-        let ray = Ray::new(meeting.point, direction);
+        let ray = Ray::new(surface.point, direction);
         let span = Span::until(self.frame.view.occlusion_distance);
-        !self.search.occluded(self.frame.snapshot, &ray, span, Some(meeting.hit.place))
+        !self.search.occluded(self.frame.snapshot, &ray, span, Some(surface.hit.surface))
     }
 }

@@ -6,7 +6,7 @@ use catoptra_core::{Arrival, Light, Lobes, Ray, Rgb, Span, Triple};
 
 use crate::Hit;
 use crate::integrator::Search;
-use crate::integrator::walker::{Meeting, Walker};
+use crate::integrator::walker::{SurfaceHit, Walker};
 use crate::shade::{MirrorNormals, goes_on, mirror_direction};
 
 impl<S: Search> Walker<'_, S> {
@@ -24,10 +24,10 @@ impl<S: Search> Walker<'_, S> {
             if depth == 0 {
                 first = Some(hit);
             }
-            let meeting = self.meet(hit, ray);
-            let lobes = meeting.material.lobes(&meeting.shading);
+            let surface = self.surface_at(hit, ray);
+            let lobes = surface.material.lobes(&surface.shading);
             if lobes.share > 0.0 {
-                light += rgb(weight) * lobes.share * self.local(&meeting, &lobes);
+                light += rgb(weight) * lobes.share * self.local(&surface, &lobes);
             }
             let skipped = &mut self.stats.skipped;
             let Some(mirror) = lobes.mirror else {
@@ -39,14 +39,14 @@ impl<S: Search> Walker<'_, S> {
                 break;
             }
             self.stats.rays.reflection += 1;
-            ray = mirrored(&meeting);
-            leaving = Some(hit.place);
+            ray = mirrored(&surface);
+            leaving = Some(hit.surface);
         }
         (light, first)
     }
 
     /// What the base shows of itself, of ambient light, and of each light that reaches it.
-    fn local(&mut self, meeting: &Meeting<'_>, lobes: &Lobes<f64>) -> Rgb {
+    fn local(&mut self, surface: &SurfaceHit<'_>, lobes: &Lobes<f64>) -> Rgb {
         let snapshot = self.frame.snapshot;
         let mut light = rgb(lobes.unlit(Triple::of(lobes.share, snapshot.ambient_light())));
         if !lobes.is_lit() {
@@ -54,9 +54,9 @@ impl<S: Search> Walker<'_, S> {
             return light;
         }
         for lamp in snapshot.lights() {
-            let arrival = lamp.arriving::<f64>(meeting.point.into());
-            if let Some(cosine) = self.arrives(meeting, lamp, &arrival) {
-                let shown = lobes.evaluate(&meeting.shading, arrival.towards, cosine);
+            let arrival = lamp.arriving::<f64>(surface.point.into());
+            if let Some(cosine) = self.arrives(surface, lamp, &arrival) {
+                let shown = lobes.evaluate(&surface.shading, arrival.direction, cosine);
                 light += rgb(shown.times(lamp.irradiance(&arrival)));
             }
         }
@@ -64,13 +64,13 @@ impl<S: Search> Walker<'_, S> {
     }
 
     /// The cosine under which a light reaches the surface, if it does.
-    fn arrives(&mut self, meeting: &Meeting<'_>, lamp: &Light, arrival: &Arrival<f64>) -> Option<f64> {
+    fn arrives(&mut self, surface: &SurfaceHit<'_>, lamp: &Light, arrival: &Arrival<f64>) -> Option<f64> {
         if !arrival.lit {
             self.stats.skipped.out_of_cone += 1;
             return None;
         }
-        let cosine = arrival.towards.dot(meeting.shading.normal);
-        if !(cosine > 0.0 && arrival.towards.dot(meeting.normal.into()) > 0.0) {
+        let cosine = arrival.direction.dot(surface.shading.normal);
+        if !(cosine > 0.0 && arrival.direction.dot(surface.normal.into()) > 0.0) {
             self.stats.skipped.facing_away += 1;
             return None;
         }
@@ -79,8 +79,8 @@ impl<S: Search> Walker<'_, S> {
             return Some(cosine);
         }
         self.stats.rays.shadow += 1;
-        let (ray, span) = shadow_ray(meeting.point, lamp)?;
-        let leaving = Some(meeting.hit.place);
+        let (ray, span) = shadow_ray(surface.point, lamp)?;
+        let leaving = Some(surface.hit.surface);
         (!self.search.occluded(self.frame.snapshot, &ray, span, leaving)).then_some(cosine)
     }
 }
@@ -93,11 +93,11 @@ fn shadow_ray(point: DVec3, lamp: &Light) -> Option<(Ray, Span)> {
     }
 }
 
-fn mirrored(meeting: &Meeting<'_>) -> Ray {
-    let normal = meeting.normal.into();
-    let normals = MirrorNormals { geometric: normal, shading: Some(meeting.shading.normal), facing: normal };
-    let direction = mirror_direction(meeting.ray.direction.into(), &normals);
-    Ray::new(meeting.point, direction.into())
+fn mirrored(surface: &SurfaceHit<'_>) -> Ray {
+    let normal = surface.normal.into();
+    let normals = MirrorNormals { geometric: normal, shading: Some(surface.shading.normal), facing: normal };
+    let direction = mirror_direction(surface.ray.direction.into(), &normals);
+    Ray::new(surface.point, direction.into())
 }
 
 fn rgb(light: Triple<f64>) -> Rgb {

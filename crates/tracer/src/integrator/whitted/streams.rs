@@ -9,7 +9,7 @@ use crate::cull::{Beam, Candidates};
 use crate::lanes::outlined;
 use crate::stream::Queue;
 
-/// A stream of reflected rays under way.
+/// The stream of reflected rays that is being traced.
 #[derive(Default)]
 pub(super) struct Bounce {
     pub(super) stream: Queue,

@@ -1,4 +1,4 @@
-//! Which rays of a packet through one point meet a triangle in front of all that they have met.
+//! Tests a packet of a ray bundle against one triangle, and takes it over where it is the nearest hit.
 
 use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
@@ -6,13 +6,42 @@ use fearless_simd::prelude::*;
 
 use super::edges::Prepared;
 use super::planes::Crossing;
-use super::{Edges, ExactResolver, Fan, FanRays, Settled, settle};
+use super::{BundledRays, CommonOrigin, Decision, Edges, ExactResolver, RayTriangle, decide};
 use crate::accel::{WIDTH, WideTree};
 use crate::kernel::bound;
 use crate::lanes::{Bits, F, M, U, outlined};
-use crate::numeric::FAN_SLOPE;
+use crate::numeric::BUNDLE_SLOPE;
 
-impl<S: Simd> FanRays<S> {
+/// A triangle of a tree.
+#[derive(Clone, Copy)]
+pub(super) struct TreeTriangle<'a> {
+    pub(super) tree: &'a WideTree,
+    /// Its slot in the tree's blocks.
+    pub(super) slot: u32,
+    /// Its number in the mesh.
+    pub(super) facet: u32,
+}
+
+impl TreeTriangle<'_> {
+    fn corners(&self) -> [[f32; 3]; 3] {
+        self.tree.triangle(self.slot)
+    }
+}
+
+/// A packet of a bundle, and its number there.
+pub(super) struct PacketRays<'a, S: Simd> {
+    pub(super) rays: &'a mut BundledRays<S>,
+    pub(super) packet: usize,
+}
+
+/// Lanes that `f32` leaves open, bit by bit, and those that pass within all edges for certain.
+#[derive(Clone, Copy)]
+struct OpenLanes {
+    open: u64,
+    inside: u64,
+}
+
+impl<S: Simd> BundledRays<S> {
     /// Takes over a triangle in some lanes.
     #[inline(always)]
     fn take(&mut self, s: S, lanes: M<S>, slot: u32, crossing: &Crossing<S>, any: bool) {
@@ -25,24 +54,26 @@ impl<S: Simd> FanRays<S> {
     }
 }
 
-impl Fan {
-    /// Takes over a triangle where it is nearer; whether it is for any ray.
+impl CommonOrigin {
+    /// Takes over a triangle where it is nearer; returns whether it is, or may be, for any ray.
     #[inline(always)]
     pub(super) fn accept<S: Simd>(
         &self,
         s: S,
-        (tree, prepared): (&WideTree, &Prepared),
-        (slot, facet): (u32, u32),
-        (rays, packet): (&mut FanRays<S>, usize),
+        triangle: &TreeTriangle<'_>,
+        prepared: &Prepared,
+        packet: PacketRays<'_, S>,
         exact: &mut dyn ExactResolver,
     ) -> bool {
+        let TreeTriangle { slot, facet, .. } = *triangle;
+        let PacketRays { rays, packet } = packet;
         let at = slot as usize % WIDTH;
         let edge = |[x, y, z]: &[[f32; WIDTH]; 3]| rays.value(s, [x[at], y[at], z[at]]);
         let [a, b, c] = &prepared.edges;
         let (a, b, c) = (edge(a), edge(b), edge(c));
         let error = bound(s, F::splat(s, prepared.edge_error[at]));
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        let candidate = rays.live & !(low.less(-error) & error.less(high)) & !rays.left.is(facet);
+        let candidate = rays.live & !(low.less(-error) & error.less(high)) & !rays.leaving.is(facet);
         if !candidate.any() {
             return false;
         }
@@ -54,41 +85,41 @@ impl Fan {
             rays.take(s, take, slot, &crossing, self.any);
         }
         if open.any() {
-            self.settle(tree, [open.bits(), inside.bits()], (slot, facet), (rays, packet), exact);
+            let lanes = OpenLanes { open: open.bits(), inside: inside.bits() };
+            self.decide(*triangle, lanes, PacketRays { rays, packet }, exact);
         }
         (take | open).any()
     }
 
-    /// Decides what `f32` leaves open; some pass within all edges for certain.
+    /// Decides what `f32` leaves open; lanes of `inside` pass within all edges for certain.
     #[cold]
     #[inline(never)]
-    fn settle<S: Simd>(
+    fn decide<S: Simd>(
         &self,
-        tree: &WideTree,
-        [open, inside]: [u64; 2],
-        (slot, facet): (u32, u32),
-        (rays, packet): (&mut FanRays<S>, usize),
+        triangle: TreeTriangle<'_>,
+        lanes: OpenLanes,
+        packet: PacketRays<'_, S>,
         exact: &mut dyn ExactResolver,
     ) {
-        // Where only edges are open, depths have said what they can.
+        let OpenLanes { open, inside } = lanes;
+        // Where only edges are open, depths have already been compared.
         let open =
-            if open & inside == 0 { open } else { self.settle_depths(tree, [open, inside], slot, rays) };
+            if open & inside == 0 { open } else { self.decide_by_depths(triangle, lanes, packet.rays) };
         for lane in Bits(open) {
-            let other = rays.slot.lane(lane);
-            let held = (other != u32::MAX).then(|| tree.facet(other));
-            if held == Some(facet) {
+            let other = packet.rays.slot.lane(lane);
+            let held = (other != u32::MAX).then(|| triangle.tree.facet(other));
+            if held == Some(triangle.facet) {
                 continue;
             }
-            rays.settled += 1;
+            packet.rays.decided += 1;
             let edges = if inside >> lane & 1 == 1 { Edges::Inside } else { Edges::Open };
-            let Some(t) = self.nearer(tree, (lane, edges), (slot, facet), (rays, packet), exact) else {
-                continue;
-            };
+            let Some(t) = self.nearer(triangle, lane, edges, &packet, exact) else { continue };
+            let rays = &mut *packet.rays;
             let z = t as f32 * rays.scale.lane(lane);
-            let error = z.abs() * (FAN_SLOPE + FAN_SLOPE);
+            let error = z.abs() * (BUNDLE_SLOPE + BUNDLE_SLOPE);
             rays.end[0].set(lane, z - error);
             rays.end[1].set(lane, z + error);
-            rays.slot.set(lane, slot);
+            rays.slot.set(lane, triangle.slot);
             if self.any {
                 rays.live = rays.live & !M::from_bits(rays.slot.0.token(), 1 << lane);
             }
@@ -96,29 +127,28 @@ impl Fan {
     }
 
     /// Decides by depths from `f64` planes; the lanes that those leave open.
-    fn settle_depths<S: Simd>(
+    fn decide_by_depths<S: Simd>(
         &self,
-        tree: &WideTree,
-        [open, inside]: [u64; 2],
-        slot: u32,
-        rays: &mut FanRays<S>,
+        triangle: TreeTriangle<'_>,
+        lanes: OpenLanes,
+        rays: &mut BundledRays<S>,
     ) -> u64 {
         let s = rays.slot.0.token();
-        let corners = tree.triangle(slot);
-        let precise = self.precise_plane(&corners);
+        let TreeTriangle { tree, slot, .. } = triangle;
+        let precise = self.precise_plane(&triangle.corners());
         let plane = self.plane_of(&precise);
         outlined(
             s,
             #[inline(always)]
             || {
-                let (mut open, inside) = (M::from_bits(s, open), M::from_bits(s, inside));
+                let (mut open, inside) = (M::from_bits(s, lanes.open), M::from_bits(s, lanes.inside));
                 let crossing = rays.cross(s, &plane);
                 let take = open & inside & crossing.nearer;
                 rays.take(s, take, slot, &crossing, self.any);
                 open = open & !take & !crossing.beside;
                 let ahead = rays.begin[1].less(crossing.depth[0]) & rays.begin[1].less(rays.end[0]);
                 let both = open & inside & ahead & !rays.slot.is(u32::MAX);
-                // Surfaces so close together that no depth in `f32` tells them apart.
+                // Surfaces so close together that depths in `f32` give no order.
                 for (held, lanes) in rays.slot.groups(both) {
                     let held = self.precise_plane(&tree.triangle(held));
                     let Some((m, error)) = self.order([&precise, &held]) else { continue };
@@ -135,23 +165,27 @@ impl Fan {
     /// At which `t` the ray of a lane meets a triangle in front of all that it has met, if it does.
     fn nearer<S: Simd>(
         &self,
-        tree: &WideTree,
-        (lane, edges): (usize, Edges),
-        (slot, facet): (u32, u32),
-        (rays, packet): (&FanRays<S>, usize),
+        triangle: TreeTriangle<'_>,
+        lane: usize,
+        edges: Edges,
+        packet: &PacketRays<'_, S>,
         exact: &mut dyn ExactResolver,
     ) -> Option<f64> {
-        let of_all = packet * F::<S>::LANES + lane;
+        let rays = &*packet.rays;
+        let of_all = packet.packet * F::<S>::LANES + lane;
         let (ray, span) = exact.ray(of_all)?;
         let other = Some(rays.slot.lane(lane)).filter(|&slot| slot != u32::MAX);
         // Two roundings of a sum and a quotient, towards smaller numbers.
-        let least = rays.end[0].lane(lane) * (1.0 - 4.0 * FAN_SLOPE);
+        let least = rays.end[0].lane(lane) * (1.0 - 4.0 * BUNDLE_SLOPE);
         let before = if self.any { f64::INFINITY } else { f64::from(least / rays.scale.lane(lane)) };
-        let (next, held) = (tree.triangle(slot), other.map(|slot| tree.triangle(slot)));
-        match settle((&next, edges), held, before, (&ray, span)) {
-            Settled::Not => None,
-            Settled::Nearer(t) => Some(t),
-            Settled::Open => exact.decide(of_all, facet, other.map(|slot| tree.facet(slot))),
+        let held = other.map(|slot| triangle.tree.triangle(slot));
+        let test = RayTriangle { ray: &ray, span, corners: &triangle.corners(), edges };
+        match decide(&test, held, before) {
+            Decision::NotNearer => None,
+            Decision::Nearer(t) => Some(t),
+            Decision::Open => {
+                exact.decide(of_all, triangle.facet, other.map(|slot| triangle.tree.facet(slot)))
+            }
         }
     }
 }

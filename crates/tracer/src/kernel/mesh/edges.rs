@@ -1,26 +1,26 @@
-//! Eight triangles as seen from the point that rays go through: planes through their edges, with bounds.
+//! Eight triangles as seen from the common origin of rays: planes through their edges, with error bounds.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::{Fan, bound_eight};
+use super::{CommonOrigin, LeafBlock, bound_eight};
 use crate::accel::{Block8, WIDTH};
-use crate::numeric::{FAN_DEPTH, FAN_EDGE, FAN_TOP};
+use crate::numeric::{BUNDLE_DEPTH, BUNDLE_EDGE, BUNDLE_TOP};
 
-/// Eight triangles as seen from the point.
+/// Eight triangles as seen from the common origin.
 pub(super) struct Prepared {
-    /// Planes through the point and each edge.
+    /// Planes through the common origin and each edge.
     pub(super) edges: [[[f32; WIDTH]; 3]; 3],
     pub(super) edge_error: [f32; WIDTH],
-    /// The triangle's own normal, and the point's distance from its plane along that.
+    /// The triangle's own normal, and the common origin's distance from its plane along that.
     pub(super) normal: [[f32; WIDTH]; 3],
     pub(super) top: [f32; WIDTH],
     /// What the errors of depths grow with; see [`Plane`](super::planes::Plane).
     pub(super) depth_errors: [[f32; WIDTH]; 2],
 }
 
-/// What all triangles are held against: the rays of a group as one box of slopes, with bounds.
-pub(super) struct Sight {
+/// Bounds of the rays of a group that all triangles are tested with: one box of slopes, and error bounds.
+pub(super) struct RayBounds {
     slopes: Slopes,
     /// Errors of an edge's value per size of its plane's components, axis by axis, and per length of the edge.
     shares: [f32; 3],
@@ -47,37 +47,43 @@ impl Slopes {
 /// Three numbers for each of eight triangles.
 type Eight3<S> = [f32x8<S>; 3];
 
-impl Fan {
-    /// The rays as a block is held against them: the same for all blocks.
-    pub(super) fn sight(&self) -> Sight {
+impl CommonOrigin {
+    /// The bounds of the rays that blocks are tested with: the same for all blocks.
+    pub(super) fn ray_bounds(&self) -> RayBounds {
         let most = self.steepest();
-        Sight {
+        RayBounds {
             slopes: Slopes::of(self.widened([self.low, self.high])),
-            shares: [FAN_EDGE * most[0] + self.slopes_off, FAN_EDGE * most[1] + self.slopes_off, FAN_EDGE],
+            shares: [
+                BUNDLE_EDGE * most[0] + self.slopes_off,
+                BUNDLE_EDGE * most[1] + self.slopes_off,
+                BUNDLE_EDGE,
+            ],
             beside: 2.0 * (1.0 + most[0] + most[1]) * self.slack,
         }
     }
 
-    /// A block as seen from the point, and which of some triangles rays may meet, if any.
+    /// A block as seen from the common origin, and which of a leaf's triangles in it rays may meet, if any.
     #[inline(always)]
     pub(super) fn prepare<S: Simd>(
         &self,
         s: S,
-        (block, own): (&Block8, u64),
-        sight: &Sight,
+        leaf: &LeafBlock<'_>,
+        ray_bounds: &RayBounds,
     ) -> Option<(Prepared, u64)> {
+        let block = &leaf.tree.blocks[leaf.block];
         let (a, b, c) = (self.corner(s, block, 0), self.corner(s, block, 1), self.corner(s, block, 2));
         let edges = [minus(c, b), minus(a, c), minus(b, a)];
-        let (p, q, r) = (self.seen_from_apex(s, a), self.seen_from_apex(s, b), self.seen_from_apex(s, c));
+        let (p, q, r) =
+            (self.seen_from_origin(s, a), self.seen_from_origin(s, b), self.seen_from_origin(s, c));
         let planes = [cross(edges[0], q), cross(edges[1], r), cross(edges[2], p)];
         // Each axis counts with its own sizes: rays run mostly along one, and edges often along few.
         let size = largest(edges);
         let far = [p[0].abs() + size[0], p[1].abs() + size[1], p[2].abs() + size[2]];
         let length = size[0].max(size[1]).max(size[2]);
         let least = f32x8::splat(s, f32::MIN_POSITIVE);
-        let of_point = length.mul_add_precise(f32x8::splat(s, sight.beside), least);
-        let edge_error = bound_eight(s, weighted(s, products(size, far), sight.shares, of_point));
-        let seen = seen(s, &planes, edge_error, &sight.slopes) & own;
+        let of_point = length.mul_add_precise(f32x8::splat(s, ray_bounds.beside), least);
+        let edge_error = bound_eight(s, weighted(s, products(size, far), ray_bounds.shares, of_point));
+        let seen = seen(s, &planes, edge_error, &ray_bounds.slopes) & leaf.own;
         if seen == 0 {
             return None;
         }
@@ -85,14 +91,14 @@ impl Fan {
         let top = dot(p, normal);
         let areas = [size[1] * size[2], size[2] * size[0], size[0] * size[1]];
         let of_point = (length * length).mul_add_precise(f32x8::splat(s, 6.0 * self.slack), least);
-        let top_error = dot(areas, far).mul_add_precise(f32x8::splat(s, 2.0 * FAN_TOP), of_point);
-        let slope_error = weighted(s, areas, sight.shares.map(|share| share + share), least);
+        let top_error = dot(areas, far).mul_add_precise(f32x8::splat(s, 2.0 * BUNDLE_TOP), of_point);
+        let slope_error = weighted(s, areas, ray_bounds.shares.map(|share| share + share), least);
         let deepest = p[2].max(q[2]).max(r[2]).max(f32x8::splat(s, 0.0)) + f32x8::splat(s, 2.0 * self.slack);
         let most = (deepest * f32x8::splat(s, 1.5)).mul_add_precise(slope_error, top_error);
         let certain = (most * f32x8::splat(s, 4.0)).simd_lt(top.abs());
         let share = certain.select(f32x8::splat(s, 1.5) / top.abs(), f32x8::splat(s, f32::INFINITY));
         let of_square = bound_eight(s, slope_error * share);
-        let of_depth = bound_eight(s, top_error.mul_add_precise(share, f32x8::splat(s, FAN_DEPTH)));
+        let of_depth = bound_eight(s, top_error.mul_add_precise(share, f32x8::splat(s, BUNDLE_DEPTH)));
         let prepared = Prepared {
             edges: [stored(planes[0]), stored(planes[1]), stored(planes[2])],
             edge_error: edge_error.to_array(),
@@ -114,14 +120,14 @@ impl Fan {
         ]
     }
 
-    /// Corners as seen from the point, mirrored as it is.
+    /// Corners as seen from the common origin, mirrored as it is.
     #[inline(always)]
-    fn seen_from_apex<S: Simd>(&self, s: S, p: Eight3<S>) -> Eight3<S> {
+    fn seen_from_origin<S: Simd>(&self, s: S, p: Eight3<S>) -> Eight3<S> {
         let sign = f32x8::splat(s, self.sign);
         [
-            p[0].mul_sub_precise(sign, f32x8::splat(s, self.apex[0])),
-            p[1].mul_sub_precise(sign, f32x8::splat(s, self.apex[1])),
-            p[2].mul_sub_precise(sign, f32x8::splat(s, self.apex[2])),
+            p[0].mul_sub_precise(sign, f32x8::splat(s, self.origin[0])),
+            p[1].mul_sub_precise(sign, f32x8::splat(s, self.origin[1])),
+            p[2].mul_sub_precise(sign, f32x8::splat(s, self.origin[2])),
         ]
     }
 }

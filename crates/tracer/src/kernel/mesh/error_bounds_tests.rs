@@ -1,10 +1,10 @@
 //! Do the bounds of the mesh kernels hold, and do they have to be as large as they are? Rays aimed at edges and corners,
 //! grazing planes, near ties, at all scales: what `f32` is certain of must be what exact arithmetic says, and depths must
-//! lie within their bounds. It is found out when the edges' bounds of rays through one point are cut to an
-//! eighth, those of their depths to a tenth, and a lone ray's to an eighth.
+//! lie within their bounds. The tests fail when a bundle's bounds of edges are cut to an eighth, those of its
+//! depths to a tenth, and a single ray's bounds to an eighth.
 //!
-//! The exact gives out rays of NaN, which leave `f64` no opinion: all that `f32` does not decide comes to the exact, who
-//! notes it and decides nothing.
+//! The resolver of these tests gives out rays of NaN, which `f64` cannot decide about: all that `f32` does not decide
+//! comes to the resolver, which records it and decides nothing.
 
 use std::sync::Arc;
 
@@ -13,12 +13,15 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Shape, Span, TriangleMesh};
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::{Bundle, ClosestHit, ExactResolver, Fan, FanRays, Lines, RaySetup, Visits};
+use super::{
+    BundledRays, ClosestHit, CommonOrigin, ExactResolver, LeafBlock, Lines, RayBundle, RaySetup, Reach,
+    Visits,
+};
 use crate::accel::{MeshTree, Preset};
 use crate::lanes::{D, D3, F, M, U, splat_wide};
 use crate::random::Random;
 
-/// Notes which lanes it was asked about.
+/// Records which lanes it had to decide.
 #[derive(Default)]
 struct Witness {
     asked: u64,
@@ -138,16 +141,16 @@ impl Record {
 }
 
 #[test]
-fn lone_rays_are_certain_only_of_what_is_so() {
+fn single_rays_are_certain_only_of_what_is_so() {
     let mut record = Record::default();
-    attack_lone(&mut Random(11), &mut record, |_, ray, _| (*ray, 0.0));
+    attack_single(&mut Random(11), &mut record, |_, ray, _| (*ray, 0.0));
     record.assert_attacked(0.02);
 }
 
 #[test]
-fn lone_rays_whose_origins_are_off_are_certain_only_of_what_is_so() {
+fn single_rays_whose_origins_are_off_are_certain_only_of_what_is_so() {
     let mut record = Record::default();
-    attack_lone(&mut Random(17), &mut record, |random, ray, reach| {
+    attack_single(&mut Random(17), &mut record, |random, ray, reach| {
         let off = (ray.origin.length() + f64::from(reach)) * random.power(-34, -16);
         (Ray::new(ray.origin + random.point() * off, ray.direction), (off as f32).next_up())
     });
@@ -155,7 +158,7 @@ fn lone_rays_whose_origins_are_off_are_certain_only_of_what_is_so() {
 }
 
 /// Aims rays at rims, each followed as the ray beside it that `known` makes of it for a mesh of that reach, off by so much.
-fn attack_lone(
+fn attack_single(
     random: &mut Random,
     record: &mut Record,
     known: impl Fn(&mut Random, &Ray, f32) -> (Ray, f32),
@@ -169,20 +172,20 @@ fn attack_lone(
             ray.direction[random.bits() as usize % 3] *=
                 [0.0, random.power(-60, -20)][random.bits() as usize % 2];
         }
-        let beside = known(random, &ray, target.tree.reach);
-        let (best, asked) = dispatch!(Level::new(), s => follow(s, beside, &target.tree));
+        let (beside, off) = known(random, &ray, target.tree.reach);
+        let (best, asked) = dispatch!(Level::new(), s => follow(s, beside, off, &target.tree));
         if asked != 0 {
             record.undecided += 1;
             continue;
         }
-        let place = [f64::from(best.t), f64::from(best.error)];
-        let found = best.slot.map(|slot| (target.tree.tree.facet(slot), place));
+        let depth = [f64::from(best.t), f64::from(best.error)];
+        let found = best.slot.map(|slot| (target.tree.tree.facet(slot), depth));
         record.note(&target, &ray, found, 1.0);
     }
 }
 
 /// Follows a ray alone whose origin may be off by so much; what it meets, and whether that is undecided.
-fn follow<S: Simd>(s: S, (ray, off): (Ray, f32), tree: &MeshTree) -> (ClosestHit, u64) {
+fn follow<S: Simd>(s: S, ray: Ray, off: f32, tree: &MeshTree) -> (ClosestHit, u64) {
     let lines = Lines {
         origin: splat_wide(s, ray.origin),
         direction: splat_wide(s, ray.direction),
@@ -203,7 +206,7 @@ fn slow_rays_meet_what_is_far() {
     let tree = MeshTree::build(&mesh, Preset::Fast, crate::pool::one_thread());
     for direction in [DVec3::X, DVec3::new(1.0, 1e-3, -1e-3)] {
         let ray = Ray::new(DVec3::new(-far, far / 64.0, far / 64.0), direction * slow);
-        let (best, asked) = dispatch!(Level::new(), s => follow(s, (ray, 0.0), &tree));
+        let (best, asked) = dispatch!(Level::new(), s => follow(s, ray, 0.0, &tree));
         assert_eq!((best.slot, asked), (Some(0), 0), "{direction}");
     }
 }
@@ -213,7 +216,7 @@ fn rays_through_one_point_are_certain_only_of_what_is_so() {
     let (mut random, mut record) = (Random(13), Record::default());
     for _ in 0..120_000 {
         let Some(target) = Target::any(&mut random) else { continue };
-        dispatch!(Level::new(), s => attack_fan(s, &mut random, &target, &mut record));
+        dispatch!(Level::new(), s => attack_bundle(s, &mut random, &target, &mut record));
     }
     record.assert_attacked(0.02);
 }
@@ -233,27 +236,35 @@ fn depths_on_planes_hold_their_bounds() {
 
 /// Holds the depths of all crossings against exact ones: those from planes in `f32`, then those in `f64`.
 fn attack_planes<S: Simd>(s: S, random: &mut Random, target: &Target, records: &mut [Record; 2]) {
-    let Some((rays, bundle, [of_fan])) = aimed(s, random, target) else { return };
-    let (fan, tree) = (&bundle.fan, &target.tree.tree);
-    let Some((prepared, _)) = fan.prepare(s, (&tree.blocks[0], u64::MAX), &fan.sight()) else { return };
+    let Some((rays, bundle, [bundled])) = aimed(s, random, target) else { return };
+    let (common_origin, tree) = (&bundle.common_origin, &target.tree.tree);
+    let Some((prepared, _)) =
+        common_origin.prepare(s, &LeafBlock { tree, block: 0, own: u64::MAX }, &common_origin.ray_bounds())
+    else {
+        return;
+    };
     for slot in 0..target.shapes.len() as u32 {
         let shape = &target.shapes[tree.facet(slot) as usize];
-        let precise = fan.precise_plane(&tree.triangle(slot));
-        let planes = [prepared.plane(slot as usize), fan.plane_of(&precise)];
+        let precise = common_origin.precise_plane(&tree.triangle(slot));
+        let planes = [prepared.plane(slot as usize), common_origin.plane_of(&precise)];
         for (record, plane) in records.iter_mut().zip(planes) {
-            let crossing = of_fan.cross(s, &plane);
+            let crossing = bundled.cross(s, &plane);
             let nearer = crossing.nearer.bits();
             for (lane, ray) in rays.iter().enumerate().filter(|(lane, _)| nearer >> lane & 1 == 1) {
                 let Some(hit) = shape.cross(ray, Span::AHEAD, None) else { continue };
-                let place = between(crossing.depth, lane);
-                record.note_depth(target, ray, place, hit.t * depth_per_t(fan, ray));
+                let depth = between(crossing.depth, lane);
+                record.note_depth(target, ray, depth, hit.t * depth_per_t(common_origin, ray));
             }
         }
     }
 }
 
 /// Rays at a rim from one point, which they pass by some roundings in half of all cases.
-fn aimed<S: Simd>(s: S, random: &mut Random, target: &Target) -> Option<(Vec<Ray>, Bundle, [FanRays<S>; 1])> {
+fn aimed<S: Simd>(
+    s: S,
+    random: &mut Random,
+    target: &Target,
+) -> Option<(Vec<Ray>, RayBundle, [BundledRays<S>; 1])> {
     let eye = target.eye(random);
     let off = [0.0, eye.distance(target.corners[0]) * random.power(-30, -20)][random.bits() as usize % 2];
     let rays: Vec<Ray> = (0..F::<S>::LANES)
@@ -268,11 +279,11 @@ fn aimed<S: Simd>(s: S, random: &mut Random, target: &Target) -> Option<(Vec<Ray
     };
     let (origin, direction) = (triple(&|ray| ray.origin), triple(&|ray| ray.direction));
     let lines = Lines { origin, direction, live: M::splat(s, true) };
-    let mut rays_of_fan = [FanRays::nothing(s)];
-    let bundle = Bundle::of(s, &mut rays_of_fan, |_| lines, (0.0, target.tree.reach))?;
+    let mut bundled = [BundledRays::nothing(s)];
+    let bundle = RayBundle::of(s, &mut bundled, |_| lines, Reach { off: 0.0, mesh: target.tree.reach })?;
     let (zero, most) = (F::splat(s, 0.0), F::splat(s, f32::MAX));
-    rays_of_fan[0].start(s, [zero, zero], [most, zero], U::splat(s, u32::MAX));
-    Some((rays, bundle, rays_of_fan))
+    bundled[0].start(s, [zero, zero], [most, zero], U::splat(s, u32::MAX));
+    Some((rays, bundle, bundled))
 }
 
 /// Middle of what lies between two depths of a lane, and how far that is from them.
@@ -282,24 +293,24 @@ fn between<S: Simd>(depths: [F<S>; 2], lane: usize) -> [f64; 2] {
 }
 
 /// Depth per `t` of a ray.
-fn depth_per_t(fan: &Fan, ray: &Ray) -> f64 {
-    ray.direction[fan.axes[2]] * f64::from(fan.sign)
+fn depth_per_t(common_origin: &CommonOrigin, ray: &Ray) -> f64 {
+    ray.direction[common_origin.axes[2]] * f64::from(common_origin.sign)
 }
 
 /// Looks at a rim from one point.
-fn attack_fan<S: Simd>(s: S, random: &mut Random, target: &Target, record: &mut Record) {
-    let Some((rays, bundle, mut rays_of_fan)) = aimed(s, random, target) else { return };
+fn attack_bundle<S: Simd>(s: S, random: &mut Random, target: &Target, record: &mut Record) {
+    let Some((rays, bundle, mut bundled)) = aimed(s, random, target) else { return };
     let (mut witness, mut visits) = (Witness::default(), Visits::default());
-    bundle.fan.search(s, &target.tree.tree, &mut visits, &mut rays_of_fan, &mut witness);
-    let [found] = rays_of_fan;
+    bundle.common_origin.search(s, &target.tree.tree, &mut visits, &mut bundled, &mut witness);
+    let [found] = bundled;
     for (lane, ray) in rays.iter().enumerate() {
         if witness.asked >> lane & 1 == 1 {
             record.undecided += 1;
             continue;
         }
         let slot = Some(found.slot.lane(lane)).filter(|&slot| slot != u32::MAX);
-        let place = between(found.end, lane);
-        let found = slot.map(|slot| (target.tree.tree.facet(slot), place));
-        record.note(target, ray, found, depth_per_t(&bundle.fan, ray));
+        let depth = between(found.end, lane);
+        let found = slot.map(|slot| (target.tree.tree.facet(slot), depth));
+        record.note(target, ray, found, depth_per_t(&bundle.common_origin, ray));
     }
 }

@@ -1,6 +1,7 @@
-//! How rays find triangles of a mesh: many from one point at once, or one against eight boxes and eight triangles.
+//! Rays against the triangles of a mesh: bundles of rays with a common origin, or single rays, each against eight boxes
+//! and eight triangles at a time.
 //!
-//! Both pass over what they are certain to miss, in `f32` with bounds. What remains is decided in `f64` with bounds, and
+//! Both skip what they miss for certain, in `f32` with error bounds. The rest is decided in `f64` with error bounds, and
 //! by an [`ExactResolver`] where those do not decide either.
 
 mod accept;
@@ -22,13 +23,13 @@ use fearless_simd::{Simd, f32x8};
 use crate::accel::{MAX_DEPTH, Node8, WIDTH, WideTree};
 use crate::numeric::CERTAIN;
 
-pub(crate) use common_origin::{Fan, FanRays};
+pub(crate) use common_origin::{BundledRays, CommonOrigin};
 pub(crate) use precise::LaneTriangles;
-pub(crate) use ray_bundle::{Bundle, Lines};
-pub(crate) use ray_setup::RaySetup;
+pub(crate) use ray_bundle::{Lines, RayBundle, Reach};
+pub(crate) use ray_setup::{RaySetup, StartingRays};
 pub(crate) use single_ray::ClosestHit;
 
-use precise::{Verdict, crossing, depth, meet};
+use precise::{Verdict, crossing, depth, intersect};
 
 /// As [`bound`](super::bound), of eight triangles.
 #[inline(always)]
@@ -36,26 +37,26 @@ fn bound_eight<S: Simd>(s: S, error: f32x8<S>) -> f32x8<S> {
     if CERTAIN { error } else { f32x8::splat(s, 0.0) }
 }
 
-/// Decides for certain what bounds leave open.
+/// Decides exactly what error bounds leave open.
 pub(crate) trait ExactResolver {
-    /// The ray of a lane in the mesh's own space, and the stretch of it that is asked about.
+    /// The ray of a lane in the mesh's own space, and the span of it that is searched.
     fn ray(&mut self, lane: usize) -> Option<(Ray, Span)>;
 
-    /// Whether the ray of a lane meets a triangle before what it has met so far, the triangle `held` or else what it came
-    /// with; at which `t` if so.
+    /// The `t` at which the ray of a lane meets a triangle, if that lies before its nearest hit so far: the triangle `held`,
+    /// or else the hit it came with.
     fn decide(&mut self, lane: usize, facet: u32, held: Option<u32>) -> Option<f64>;
 }
 
-/// What `f64` makes of a triangle that `f32` could not decide about.
-enum Settled {
-    Not,
-    /// At that `t`, in front of all else.
+/// The decision in `f64` about a triangle that `f32` has left open.
+enum Decision {
+    NotNearer,
+    /// It is the nearest hit, at that `t`.
     Nearer(f64),
-    /// Only the exact can tell.
+    /// Only exact arithmetic can decide.
     Open,
 }
 
-/// What is known of a ray and a triangle's edges.
+/// Whether a ray passes within the edges of a triangle.
 #[derive(Clone, Copy)]
 enum Edges {
     /// The ray passes within all of them.
@@ -63,42 +64,48 @@ enum Edges {
     Open,
 }
 
-/// Compares a triangle with the one a ray has met, or with the least `t` at which it may have met anything else.
-fn settle(
-    (next, edges): (&[[f32; 3]; 3], Edges),
-    held: Option<[[f32; 3]; 3]>,
-    before: f64,
-    (ray, span): (&Ray, Span),
-) -> Settled {
+/// A ray and a triangle that may be its nearest hit.
+struct RayTriangle<'a> {
+    ray: &'a Ray,
+    /// The span that counts.
+    span: Span,
+    corners: &'a [[f32; 3]; 3],
+    edges: Edges,
+}
+
+/// Decides in `f64` whether a triangle is nearer than the one that a ray has met (`held`), or than the least `t` at which
+/// it may have met anything else (`before`).
+fn decide(test: &RayTriangle<'_>, held: Option<[[f32; 3]; 3]>, before: f64) -> Decision {
+    let RayTriangle { ray, span, corners, edges } = *test;
     let verdict = match edges {
-        Edges::Inside => crossing(next, ray),
-        Edges::Open => meet(next, ray),
+        Edges::Inside => crossing(corners, ray),
+        Edges::Open => intersect(corners, ray),
     };
     let (t, error) = match verdict {
-        Verdict::Miss => return Settled::Not,
-        Verdict::Open => return Settled::Open,
+        Verdict::Miss => return Decision::NotNearer,
+        Verdict::Open => return Decision::Open,
         Verdict::Hit(t, error) => (t, error),
     };
     if t + error < span.min || t - error > span.max {
-        return Settled::Not;
+        return Decision::NotNearer;
     }
     if !(t - error > span.min && t + error < span.max) {
-        return Settled::Open;
+        return Decision::Open;
     }
     let (low, high) = match held.map(|held| depth(&held, ray)) {
         Some((t, error)) => (t - error, t + error),
         None => (before, f64::INFINITY),
     };
     if t + error < low {
-        Settled::Nearer(t)
+        Decision::Nearer(t)
     } else if t - error > high {
-        Settled::Not
+        Decision::NotNearer
     } else {
-        Settled::Open
+        Decision::Open
     }
 }
 
-/// Packets of rays that walk a tree together at most.
+/// The most packets of rays that walk a tree together.
 pub(crate) const GROUP: usize = 16;
 
 /// A child that is still to be visited.
@@ -114,33 +121,50 @@ struct Visit {
 }
 
 impl Visit {
-    /// Of a child that is entered at that depth at least; it is on its way from memory then.
+    /// Of a child that is entered at that depth at least; prefetches it.
     #[inline(always)]
-    fn ahead((tree, node): (&WideTree, &Node8), child: usize, near: &[f32; WIDTH]) -> Self {
+    fn ahead(tree: &WideTree, node: &Node8, child: usize, near: &[f32; WIDTH]) -> Self {
         let child = child % WIDTH;
         let (link, count) = (node.link[child], u32::from(node.count[child]));
         tree.prefetch(link, count);
         Self { near: near[child], link, count, packets: 1 }
     }
 
-    /// Blocks of a leaf, and which of each block's triangles are the leaf's.
+    /// The blocks that hold a leaf's triangles.
     #[inline(always)]
-    fn blocks(&self) -> impl Iterator<Item = (usize, u64)> {
+    fn blocks<'a>(&self, tree: &'a WideTree) -> impl Iterator<Item = LeafBlock<'a>> + use<'a> {
         let first = self.link as usize;
         let mut own = ((1_u64 << (self.count % u64::BITS)) - 1) << (first % WIDTH);
         (first / WIDTH..).map_while(move |block| {
             let here = own & ((1 << WIDTH) - 1);
             own >>= WIDTH;
-            (here != 0).then_some((block, here))
+            (here != 0).then_some(LeafBlock { tree, block, own: here })
         })
     }
 }
 
-/// Room for the children that wait: fewer than eight for each of [`MAX_DEPTH`] levels; a power of two.
+/// A block of a tree, and which of its triangles belong to a leaf.
+#[derive(Clone, Copy)]
+struct LeafBlock<'a> {
+    tree: &'a WideTree,
+    block: usize,
+    /// The leaf's triangles, bit by bit.
+    own: u64,
+}
+
+impl LeafBlock<'_> {
+    /// The slot of one of its triangles in the tree's blocks.
+    #[inline(always)]
+    fn slot(&self, at: usize) -> u32 {
+        (self.block * WIDTH + at) as u32
+    }
+}
+
+/// Capacity of the stack of children still to visit: fewer than eight for each of [`MAX_DEPTH`] levels; a power of two.
 const ROOM: usize = 512;
 const _: () = assert!(ROOM > MAX_DEPTH * (WIDTH - 1));
 
-/// Room for walks, kept from walk to walk.
+/// The stack and counters of walks, kept from walk to walk.
 #[derive(Default)]
 pub(crate) struct Visits {
     stack: Vec<Visit>,
@@ -149,8 +173,14 @@ pub(crate) struct Visits {
     pub(crate) blocks: u64,
 }
 
+/// A tree to be walked, with the stack and counters for that.
+pub(crate) struct TreeWalk<'a> {
+    pub(crate) tree: &'a WideTree,
+    pub(crate) visits: &'a mut Visits,
+}
+
 impl Visits {
-    /// Room for children to be visited; none are.
+    /// An empty stack of children to be visited.
     #[inline(always)]
     fn start(&mut self) -> Option<Waiting<'_>> {
         if self.stack.is_empty() {

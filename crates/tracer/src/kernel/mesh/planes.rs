@@ -1,16 +1,18 @@
-//! Where rays through one point cross the planes of triangles, and which of two planes they cross first.
+//! Where rays with a common origin cross the planes of triangles, and which of two planes they cross first.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::Simd;
 
 use super::edges::Prepared;
-use super::{Fan, FanRays};
+use super::{BundledRays, CommonOrigin};
 use crate::kernel::bound;
 use crate::lanes::{F, M};
-use crate::numeric::{FAN_DEPTH, FAN_PLANE, MEET_SLOPE_ERROR, MEET_TOP_ERROR, ORDER_ERROR, ORDER_SHEAR};
+use crate::numeric::{
+    BUNDLE_DEPTH, BUNDLE_PLANE, ORDER_ERROR, ORDER_SHEAR, PRECISE_SLOPE_ERROR, PRECISE_TOP_ERROR,
+};
 
-/// The plane of a triangle, for rays through one point.
+/// The plane of a triangle, for rays with a common origin.
 ///
 /// A ray of slope s = n·(u, v, 1) crosses it at the depth z = top / s. Off by errors of top and s, z is off by at most
 /// (z · error of s + error of top) / (|s| − error of s); and |s| is |top| / z. So the error is z (z a + b), where a and b
@@ -19,7 +21,7 @@ use crate::numeric::{FAN_DEPTH, FAN_PLANE, MEET_SLOPE_ERROR, MEET_TOP_ERROR, ORD
 #[derive(Clone, Copy)]
 pub(super) struct Plane {
     normal: [f32; 3],
-    /// The point's distance from it along the normal.
+    /// The common origin's distance from it along the normal.
     top: f32,
     /// What the error of a depth z on the triangle grows with: z² and z. Infinite where no depth is known.
     errors: [f32; 2],
@@ -35,7 +37,7 @@ pub(super) struct Crossing<S: Simd> {
     pub(super) beside: M<S>,
 }
 
-impl<S: Simd> FanRays<S> {
+impl<S: Simd> BundledRays<S> {
     /// Scalar products of a vector and the directions.
     #[inline(always)]
     pub(super) fn value(&self, s: S, [x, y, z]: [f32; 3]) -> F<S> {
@@ -65,7 +67,7 @@ impl Prepared {
     }
 }
 
-/// The plane of a triangle in `f64`, seen from the point.
+/// The plane of a triangle in `f64`, seen from the common origin.
 pub(super) struct PrecisePlane {
     normal: DVec3,
     top: f64,
@@ -78,23 +80,23 @@ pub(super) struct PrecisePlane {
     deepest: f64,
 }
 
-impl Fan {
+impl CommonOrigin {
     /// The plane of a triangle.
     pub(super) fn precise_plane(&self, corners: &[[f32; 3]; 3]) -> PrecisePlane {
         let [u, v, z] = self.axes;
         let own = |p: &[f32; 3]| DVec3::new(p[u].into(), p[v].into(), p[z].into()) * f64::from(self.sign);
         let [a, b, c] = [own(&corners[0]), own(&corners[1]), own(&corners[2])];
-        let (e, f, from) = (b - a, c - a, a - self.precise_apex);
+        let (e, f, from) = (b - a, c - a, a - self.precise_origin);
         let normal = e.cross(f);
         let length = e.abs().max(f.abs()).max_element();
         let size = length * length;
         PrecisePlane {
             normal,
             top: normal.dot(from),
-            slope_error: MEET_SLOPE_ERROR * self.spread().element_sum() * size,
-            top_error: MEET_TOP_ERROR * size * from.abs().max_element(),
+            slope_error: PRECISE_SLOPE_ERROR * self.spread().element_sum() * size,
+            top_error: PRECISE_TOP_ERROR * size * from.abs().max_element(),
             size,
-            deepest: (a.z.max(b.z).max(c.z) - self.precise_apex.z).max(0.0)
+            deepest: (a.z.max(b.z).max(c.z) - self.precise_origin.z).max(0.0)
                 + 2.0 * f64::from(self.precise_slack),
         }
     }
@@ -103,7 +105,7 @@ impl Fan {
     pub(super) fn plane_of(&self, precise: &PrecisePlane) -> Plane {
         let PrecisePlane { normal, top, .. } = *precise;
         let size = normal.abs();
-        let slope_error = f64::from(FAN_PLANE) * size.dot(self.spread())
+        let slope_error = f64::from(BUNDLE_PLANE) * size.dot(self.spread())
             + f64::from(self.slopes_off) * (size.x + size.y)
             + precise.slope_error;
         let top_error = self.top_error(precise);
@@ -117,16 +119,16 @@ impl Fan {
         Plane {
             normal: (normal * scale).as_vec3().to_array(),
             top: rounded,
-            errors: [above(slope_error * share), above(top_error * share + f64::from(FAN_DEPTH))],
+            errors: [above(slope_error * share), above(top_error * share + f64::from(BUNDLE_DEPTH))],
         }
     }
 
     /// A vector m whose product with a ray's direction is negative where the ray crosses one plane before another, both
-    /// ahead of it, and positive where it does so behind; and the error of that product. None where the point may lie in
-    /// either plane.
+    /// ahead of it, and positive where it does so behind; and the error of that product. None where the common origin may
+    /// lie in either plane.
     ///
     /// Where both tops are positive, z₁ < z₂ means top₁ s₂ < top₂ s₁: m = top₁ n₂ − top₂ n₁, whose terms all but cancel
-    /// where the planes all but coincide: in `f64`, before anything is rounded to `f32`. A ray that passes the point by δ
+    /// where the planes all but coincide: in `f64`, before anything is rounded to `f32`. A ray that passes the origin by δ
     /// changes the product by δ·(d × (n₁ × n₂)).
     pub(super) fn order(&self, [first, second]: [&PrecisePlane; 2]) -> Option<([f32; 3], f32)> {
         if [first, second].iter().any(|plane| plane.top.abs() <= 2.0 * self.top_error(plane)) {
@@ -143,8 +145,8 @@ impl Fan {
         let from_shear = f64::from(self.precise_slack)
             * spread.element_sum()
             * (a.cross(b).abs().element_sum() + ORDER_SHEAR * first.size * second.size);
-        let from_rounding =
-            f64::from(FAN_PLANE) * m.abs().dot(spread) + f64::from(self.slopes_off) * (m.x.abs() + m.y.abs());
+        let from_rounding = f64::from(BUNDLE_PLANE) * m.abs().dot(spread)
+            + f64::from(self.slopes_off) * (m.x.abs() + m.y.abs());
         let error = 1.5 * (from_tops + from_slopes) + from_shear + from_rounding;
         let scale = 1.0 / m.abs().max_element();
         Some(((m * scale).as_vec3().to_array(), ((error * scale) as f32).next_up()))

@@ -1,4 +1,4 @@
-//! One ray against one triangle in `f64`, with bounds that say when the answer is certain.
+//! One ray against one triangle in `f64`, with error bounds that show when the result is certain.
 //!
 //! Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 
@@ -7,22 +7,22 @@ use catoptra_core::glam::DVec3;
 use fearless_simd::Simd;
 
 use crate::lanes::{D, D3, F3, M, U, cross, splat3, widen3};
-use crate::numeric::{DEPTH_ERROR, MEET_EDGE_ERROR, MEET_SLOPE_ERROR, MEET_TOP_ERROR};
+use crate::numeric::{DEPTH_ERROR, PRECISE_EDGE_ERROR, PRECISE_SLOPE_ERROR, PRECISE_TOP_ERROR};
 
-/// What is certain of a ray and a triangle.
+/// What is certain about a ray and a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Verdict {
     /// They do not meet.
     Miss,
     /// They meet at a `t` that is known within a bound.
     Hit(f64, f64),
-    /// Bounds do not tell.
+    /// Bounds do not decide.
     Open,
 }
 
 /// Where a ray meets a triangle of corners that `f32` holds, in the space of both.
 #[inline(always)]
-pub(crate) fn meet(corners: &[[f32; 3]; 3], ray: &Ray) -> Verdict {
+pub(crate) fn intersect(corners: &[[f32; 3]; 3], ray: &Ray) -> Verdict {
     let (a, b, c) = (widened(&corners[0]), widened(&corners[1]), widened(&corners[2]));
     let (o, d) = (ray.origin, ray.direction);
     let (along_a, along_b, along_c) = (c - b, a - c, b - a);
@@ -30,7 +30,7 @@ pub(crate) fn meet(corners: &[[f32; 3]; 3], ray: &Ray) -> Verdict {
     let (u, v, w) = (along_a.cross(q).dot(d), along_b.cross(r).dot(d), along_c.cross(p).dot(d));
     let size = p.abs().max(q.abs()).max(r.abs()).max_element();
     let length = along_a.abs().max(along_b.abs()).max(along_c.abs()).max_element();
-    let edge_error = MEET_EDGE_ERROR * d.abs().element_sum() * length * size;
+    let edge_error = PRECISE_EDGE_ERROR * d.abs().element_sum() * length * size;
     let (low, high) = (u.min(v).min(w), u.max(v).max(w));
     if low < -edge_error && high > edge_error {
         return Verdict::Miss;
@@ -48,7 +48,7 @@ pub(crate) fn crossing(corners: &[[f32; 3]; 3], ray: &Ray) -> Verdict {
     if error.is_finite() { Verdict::Hit(t, error) } else { Verdict::Open }
 }
 
-/// Where a ray meets the plane of a triangle, and how far that may be off; infinitely far where `f64` does not tell.
+/// Where a ray meets the plane of a triangle, and a bound on its error; infinite where `f64` gives none.
 #[inline(always)]
 pub(crate) fn depth(corners: &[[f32; 3]; 3], ray: &Ray) -> (f64, f64) {
     let (a, b, c) = (widened(&corners[0]), widened(&corners[1]), widened(&corners[2]));
@@ -56,9 +56,9 @@ pub(crate) fn depth(corners: &[[f32; 3]; 3], ray: &Ray) -> (f64, f64) {
     let (normal, from) = (e.cross(f), a - ray.origin);
     let length = e.abs().max(f.abs()).max_element();
     let slope = normal.dot(ray.direction);
-    let slope_error = MEET_SLOPE_ERROR * ray.direction.abs().element_sum() * length * length;
+    let slope_error = PRECISE_SLOPE_ERROR * ray.direction.abs().element_sum() * length * length;
     let t = normal.dot(from) / slope;
-    let top_error = MEET_TOP_ERROR * length * length * from.abs().max_element();
+    let top_error = PRECISE_TOP_ERROR * length * length * from.abs().max_element();
     // Where a slope is four times its error, three quarters of it are certain.
     let error = 1.5 * (top_error + t.abs() * slope_error) / slope.abs() + t.abs() * (2.0 * f64::EPSILON);
     let certain = slope.abs() > 4.0 * slope_error && error.is_finite();
@@ -108,9 +108,9 @@ impl<S: Simd> LaneTriangles<S> {
         let length2 = length * length;
         let slope = normal.dot(direction);
         let spread = direction.x.abs() + direction.y.abs() + direction.z.abs();
-        let slope_error = D::splat(s, MEET_SLOPE_ERROR) * spread * length2;
+        let slope_error = D::splat(s, PRECISE_SLOPE_ERROR) * spread * length2;
         let t = normal.dot(from) / slope;
-        let top_error = D::splat(s, MEET_TOP_ERROR) * length2 * largest(from);
+        let top_error = D::splat(s, PRECISE_TOP_ERROR) * length2 * largest(from);
         let error = D::splat(s, 1.5) * (top_error + t.abs() * slope_error) / slope.abs();
         let steep = (D::splat(s, 4.0) * slope_error).at_most(slope.abs());
         (t, steep & error.at_most(t.abs() * D::splat(s, DEPTH_ERROR)))
@@ -135,7 +135,7 @@ mod tests {
 
     #[test]
     fn inside_is_a_hit_and_outside_a_miss() {
-        let at = |x: f64, y: f64| meet(&CORNERS, &Ray::new(DVec3::new(x, y, 2.0), -DVec3::Z));
+        let at = |x: f64, y: f64| intersect(&CORNERS, &Ray::new(DVec3::new(x, y, 2.0), -DVec3::Z));
         assert!(matches!(at(0.25, 0.25), Verdict::Hit(t, error) if (t - 2.0).abs() <= error));
         assert_eq!(at(0.6, 0.6), Verdict::Miss);
     }
@@ -144,6 +144,6 @@ mod tests {
     fn on_an_edge_and_within_the_plane_is_left_open() {
         let on_edge = Ray::new(DVec3::new(0.5, 0.5, 2.0), -DVec3::Z);
         let within = Ray::new(DVec3::new(-1.0, 0.25, 0.0), DVec3::X);
-        assert_eq!([on_edge, within].map(|ray| meet(&CORNERS, &ray)), [Verdict::Open; 2]);
+        assert_eq!([on_edge, within].map(|ray| intersect(&CORNERS, &ray)), [Verdict::Open; 2]);
     }
 }

@@ -1,13 +1,14 @@
-//! Which rays of a group go through one point: those of a camera, and backwards those to a lamp.
+//! Ray bundles: finds out whether the rays of a group have a common origin, as those of a camera have, and backwards
+//! those to a point light.
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, LaneMask, Ray};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::common_origin::{Aim, Fan, FanRays};
+use super::common_origin::{Aim, BundledRays, CommonOrigin};
 use crate::lanes::{D, D3, F, LaneVectors, M, U, outlined, splat_wide, vector_of};
-use crate::numeric::{FAN_SLOPE, FAN_SPREAD, FAN_STEEP};
+use crate::numeric::{BUNDLE_SLOPE, BUNDLE_SPREAD, BUNDLE_STEEP};
 
 /// Rays of a packet as lines from a point each.
 #[derive(Clone, Copy)]
@@ -17,22 +18,31 @@ pub(crate) struct Lines<S: Simd> {
     pub(crate) live: M<S>,
 }
 
-/// What lines through one point have in common.
-pub(crate) struct Bundle {
-    pub(crate) fan: Fan,
-    /// How far the lines pass the point by.
+/// What the bounds of rays against a mesh grow with.
+#[derive(Clone, Copy)]
+pub(crate) struct Reach {
+    /// How far origins may be off in the mesh's own space, beyond the roundings of `f64`.
+    pub(crate) off: f32,
+    /// The largest coordinate of the mesh.
+    pub(crate) mesh: f32,
+}
+
+/// A bundle of rays with a common origin.
+pub(crate) struct RayBundle {
+    pub(crate) common_origin: CommonOrigin,
+    /// How far the lines pass the common origin by.
     pub(crate) slack: f32,
 }
 
-impl Bundle {
-    /// Of the lines of some packets, if they go through one point and much the same way; for a mesh of that reach.
-    /// Origins may be `off` by so much, beyond the roundings of `f64`. The rays then have the lines' slopes. See [`outlined`].
+impl RayBundle {
+    /// Of the lines of some packets, if they have a common origin and run mostly along the same axis. Stores the lines'
+    /// slopes in `rays`. See [`outlined`].
     #[inline(always)]
     pub(crate) fn of<S: Simd>(
         s: S,
-        rays: &mut [FanRays<S>],
+        rays: &mut [BundledRays<S>],
         lines: impl Fn(usize) -> Lines<S>,
-        reach: (f32, f32),
+        reach: Reach,
     ) -> Option<Self> {
         outlined(
             s,
@@ -44,15 +54,15 @@ impl Bundle {
     #[inline(always)]
     fn of_here<S: Simd>(
         s: S,
-        rays: &mut [FanRays<S>],
+        rays: &mut [BundledRays<S>],
         lines: impl Fn(usize) -> Lines<S>,
-        (off, reach): (f32, f32),
+        reach: Reach,
     ) -> Option<Self> {
-        let (first, (apex, along)) =
+        let (first, (origin, along)) =
             (0..rays.len()).find_map(|packet| Some((packet, lines(packet).first()?)))?;
         let aim = Aim::of(along);
-        // Where nothing goes together, the first packet mostly tells, before all that is to be kept of others.
-        if lines(first).astray(s, &aim, apex).1.any() {
+        // Where there is no common origin, the first packet mostly shows it, before the others are set up.
+        if lines(first).astray(s, &aim, origin).1.any() {
             return None;
         }
         let model = aim.slopes_of(s, along);
@@ -61,7 +71,7 @@ impl Bundle {
         for (packet, rays) in rays.iter_mut().enumerate() {
             let lines = lines(packet);
             rays.follow(s, &aim, &lines, model);
-            let (from, astray) = lines.astray(s, &aim, apex);
+            let (from, astray) = lines.astray(s, &aim, origin);
             apart = F::pick(lines.live, apart.max(from), apart);
             // Written so that NaN counts.
             if (astray | (lines.live & !rays.are_small(s))).any() {
@@ -74,13 +84,14 @@ impl Bundle {
             }
         }
         let least = least.0.reduce_min();
-        let slack = (apart.0.reduce_max() + off) * (1.0 + FAN_SLOPE);
-        let through_one = slack <= FAN_SPREAD * least && least > 0.0;
+        let slack = (apart.0.reduce_max() + reach.off) * (1.0 + BUNDLE_SLOPE);
+        let through_one = slack <= BUNDLE_SPREAD * least && least > 0.0;
         if !through_one {
             return None;
         }
-        let fan = Fan::new(&aim, apex, slack, [low, high], reach).with_slopes_off(2.0 * slack / least);
-        Some(Self { fan, slack })
+        let common_origin = CommonOrigin::new(&aim, origin, slack, [low, high], reach.mesh)
+            .with_slopes_off(2.0 * slack / least);
+        Some(Self { common_origin, slack })
     }
 }
 
@@ -96,7 +107,7 @@ impl Aim {
 }
 
 impl<S: Simd> Lines<S> {
-    /// One by one, for some lanes; none of those that have none.
+    /// Gathered one by one for some lanes; lanes without a ray are not live.
     #[inline(always)]
     pub(crate) fn gathered(s: S, lanes: M<S>, mut ray: impl FnMut(usize) -> Option<Ray>) -> Self {
         let (mut origins, mut directions, mut live) = (LaneVectors::default(), LaneVectors::default(), 0);
@@ -122,17 +133,17 @@ impl<S: Simd> Lines<S> {
         (component(&self.direction, aim.axes[2]) * D::splat(s, f64::from(aim.sign))).narrow()
     }
 
-    /// How far from a point they begin, and which of them too far from it to go together; those of NaN as well.
+    /// How far from a point they begin, and which of them begin too far from it for a bundle; those of NaN as well.
     #[inline(always)]
-    fn astray(&self, s: S, aim: &Aim, apex: DVec3) -> (F<S>, M<S>) {
-        let from = self.origin - splat_wide(s, apex);
+    fn astray(&self, s: S, aim: &Aim, origin: DVec3) -> (F<S>, M<S>) {
+        let from = self.origin - splat_wide(s, origin);
         let from = from.x.abs().max(from.y.abs()).max(from.z.abs()).narrow();
-        let spread = self.depths(s, aim) * F::splat(s, 2.0 * FAN_SPREAD);
+        let spread = self.depths(s, aim) * F::splat(s, 2.0 * BUNDLE_SPREAD);
         (from, self.live & !from.less(spread))
     }
 }
 
-impl<S: Simd> FanRays<S> {
+impl<S: Simd> BundledRays<S> {
     /// No rays.
     #[inline(always)]
     pub(crate) fn nothing(s: S) -> Self {
@@ -144,14 +155,14 @@ impl<S: Simd> FanRays<S> {
             begin: [zero; 2],
             end: [zero; 2],
             slot: none,
-            left: none,
+            leaving: none,
             scale: zero,
             live: M::splat(s, false),
-            settled: 0,
+            decided: 0,
         }
     }
 
-    /// Takes over the lines that are any; lanes that are none follow a model.
+    /// Takes over the live lines; other lanes get the slopes of a model.
     #[inline(always)]
     fn follow(&mut self, s: S, aim: &Aim, lines: &Lines<S>, model: [F<S>; 3]) {
         let [u, v, z] = aim.axes;
@@ -166,14 +177,14 @@ impl<S: Simd> FanRays<S> {
         self.slopes = [[u.reduce_min(), v.reduce_min()], [u.reduce_max(), v.reduce_max()]];
     }
 
-    /// Whether a line runs along the main axis rather than across it, or at least not much more across.
+    /// Lines whose slopes are small enough: that run along the main axis, or at least not much more across it.
     #[inline(always)]
     fn are_small(&self, s: S) -> M<S> {
-        let most = F::splat(s, FAN_STEEP);
+        let most = F::splat(s, BUNDLE_STEEP);
         self.u.abs().less(most) & self.v.abs().less(most)
     }
 
-    /// Error of the slopes where a point of each line is off by so much.
+    /// Error of the slopes where a point of each line is off by `off`.
     #[inline(always)]
     pub(crate) fn error_where_off(&self, s: S, off: F<S>) -> f32 {
         // Both coordinates across and the depth, times a slope below 2, count; a quotient and a sum are rounded.
@@ -181,12 +192,13 @@ impl<S: Simd> FanRays<S> {
         F::pick(self.live, most, F::splat(s, 0.0)).0.reduce_max()
     }
 
-    /// Begins a search from the triangles that are left: between those depths lies the begin; the end is known within a bound.
+    /// Begins a search: `begin` are depths between which the stretch begins, `end` is known within a bound, `leaving` are
+    /// the triangles that the rays leave.
     #[inline(always)]
-    pub(crate) fn start(&mut self, s: S, begin: [F<S>; 2], [end, error]: [F<S>; 2], left: U<S>) {
+    pub(crate) fn start(&mut self, s: S, begin: [F<S>; 2], [end, error]: [F<S>; 2], leaving: U<S>) {
         self.begin = begin;
         self.end = [end - error, end + error];
-        (self.left, self.slot, self.settled) = (left, U::splat(s, u32::MAX), 0);
+        (self.leaving, self.slot, self.decided) = (leaving, U::splat(s, u32::MAX), 0);
     }
 }
 

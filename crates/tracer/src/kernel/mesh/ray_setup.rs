@@ -1,18 +1,17 @@
-//! SingleRay rays made ready a packet at a time: what boxes and triangles are tested with, a column each.
+//! Sets up single rays, a packet at a time: the values that boxes and triangles are tested with, a column each.
 
 use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::Simd;
 
 use super::single_ray::SingleRay;
-use super::{ClosestHit, ExactResolver, Lines, Visits};
-use crate::accel::WideTree;
+use super::{ClosestHit, ExactResolver, Lines, TreeWalk};
 use crate::lanes::{D, D3, F, M, MOST_LANES, U, narrow3};
-use crate::numeric::{BOX_STRETCH, LONE_FLOOR, LONE_OFF, LONE_PAD, LONE_SHARE};
+use crate::numeric::{BOX_STRETCH, SINGLE_RAY_FLOOR, SINGLE_RAY_OFF, SINGLE_RAY_PAD, SINGLE_RAY_SHARE};
 
 /// A number of every lane.
 type Row = [f32; MOST_LANES];
 
-/// Rays of a packet in a mesh's own space, each to be followed alone.
+/// Rays of a packet in a mesh's own space, each to be traced as a single ray.
 pub(crate) struct RaySetup {
     /// Where slabs begin and how their `t` grow, axis by axis: at the ends of boxes that are met first, then at the others.
     starts: [[Row; 3]; 2],
@@ -31,25 +30,32 @@ pub(crate) struct RaySetup {
     floor: Row,
 }
 
+/// Rays to be traced, and the triangles that they leave.
+#[derive(Clone, Copy)]
+pub(crate) struct StartingRays<S: Simd> {
+    pub(crate) lanes: M<S>,
+    pub(crate) leaving: U<S>,
+}
+
 impl RaySetup {
-    /// Makes lines ready for a mesh whose corners' coordinates stay within `reach`. Their origins may be `off` by so much
-    /// along every axis, beyond the roundings of `f64`; the [`ExactResolver`](super::ExactResolver) has the very rays.
+    /// Sets up lines for a mesh whose corners' coordinates stay within `reach`. Their origins may be off by `off` along
+    /// every axis, beyond the roundings of `f64`; the [`ExactResolver`](super::ExactResolver) has the exact rays.
     #[inline(always)]
     pub(crate) fn of<S: Simd>(s: S, lines: &Lines<S>, off: F<S>, reach: f32) -> Self {
         let (origin, direction) = (narrow3(lines.origin), narrow3(lines.direction));
         // An origin that is off counts like one of larger coordinates that is rounded.
         let largest = origin.x.abs().max(origin.y.abs()).max(origin.z.abs());
-        let largest = off.mul_add(F::splat(s, LONE_OFF), largest);
-        let pad = largest.mul_add(F::splat(s, LONE_PAD), F::splat(s, f32::MIN_POSITIVE));
+        let largest = off.mul_add(F::splat(s, SINGLE_RAY_OFF), largest);
+        let pad = largest.mul_add(F::splat(s, SINGLE_RAY_PAD), F::splat(s, f32::MIN_POSITIVE));
         let reach = F::splat(s, reach) + largest;
-        let floor = reach * F::splat(s, LONE_FLOOR);
+        let floor = reach * F::splat(s, SINGLE_RAY_FLOOR);
         let floor = floor.mul_add(floor, F::splat(s, f32::MIN_POSITIVE));
         let mut rays = Self::nothing();
-        rays.start(s, 0, (origin.x, direction.x), pad);
-        rays.start(s, 1, (origin.y, direction.y), pad);
-        rays.start(s, 2, (origin.z, direction.z), pad);
+        rays.start(s, 0, origin.x, direction.x, pad);
+        rays.start(s, 1, origin.y, direction.y, pad);
+        rays.start(s, 2, origin.z, direction.z, pad);
         rays.lean(s, &lines.direction);
-        (reach * F::splat(s, LONE_SHARE)).store(&mut rays.slack);
+        (reach * F::splat(s, SINGLE_RAY_SHARE)).store(&mut rays.slack);
         floor.store(&mut rays.floor);
         rays
     }
@@ -72,7 +78,7 @@ impl RaySetup {
 
     /// Slabs along an axis.
     #[inline(always)]
-    fn start<S: Simd>(&mut self, s: S, axis: usize, (origin, direction): (F<S>, F<S>), pad: F<S>) {
+    fn start<S: Simd>(&mut self, s: S, axis: usize, origin: F<S>, direction: F<S>, pad: F<S>) {
         let inverse = F::splat(s, 1.0) / direction;
         let backwards = inverse.less(F::splat(s, 0.0));
         // A lower end is padded downwards, an upper one upwards.
@@ -92,28 +98,28 @@ impl RaySetup {
         let below = y.abs().max(z.abs());
         let not_x = x.abs().at_most(below);
         let not_y = y.abs().at_most(z.abs());
-        let along = D::splat(s, 1.0) / either((not_x, not_y), [x, y, z]);
-        (either((not_x, not_y), [y, z, x]) * along).narrow().store(&mut self.shear[0]);
-        (either((not_x, not_y), [z, x, y]) * along).narrow().store(&mut self.shear[1]);
+        let along = D::splat(s, 1.0) / either(not_x, not_y, [x, y, z]);
+        (either(not_x, not_y, [y, z, x]) * along).narrow().store(&mut self.shear[0]);
+        (either(not_x, not_y, [z, x, y]) * along).narrow().store(&mut self.shear[1]);
         along.narrow().store(&mut self.along);
         self.mostly = [(!not_x).bits(), (!not_y).bits()];
     }
 
-    /// Finds the nearest triangle for the rays of some lanes, or any, one after another, from the triangles that are left;
-    /// `begun` says what is known of a ray before. Answers their places in the tree's blocks; [`u32::MAX`] for none.
+    /// Finds the nearest triangle for rays, or any, one after another; `begun` gives what is known of a ray before. Returns slots of the tree's blocks; [`u32::MAX`] for none.
     #[inline(always)]
     pub(crate) fn search<S: Simd>(
         &self,
         s: S,
-        (tree, visits): (&WideTree, &mut Visits),
-        (lanes, left): (M<S>, U<S>),
+        walk: TreeWalk<'_>,
+        rays: StartingRays<S>,
         begun: impl Fn(usize) -> ClosestHit,
         exact: &mut dyn ExactResolver,
     ) -> U<S> {
         let mut slots = [u32::MAX; MOST_LANES];
-        for lane in lanes.lanes() {
+        let TreeWalk { tree, visits } = walk;
+        for lane in rays.lanes.lanes() {
             let mut found = begun(lane);
-            self.lane(lane, left.lane(lane)).search(s, tree, visits, &mut found, exact);
+            self.lane(lane, rays.leaving.lane(lane)).search(s, tree, visits, &mut found, exact);
             slots[lane % MOST_LANES] = found.slot.unwrap_or(u32::MAX);
         }
         U::load(s, &slots)
@@ -121,16 +127,16 @@ impl RaySetup {
 
     /// The ray of a lane, which leaves from a triangle.
     #[inline(always)]
-    pub(super) fn lane(&self, lane: usize, left: u32) -> SingleRay {
+    pub(super) fn lane(&self, lane: usize, leaving: u32) -> SingleRay {
         let at = lane % MOST_LANES;
         let bit = |bits: u64| (bits >> at & 1) as usize;
         let three = |[x, y, z]: &[Row; 3]| [x[at], y[at], z[at]];
         let [x, y, z] = self.backwards;
-        // In numbers: nothing foretells which way a branch would go.
+        // In arithmetic: a branch would be unpredictable.
         let last = (2 - bit(self.mostly[1])) * (1 - bit(self.mostly[0]));
         SingleRay {
             lane,
-            left,
+            leaving,
             backwards: [bit(x), bit(y), bit(z)],
             starts: [three(&self.starts[0]), three(&self.starts[1])],
             inverses: [three(&self.inverses[0]), three(&self.inverses[1])],
@@ -146,6 +152,6 @@ impl RaySetup {
 
 /// The number that is for rays mostly along x, y or z.
 #[inline(always)]
-fn either<S: Simd>((not_x, not_y): (M<S>, M<S>), [x, y, z]: [D<S>; 3]) -> D<S> {
+fn either<S: Simd>(not_x: M<S>, not_y: M<S>, [x, y, z]: [D<S>; 3]) -> D<S> {
     D::pick(not_x, D::pick(not_y, z, y), x)
 }

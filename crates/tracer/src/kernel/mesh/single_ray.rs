@@ -7,16 +7,18 @@ use catoptra_core::Span;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::{Edges, ExactResolver, Settled, Visit, Visits, Waiting, bound_eight, settle};
+use super::{
+    Decision, Edges, ExactResolver, LeafBlock, RayTriangle, Visit, Visits, Waiting, bound_eight, decide,
+};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::{Bits, outlined};
-use crate::numeric::{BOX_STRETCH, LONE_DEPTH, LONE_SPREAD, LONE_STEEP};
+use crate::numeric::{BOX_STRETCH, SINGLE_RAY_DEPTH, SINGLE_RAY_SPREAD, SINGLE_RAY_STEEP};
 
 /// A ray in a mesh's own space.
 pub(super) struct SingleRay {
     pub(super) lane: usize,
     /// The triangle that the ray leaves from.
-    pub(super) left: u32,
+    pub(super) leaving: u32,
     /// 1 along axes that it runs backwards, where upper ends of boxes are met first; else 0.
     pub(super) backwards: [usize; 3],
     /// Where slabs begin and how their `t` grow, per axis; for the ends that are met first, then for the others.
@@ -44,7 +46,7 @@ pub(crate) struct ClosestHit {
     pub(crate) slot: Option<u32>,
     /// Whether any crossing will do.
     any: bool,
-    /// The stretch that is asked about, and between what it begins in `f32`.
+    /// The span that is searched, and bounds in `f32` on where it begins.
     span: Span,
     begin: [f32; 2],
 }
@@ -55,24 +57,24 @@ impl ClosestHit {
     pub(crate) fn nothing_on(span: Span) -> Self {
         let (min, t) = (span.min as f32, span.max as f32);
         let finite = t < f32::MAX;
-        let error = if finite { t.abs() * LONE_DEPTH } else { 0.0 };
-        let begin = [min - min * LONE_DEPTH, min + min * LONE_DEPTH];
+        let error = if finite { t.abs() * SINGLE_RAY_DEPTH } else { 0.0 };
+        let begin = [min - min * SINGLE_RAY_DEPTH, min + min * SINGLE_RAY_DEPTH];
         Self { t: if finite { t } else { f32::MAX }, error, slot: None, any: false, span, begin }
     }
 
     /// Where something else has been met, at a `t` that is known within a bound.
     #[inline(always)]
-    pub(crate) fn before(self, (t, error): (f32, f32)) -> Self {
+    pub(crate) fn before(self, t: f32, error: f32) -> Self {
         Self { t, error, ..self }
     }
 
-    /// Asked for any crossing rather than the nearest.
+    /// Searches for any crossing (occlusion) rather than the nearest.
     #[inline(always)]
     pub(crate) fn for_any(self, any: bool) -> Self {
         Self { any, ..self }
     }
 
-    /// At least how far it is still worth looking, as the near sides of boxes are rounded.
+    /// At least the `t` up to which boxes are still searched, with room for the rounding of their near sides.
     #[inline(always)]
     fn far(&self) -> f32 {
         (self.t + self.error) * BOX_STRETCH
@@ -114,36 +116,25 @@ impl SingleRay {
                 let node = &tree.nodes[visit.link as usize];
                 let (met, near) = self.enter(s, node, far);
                 if met != 0 {
-                    visit = waiting.nearest_of((tree, node), met, &near);
+                    visit = waiting.nearest_of(tree, node, met, &near);
                     continue;
                 }
-            } else if self.visit_leaf(s, (tree, visit), &mut waiting, best, exact) {
-                far = best.far();
-                if best.any && best.slot.is_some() {
-                    return;
+            } else {
+                let mut met = false;
+                for block in visit.blocks(tree) {
+                    *waiting.blocks += 1;
+                    met |= self.pass(s, &block, best, exact);
+                }
+                if met {
+                    far = best.far();
+                    if best.any && best.slot.is_some() {
+                        return;
+                    }
                 }
             }
             let Some(next) = waiting.pop(far) else { return };
             visit = next;
         }
-    }
-
-    /// Tests the triangles of a leaf; whether there were any that the ray is not certain to miss.
-    #[inline(always)]
-    fn visit_leaf<S: Simd>(
-        &self,
-        s: S,
-        (tree, leaf): (&WideTree, Visit),
-        waiting: &mut Waiting<'_>,
-        best: &mut ClosestHit,
-        exact: &mut dyn ExactResolver,
-    ) -> bool {
-        let mut met = false;
-        for (block, own) in leaf.blocks() {
-            *waiting.blocks += 1;
-            met |= self.pass(s, (tree, block, own), best, exact);
-        }
-        met
     }
 
     /// Where the ray crosses the nearer (side 0) or farther sides of the boxes along an axis.
@@ -185,25 +176,25 @@ impl SingleRay {
         f32x8::load_array_ref(s, &rows[axis]) - f32x8::splat(s, self.origin[axis])
     }
 
-    /// Tests the ray against triangles of a block; whether there are any that it is not certain to miss.
+    /// Tests the ray against a leaf's triangles in a block; whether there are any that it is not certain to miss.
     #[inline(always)]
     fn pass<S: Simd>(
         &self,
         s: S,
-        (tree, block, own): (&WideTree, usize, u64),
+        leaf: &LeafBlock<'_>,
         best: &mut ClosestHit,
         exact: &mut dyn ExactResolver,
     ) -> bool {
-        let corners = &tree.blocks[block].corners;
+        let corners = &leaf.tree.blocks[leaf.block].corners;
         let (a, b, c) =
             (self.corner(s, &corners[0]), self.corner(s, &corners[1]), self.corner(s, &corners[2]));
         let most = a.across().max(b.across()).max(c.across());
         let (u, v, w) = (edge(&c, &b), edge(&a, &c), edge(&b, &a));
         let (slack, floor) = (f32x8::splat(s, self.slack), f32x8::splat(s, self.floor));
-        let spread = most.mul_add_precise(f32x8::splat(s, LONE_SPREAD), slack);
+        let spread = most.mul_add_precise(f32x8::splat(s, SINGLE_RAY_SPREAD), slack);
         let error = bound_eight(s, most.mul_add_precise(spread, floor));
         let (low, high) = (u.min(v).min(w), u.max(v).max(w));
-        let maybe = !(low.simd_lt(-error) & high.simd_gt(error)).to_bitmask() & own;
+        let maybe = !(low.simd_lt(-error) & high.simd_gt(error)).to_bitmask() & leaf.own;
         if maybe == 0 {
             return false;
         }
@@ -211,15 +202,16 @@ impl SingleRay {
         let inverse = f32x8::splat(s, 1.0) / area;
         let (e, f) = (b.z - a.z, c.z - a.z);
         let z = e.mul_add_precise(v, f * w).mul_add_precise(inverse, a.z);
-        let steep = error * f32x8::splat(s, LONE_STEEP);
+        let steep = error * f32x8::splat(s, SINGLE_RAY_STEEP);
         // Products of corners of tiny scenes may underflow, and so may depths.
         let least = f32x8::splat(s, f32::MIN_POSITIVE);
         let z_error =
             steep.mul_add_precise(e.abs().max(f.abs()), least).mul_add_precise(inverse.abs(), slack);
         let along = f32x8::splat(s, self.along);
         let t = z * along;
-        let t_error =
-            t.abs().mul_add_precise(f32x8::splat(s, LONE_DEPTH), z_error.mul_add_precise(along.abs(), least));
+        let t_error = t
+            .abs()
+            .mul_add_precise(f32x8::splat(s, SINGLE_RAY_DEPTH), z_error.mul_add_precise(along.abs(), least));
         let t_error = bound_eight(s, t_error);
         let known = (low.simd_gt(error) | high.simd_lt(-error)) & area.abs().simd_gt(steep + steep);
         let past = (t - t_error).simd_gt(best.t + best.error) | (t + t_error).simd_lt(best.begin[0]);
@@ -228,12 +220,12 @@ impl SingleRay {
         for at in Bits(open) {
             let at = at % WIDTH;
             let crossing = (known >> at & 1 == 1).then_some((t[at], t_error[at]));
-            self.accept(tree, (block * WIDTH + at) as u32, crossing, best, exact);
+            self.accept(leaf.tree, leaf.slot(at), crossing, best, exact);
         }
         true
     }
 
-    /// Takes over a triangle where it is nearer; where it is crossed, if that is known.
+    /// Takes over a triangle where it is nearer; `crossing` is its `t` and the bound on that, if known.
     #[inline(always)]
     fn accept(
         &self,
@@ -243,7 +235,7 @@ impl SingleRay {
         best: &mut ClosestHit,
         exact: &mut dyn ExactResolver,
     ) {
-        if tree.facet(slot) == self.left {
+        if tree.facet(slot) == self.leaving {
             return;
         }
         if let Some((t, error)) = crossing {
@@ -255,32 +247,33 @@ impl SingleRay {
                 return;
             }
         }
-        self.settle(tree, slot, best, exact);
+        self.decide(tree, slot, best, exact);
     }
 
     /// Decides what `f32` leaves open.
     #[cold]
     #[inline(never)]
-    fn settle(&self, tree: &WideTree, slot: u32, best: &mut ClosestHit, exact: &mut dyn ExactResolver) {
+    fn decide(&self, tree: &WideTree, slot: u32, best: &mut ClosestHit, exact: &mut dyn ExactResolver) {
         let (facet, held) = (tree.facet(slot), best.slot);
-        // A triangle may stand in several leaves.
+        // A triangle may be in several leaves.
         if held.is_some_and(|held| tree.facet(held) == facet) {
             return;
         }
         // A rounding of the difference, towards smaller numbers.
-        let least = f64::from((best.t - best.error) * (1.0 - LONE_DEPTH));
+        let least = f64::from((best.t - best.error) * (1.0 - SINGLE_RAY_DEPTH));
         let before = if best.any { f64::INFINITY } else { least };
         let held_triangle = held.map(|slot| tree.triangle(slot));
-        let next = (&tree.triangle(slot), Edges::Open);
         let Some((ray, _)) = exact.ray(self.lane) else { return };
-        let t = match settle(next, held_triangle, before, (&ray, best.span)) {
-            Settled::Not => None,
-            Settled::Nearer(t) => Some(t),
-            Settled::Open => exact.decide(self.lane, facet, held.map(|slot| tree.facet(slot))),
+        let corners = &tree.triangle(slot);
+        let test = RayTriangle { ray: &ray, span: best.span, corners, edges: Edges::Open };
+        let t = match decide(&test, held_triangle, before) {
+            Decision::NotNearer => None,
+            Decision::Nearer(t) => Some(t),
+            Decision::Open => exact.decide(self.lane, facet, held.map(|slot| tree.facet(slot))),
         };
         if let Some(t) = t {
             let t = t as f32;
-            (best.t, best.error, best.slot) = (t, t.abs() * LONE_DEPTH, Some(slot));
+            (best.t, best.error, best.slot) = (t, t.abs() * SINGLE_RAY_DEPTH, Some(slot));
         }
     }
 }
@@ -309,19 +302,19 @@ fn edge<S: Simd>(v: &Corner<S>, w: &Corner<S>) -> f32x8<S> {
 impl Waiting<'_> {
     /// The nearest of some children of a node; the others wait, the nearer ones first.
     #[inline(always)]
-    fn nearest_of(&mut self, of: (&WideTree, &Node8), children: u64, near: &[f32; WIDTH]) -> Visit {
-        let first = Visit::ahead(of, children.trailing_zeros() as usize, near);
+    fn nearest_of(&mut self, tree: &WideTree, node: &Node8, children: u64, near: &[f32; WIDTH]) -> Visit {
+        let first = Visit::ahead(tree, node, children.trailing_zeros() as usize, near);
         let others = children & (children - 1);
         if others == 0 {
             return first;
         }
-        let second = Visit::ahead(of, others.trailing_zeros() as usize, near);
+        let second = Visit::ahead(tree, node, others.trailing_zeros() as usize, near);
         let rest = others & (others - 1);
         let (mut nearest, other) = if second.near < first.near { (second, first) } else { (first, second) };
         let from = self.depth;
         self.push(other);
         for at in Bits(rest) {
-            let next = Visit::ahead(of, at, near);
+            let next = Visit::ahead(tree, node, at, near);
             if next.near < nearest.near {
                 self.push(nearest);
                 nearest = next;

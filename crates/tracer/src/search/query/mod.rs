@@ -12,7 +12,7 @@ use single_mesh::single_mesh;
 use super::{Hits, OwnSegments, Packet, PreciseRays, Searcher, ShadowRays, drift, kernel_rays};
 use crate::cull::Candidates;
 use crate::film::NOTHING;
-use crate::kernel::mesh::Visits;
+use crate::kernel::mesh::{Lines, Visits};
 use crate::kernel::{Leaving, Target};
 use crate::lanes::{Bits, D, D3, F, F3, M, U, Work, at_level, load_wide3, narrow3, splat_wide};
 use crate::numeric::{END_ERROR, ORDINARY, POINT_ERROR};
@@ -60,14 +60,14 @@ impl RayQuery<'_> {
         (origin - splat_wide(s, self.snapshot.origin()), direction)
     }
 
-    /// As [`lines`](Self::lines), in a mesh's own space.
+    /// As [`lines`](Self::lines), of some lanes and in a mesh's own space.
     #[inline(always)]
-    fn own_lines<S: Simd>(&self, s: S, at: usize, instance: &Instance) -> (D3<S>, D3<S>) {
+    fn own_lines<S: Simd>(&self, s: S, at: usize, instance: &Instance, live: M<S>) -> Lines<S> {
         let (origin, direction) = self.lines(s, at);
-        (instance.own_points(s, origin), instance.own_vectors(s, direction))
+        Lines { origin: instance.own_points(s, origin), direction: instance.own_vectors(s, direction), live }
     }
 
-    /// Where the spans of the packet at ray `at` begin and end; not finite for those without an end.
+    /// Where the spans of the packet at ray `at` begin and end; not finite for unbounded ones.
     #[inline(always)]
     fn span_ends<S: Simd>(&self, s: S, at: usize) -> [D3<S>; 2] {
         let (origin, direction) = self.lines(s, at);
@@ -92,8 +92,8 @@ impl RayQuery<'_> {
         D::load(s, lengths).narrow() / inverse_length
     }
 
-    /// Depths between which the spans begin, and those at which they end and how far these may be off; for rays of so
-    /// much depth per `t`.
+    /// Depths between which the spans begin, and those at which they end and how far these may be off; for rays of
+    /// `scale` depth per `t`.
     #[inline(always)]
     fn depths<S: Simd>(&self, s: S, at: usize, scale: F<S>) -> [[F<S>; 2]; 2] {
         let (rays, lane) = self.rays.block(at);
@@ -139,8 +139,8 @@ impl RayQuery<'_> {
         }
     }
 
-    /// The spans of a packet as segments to be tested for anything in their way. Rays that leave a surface but whose
-    /// spans begin later are left to be answered one by one.
+    /// The spans of a packet as shadow rays. Rays that leave a surface but whose spans begin later are answered one by
+    /// one instead.
     #[inline(always)]
     fn shadow_rays<S: Simd>(&self, s: S, packet: &Packet<'_, S, Self>) -> ShadowRays<'static, S> {
         let (rays, lane) = self.rays.block(packet.at);
@@ -358,24 +358,24 @@ impl<S: Simd> Searcher<'_, S> {
     fn refined_hits<P: PreciseRays<S>>(&mut self, packet: &Packet<'_, S, P>, best: &Hits<S>) -> D<S> {
         let snapshot = self.snapshot;
         let mut all = (best.t * packet.inverse_length).widen();
-        let mut left = (best.hits() & packet.live).bits();
-        while left != 0 {
-            let prim = best.prim.lane(left.trailing_zeros() as usize);
-            let lanes = M::from_bits(self.s, left) & best.prim.is(prim);
-            left &= !lanes.bits();
+        let mut remaining = (best.hits() & packet.live).bits();
+        while remaining != 0 {
+            let prim = best.prim.lane(remaining.trailing_zeros() as usize);
+            let lanes = M::from_bits(self.s, remaining) & best.prim.is(prim);
+            remaining &= !lanes.bits();
             if let Row::Instance(row) = snapshot.columns().rows[prim as usize] {
                 let instance = &snapshot.columns().instances[row as usize];
                 let triangles = instance.facets(self.s, best.facet, lanes);
-                let lines = self.own_lines(packet, instance);
+                let lines = self.own_lines(packet, instance, lanes);
                 let of_lane = |lane: usize| packet.segment(lane);
-                let t = self.refined_t(prim, lines, lanes, &triangles, of_lane);
+                let t = self.refined_t(prim, &lines, &triangles, of_lane);
                 all = D::pick(lanes, t, all);
                 continue;
             }
             for lane in lanes.lanes() {
                 let (ray, span, leaving) = packet.segment(lane);
                 let facet = Some(best.facet.lane(lane));
-                // What `f32` was certain of stands, though `f64` may see its `t` at the very end of the stretch.
+                // A hit that `f32` was certain of is kept, though `f64` may find its `t` just outside the span.
                 if let Some(hit) = snapshot.cross_part(prim, facet, &ray, span, leaving) {
                     all.set(lane, hit.crossing.t);
                 }
@@ -388,6 +388,6 @@ impl<S: Simd> Searcher<'_, S> {
     #[cold]
     fn scalar_answer(&self, query: &RayQuery<'_>, at: usize) -> Option<(SurfaceId, f64)> {
         let hit = query.rays.follow(self.snapshot, at, |segment| self.snapshot.nearest_on(segment))?;
-        Some((hit.place, hit.crossing.t))
+        Some((hit.surface, hit.crossing.t))
     }
 }

@@ -1,5 +1,5 @@
-//! Ray queries where one mesh is all there is: groups of packets walk its tree together, and nothing
-//! is worked out that only other shapes need.
+//! Ray queries on a scene that is a single mesh: groups of packets walk its tree together, and nothing is computed that
+//! only other shapes need.
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::{Geometry, LaneMask, Ray, Span};
@@ -8,30 +8,39 @@ use fearless_simd::Simd;
 use super::{Answers, RayQuery};
 use crate::Snapshot;
 use crate::film::NOTHING;
-use crate::kernel::mesh::{Bundle, ClosestHit, ExactResolver, FanRays, GROUP, Lines};
+use crate::kernel::mesh::{
+    BundledRays, ClosestHit, ExactResolver, GROUP, Lines, RayBundle, StartingRays, TreeWalk,
+};
 use crate::lanes::{F, M, U, outlined};
 use crate::search::Searcher;
 use crate::search::mesh::{NONE, ends_of_segments};
 use crate::snapshot::{Instance, RaySegment, Row};
 
-/// Rays of a caller, and the mesh that is all there is.
+/// Rays of a caller, and the only mesh of the scene.
 #[derive(Clone, Copy)]
 struct MeshQuery<'a> {
     query: &'a RayQuery<'a>,
     instance: &'a Instance,
     mesh: &'a Mesh,
-    /// Whether anything that the rays meet will do.
+    /// Whether any hit will do (occlusion) rather than the nearest.
     any: bool,
 }
 
-/// Packets that stand side by side.
+/// Consecutive packets of a query.
 #[derive(Clone, Copy)]
 struct Group<S: Simd> {
     /// The first ray.
     at: usize,
     packets: usize,
-    /// Rays to be followed.
+    /// Rays that kernels may follow.
     live: [M<S>; GROUP],
+}
+
+/// Memory that is used for one group after another.
+struct GroupRoom<S: Simd> {
+    rays: [BundledRays<S>; GROUP],
+    /// Whether the last bundle of segments had its common origin at their ends.
+    backwards: bool,
 }
 
 impl<S: Simd> Group<S> {
@@ -50,7 +59,7 @@ impl<S: Simd> Group<S> {
     }
 }
 
-/// The mesh that is all there is, if so.
+/// The instance, if the scene is a single mesh.
 pub(super) fn single_mesh(snapshot: &Snapshot) -> Option<&Instance> {
     let columns = snapshot.columns();
     let [Row::Instance(row)] = columns.rows[..] else { return None };
@@ -58,7 +67,7 @@ pub(super) fn single_mesh(snapshot: &Snapshot) -> Option<&Instance> {
 }
 
 impl<S: Simd> Searcher<'_, S> {
-    /// Answers about rays where a mesh is all there is.
+    /// Answers a query on a scene that is a single mesh.
     pub(super) fn answer_of_mesh(
         &mut self,
         query: &RayQuery<'_>,
@@ -67,7 +76,7 @@ impl<S: Simd> Searcher<'_, S> {
     ) {
         let Some(mesh) = self.snapshot.mesh_at(instance.prim) else { return };
         let of = &MeshQuery { query, instance, mesh, any: matches!(answers, Answers::Occluded(_)) };
-        let (mut rays, mut backwards) = ([FanRays::nothing(self.s); GROUP], false);
+        let mut room = GroupRoom { rays: [BundledRays::nothing(self.s); GROUP], backwards: false };
         for at in (0..query.len()).step_by(GROUP * F::<S>::LANES) {
             let packets = (query.len() - at).div_ceil(F::<S>::LANES).min(GROUP);
             let mut group = Group { at, packets, live: [M::splat(self.s, false); GROUP] };
@@ -77,7 +86,7 @@ impl<S: Simd> Searcher<'_, S> {
             outlined(
                 self.s,
                 #[inline(always)]
-                || self.answer_group(of, &group, (answers, &mut rays, &mut backwards)),
+                || self.answer_group(of, &group, answers, &mut room),
             );
         }
     }
@@ -87,14 +96,15 @@ impl<S: Simd> Searcher<'_, S> {
         &mut self,
         of: &MeshQuery<'_>,
         group: &Group<S>,
-        (answers, rays, backwards): (&mut Answers<'_, '_>, &mut [FanRays<S>; GROUP], &mut bool),
+        answers: &mut Answers<'_, '_>,
+        room: &mut GroupRoom<S>,
     ) {
         let mut slots = [U::splat(self.s, NONE); GROUP];
-        // What does not go together is halved; what does doubles what is tried next.
+        // A group without a common origin is halved; after one with, the next try is twice as large.
         let (mut first, mut size) = (0, group.packets);
         while first < group.packets {
             let part = group.part(self.s, first, size.min(group.packets - first));
-            if self.find_together(of, &part, (&mut slots[first..], rays, backwards)) {
+            if self.find_together(of, &part, &mut slots[first..], room) {
                 (first, size) = (first + part.packets, 2 * part.packets);
             } else if part.packets == 1 {
                 slots[first] = self.find_each(of, &part);
@@ -105,24 +115,26 @@ impl<S: Simd> Searcher<'_, S> {
         }
         for (packet, slots) in slots.into_iter().enumerate().take(group.packets) {
             let part = group.part(self.s, packet, 1);
-            self.store_packet(of, (&part, slots), answers);
+            self.store_packet(of, &part, slots, answers);
         }
     }
 
-    /// Finds triangles for all rays of a group at once, if they go through one point; whether they do.
+    /// Finds triangles for all rays of a group at once, if they have a common origin; returns whether they do.
     #[inline(always)]
     fn find_together(
         &mut self,
         of: &MeshQuery<'_>,
         group: &Group<S>,
-        (slots, rays, backwards): (&mut [U<S>], &mut [FanRays<S>; GROUP], &mut bool),
+        slots: &mut [U<S>],
+        room: &mut GroupRoom<S>,
     ) -> bool {
+        let GroupRoom { rays, backwards } = room;
         let rays = &mut rays[..group.packets];
         let bundle = if of.any {
-            // The way that went well last is tried first.
-            let bundle = self.bundle_of_segments(of, group, (rays, *backwards));
+            // The direction in which the last group had a common origin is tried first.
+            let bundle = self.bundle_of_segments(of, group, rays, *backwards);
             bundle.or_else(|| {
-                let bundle = self.bundle_of_segments(of, group, (rays, !*backwards));
+                let bundle = self.bundle_of_segments(of, group, rays, !*backwards);
                 *backwards ^= bundle.is_some();
                 bundle
             })
@@ -140,12 +152,12 @@ impl<S: Simd> Searcher<'_, S> {
             rays.start(self.s, begin, end, of.query.leaving(self.s, at).facets_of(self.s, of.instance.prim));
         }
         let mut exact = of.resolver(self.snapshot, group.at);
-        let fan = if of.any { bundle.fan.for_any() } else { bundle.fan };
-        fan.search(self.s, &of.instance.tree.tree, self.visits, rays, &mut exact);
+        let common_origin = if of.any { bundle.common_origin.for_any() } else { bundle.common_origin };
+        common_origin.search(self.s, &of.instance.tree.tree, self.visits, rays, &mut exact);
         self.count_visits();
         for (slot, rays) in slots.iter_mut().zip(rays) {
             *slot = rays.slot;
-            self.stats.settled += rays.settled;
+            self.stats.settled += rays.decided;
         }
         true
     }
@@ -155,15 +167,15 @@ impl<S: Simd> Searcher<'_, S> {
         &self,
         of: &MeshQuery<'_>,
         group: &Group<S>,
-        rays: &mut [FanRays<S>],
-    ) -> Option<Bundle> {
-        Bundle::of(
+        rays: &mut [BundledRays<S>],
+    ) -> Option<RayBundle> {
+        RayBundle::of(
             self.s,
             rays,
             #[inline(always)]
             |packet| {
-                let (origin, direction) = of.query.own_lines(self.s, group.start(packet), of.instance);
-                Lines { origin, direction, live: group.live[packet % GROUP] }
+                let live = group.live[packet % GROUP];
+                of.query.own_lines(self.s, group.start(packet), of.instance, live)
             },
             self.reach(of.instance),
         )
@@ -175,9 +187,10 @@ impl<S: Simd> Searcher<'_, S> {
         &self,
         of: &MeshQuery<'_>,
         group: &Group<S>,
-        (rays, backwards): (&mut [FanRays<S>], bool),
-    ) -> Option<Bundle> {
-        Bundle::of(
+        rays: &mut [BundledRays<S>],
+        backwards: bool,
+    ) -> Option<RayBundle> {
+        RayBundle::of(
             self.s,
             rays,
             #[inline(always)]
@@ -198,12 +211,11 @@ impl<S: Simd> Searcher<'_, S> {
         of.query.rays.prefetch(packet.start(GROUP));
         let leaving = of.query.leaving(self.s, packet.at).facets_of(self.s, of.instance.prim);
         let mut exact = of.resolver(self.snapshot, packet.at);
-        let (origin, direction) = of.query.own_lines(self.s, packet.at, of.instance);
-        let lines = Lines { origin, direction, live: packet.live[0] };
+        let lines = of.query.own_lines(self.s, packet.at, of.instance, packet.live[0]);
         let slots = self.ray_setup(&lines, of.instance).search(
             self.s,
-            (&of.instance.tree.tree, self.visits),
-            (lines.live, leaving),
+            TreeWalk { tree: &of.instance.tree.tree, visits: self.visits },
+            StartingRays { lanes: lines.live, leaving },
             #[inline(always)]
             |lane| ClosestHit::nothing_on(of.query.span_at(packet.at + lane)).for_any(of.any),
             &mut exact,
@@ -217,7 +229,8 @@ impl<S: Simd> Searcher<'_, S> {
     fn store_packet(
         &mut self,
         of: &MeshQuery<'_>,
-        (packet, slots): (&Group<S>, U<S>),
+        packet: &Group<S>,
+        slots: U<S>,
         answers: &mut Answers<'_, '_>,
     ) {
         let (at, instance) = (packet.at, of.instance);
@@ -228,9 +241,9 @@ impl<S: Simd> Searcher<'_, S> {
                 U::pick(taken, prim, nothing).store(&mut hits.prim[at..]);
                 if taken.any() {
                     let triangles = instance.triangles(self.s, slots, taken);
-                    let lines = of.query.own_lines(self.s, at, instance);
+                    let lines = of.query.own_lines(self.s, at, instance, taken);
                     let of_lane = |lane: usize| of.query.segment(at + lane);
-                    let t = self.refined_t(instance.prim, lines, taken, &triangles, of_lane);
+                    let t = self.refined_t(instance.prim, &lines, &triangles, of_lane);
                     triangles.facet.store(&mut hits.facet[at..]);
                     t.store(&mut hits.t[at..]);
                 }
@@ -247,13 +260,13 @@ impl<S: Simd> Searcher<'_, S> {
 }
 
 impl<'a> MeshQuery<'a> {
-    /// Decides what a group of packets meets whose first ray is `at`.
+    /// The exact resolver of a group of packets whose first ray is `at`.
     fn resolver(&self, snapshot: &'a Snapshot, at: usize) -> ClosestOfQuery<'a> {
         ClosestOfQuery { snapshot, of: *self, at }
     }
 }
 
-/// Decides what rays of a caller meet, of a mesh that is all there is.
+/// Exact hits of a caller's rays on a single mesh.
 struct ClosestOfQuery<'a> {
     snapshot: &'a Snapshot,
     of: MeshQuery<'a>,
