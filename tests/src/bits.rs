@@ -3,13 +3,28 @@
 use catoptra_core::EntityId;
 use catoptra_tracer::{Film, Region, Size};
 
-/// Everything that a film knows of each pixel, colours and depths by their bits.
-fn bits(film: &Film) -> Vec<([u32; 3], u32, Option<EntityId>)> {
+/// Everything that a film knows of a pixel, numbers by their bits.
+#[derive(Debug, PartialEq)]
+struct PixelBits {
+    radiance: [u32; 3],
+    standard_error: Option<u32>,
+    samples: u32,
+    depth: u32,
+    surface: Option<EntityId>,
+}
+
+/// The pixels of a film.
+fn bits(film: &Film) -> Vec<PixelBits> {
     let Size { width, height } = film.size();
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    places
-        .map(|(x, y)| (film.radiance(x, y).map(f32::to_bits), film.depth(x, y).to_bits(), film.surface(x, y)))
-        .collect()
+    let pixel = |(x, y)| PixelBits {
+        radiance: film.radiance(x, y).map(f32::to_bits),
+        standard_error: film.standard_error(x, y).map(f32::to_bits),
+        samples: film.samples(x, y),
+        depth: film.depth(x, y).to_bits(),
+        surface: film.surface(x, y),
+    };
+    places.map(pixel).collect()
 }
 
 /// Two films have the same bits.
@@ -24,7 +39,7 @@ pub fn assert_same_bits(reference: &Film, test: &Film, what: &str) {
     let differing: Vec<usize> = (0..reference.len()).filter(|&i| reference[i] != test[i]).collect();
     if let Some(&first) = differing.first() {
         let (x, y) = (first % width, first / width);
-        let (was, is) = (reference[first], test[first]);
+        let (was, is) = (&reference[first], &test[first]);
         panic!("{what}: {} pixels differ, the first at {x},{y}: {was:x?} became {is:x?}", differing.len());
     }
 }

@@ -30,7 +30,7 @@ fn scenes() -> Vec<(String, Scene)> {
 
 /// What a scene's first camera sees, with reflections and their order in play.
 fn view(scene: &Scene) -> View {
-    View::of(scene, camera_of(scene), ODD)
+    View { moments: true, ..View::of(scene, camera_of(scene), ODD) }
 }
 
 /// A size that no tile divides, so that tiles at the border are cut.

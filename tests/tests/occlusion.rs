@@ -195,6 +195,7 @@ fn view(scene: &Scene) -> View {
         integrator: Integrator::Occlusion,
         occlusion_distance: 3.0,
         grid: 2,
+        moments: true,
         ..View::of(scene, camera_of(scene), ODD)
     }
 }

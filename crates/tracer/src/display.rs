@@ -92,7 +92,7 @@ impl Display {
             let start = y as usize * width + (tile.x - left) as usize;
             for (x, out) in (0..tile.width).zip(&mut band[start..]) {
                 let i = tile.index(x, y);
-                let [r, g, b] = [0, 1, 2].map(|c| u32::from(self.byte(tile.radiance[c][i])));
+                let [r, g, b] = tile.radiance(i).map(|v| u32::from(self.byte(v)));
                 *out = r << 16 | g << 8 | b;
             }
         }

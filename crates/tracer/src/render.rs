@@ -28,13 +28,13 @@ pub fn render(
 ) -> Result<Stats, Cancelled> {
     assert_eq!(film.region(), view.region(), "the film holds what the view shows");
     let frame = Frame::new(snapshot, view);
-    let tiles = film.begin(snapshot.entities());
+    let tiles = film.tiles_mut();
     control.start(tiles.len());
     let trace = |tile: &mut crate::Tile| {
         if control.is_cancelled() {
             return Err(Cancelled);
         }
-        tile.begin();
+        tile.begin(snapshot.entities(), view);
         let stats = Stats::with_exact(|| backend.trace(&frame, tile));
         control.advance();
         Ok(stats)

@@ -88,6 +88,8 @@ pub struct View {
     pub grid: u32,
     /// Where in a pixel they lie.
     pub pattern: Pattern,
+    /// Whether the film is to tell [standard errors](crate::Film::standard_error); the picture's bits do not depend on it.
+    pub moments: bool,
     /// Which work that cannot matter is left out; the picture's bits do not depend on it.
     pub skip: Skip,
     /// Vector instructions to trace with; without, the best that the CPU has. The picture's bits do not depend on them.
@@ -133,6 +135,7 @@ impl View {
             seed: 0,
             grid: 1,
             pattern: Pattern::Grid,
+            moments: false,
             skip: Skip::ALL,
             instructions: None,
         }

@@ -4,8 +4,7 @@ use catoptra_core::Rgb;
 
 use super::walker::{CameraRay, Walker};
 use super::{Integrate, IntegratorVisitor, Search, visit};
-use crate::film::NOTHING;
-use crate::lanes::storable;
+use crate::film::{NOTHING, Sum, store_finite};
 use crate::sampler::Sampler;
 use crate::{Frame, Hit, Stats, Tile};
 
@@ -30,7 +29,6 @@ impl<S: Search> IntegratorVisitor for Pixels<'_, S> {
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
             trace_pixel::<I, S>(&mut walker, tile, x, y);
         }
-        walker.stats.not_finite += finish(tile, frame.view.grid);
         walker.stats
     }
 }
@@ -41,35 +39,26 @@ fn trace_pixel<I: Integrate, S: Search>(walker: &mut Walker<'_, S>, tile: &mut T
     let grid = frame.view.grid;
     let [column, row] = [tile.x + x, tile.y + y];
     let sampler = Sampler::new(frame.view.seed, column, row);
-    let mut sum = Rgb::BLACK;
+    let (mut sum, mut count) = (Rgb::BLACK, 0);
     for (u, v) in (0..grid).flat_map(|v| (0..grid).map(move |u| (u, v))) {
         let [right, down] = frame.view.place(u, v);
         let ray = frame.raster.ray(f64::from(column) + right, f64::from(row) + down);
         let (light, first) =
             I::gather(walker, &CameraRay { ray, sampler, sample: v.wrapping_mul(grid).wrapping_add(u) });
+        if frame.view.moments {
+            let [before, sample] =
+                [(sum, count), (light, 1)].map(|(light, count)| Sum { light: light.to_array(), count });
+            tile.add_deviation(i, before.spread_to(sample));
+        }
         sum += light;
+        count += 1;
         if (u, v) == (grid / 2, grid / 2) {
             let distance = |hit: Hit| (hit.crossing.t * ray.direction.length()) as f32;
             tile.depth[i] = first.map_or(f32::INFINITY, distance);
             tile.surface[i] = first.map_or(NOTHING, |hit| hit.surface.prim);
         }
     }
-    for (channel, light) in tile.radiance.iter_mut().zip(sum.to_array()) {
-        channel[i] = light as f32;
+    for (channel, light) in tile.sums.iter_mut().zip(sum.to_array()) {
+        walker.stats.not_finite += store_finite(&mut channel[i], light as f32);
     }
-}
-
-/// Divides sums over `grid` x `grid` samples; lights past every number become the largest, what is no number black. How
-/// many those were.
-fn finish(tile: &mut Tile, grid: u32) -> u64 {
-    let share = 1.0 / (grid as f32 * grid as f32);
-    let mut not_finite = 0;
-    for column in &mut tile.radiance {
-        for light in column.iter_mut() {
-            let (kept, broken) = storable(f64::from(*light));
-            *light = if broken { kept as f32 } else { *light * share };
-            not_finite += u64::from(broken);
-        }
-    }
-    not_finite
 }

@@ -5,7 +5,6 @@ mod double;
 mod level;
 mod precise;
 mod prefetch;
-mod storable;
 mod vectors;
 mod word;
 
@@ -19,7 +18,6 @@ pub(crate) use double::D;
 pub(crate) use level::{Work, at_level, outlined};
 pub(crate) use precise::{Precise, narrow3, pick3};
 pub(crate) use prefetch::prefetch;
-pub(crate) use storable::storable;
 pub(crate) use vectors::{
     D3, F3, LaneVectors, compress_wide3, compress3, cross, load_wide3, load3, magnitude, splat_wide, splat3,
     store_wide3, store3, vector_of, widen3,

@@ -6,8 +6,8 @@ use catoptra_core::{Constant3, Lane, LaneMask};
 use fearless_simd::Simd;
 
 use super::{CameraPackets, Queue};
-use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING};
-use crate::lanes::{Column, F, F3, M, U, load3, magnitude, storable, store3};
+use crate::film::{BLOCK, BLOCK_PIXELS, NOTHING, store_finite};
+use crate::lanes::{Column, F, F3, M, U, load3, magnitude, store3};
 use crate::search::{Hits, Packet, PreciseRays};
 use crate::{Region, Tile};
 
@@ -64,8 +64,8 @@ impl<S: Simd> Part<'_, S> {
 
     #[inline(always)]
     fn store(&self, s: S, at: usize, light: F3<S>, (depth, prim): (F<S>, U<S>), tile: &mut Tile) -> u64 {
-        let light = if self.camera.fresh { light } else { load3(s, &tile.radiance, at) + light };
-        let not_finite = store_finite(s, light, &mut tile.radiance, at);
+        let light = if self.camera.fresh { light } else { load3(s, &tile.sums, at) + light };
+        let not_finite = store_sums(s, light, &mut tile.sums, at);
         if self.camera.kept {
             depth.store(&mut tile.depth[at..]);
             prim.store(&mut tile.surface[at..]);
@@ -74,39 +74,25 @@ impl<S: Simd> Part<'_, S> {
     }
 }
 
-/// Stores what is [storable] of the lanes; those that are not finite are counted.
+/// Stores sums of light, each by the rule of [`store_finite`]. Returns how many were not finite.
 #[inline(always)]
-fn store_finite<S: Simd>(s: S, light: F3<S>, radiance: &mut [Column<f32>; 3], at: usize) -> u64 {
-    store3(light, radiance, at);
-    // Where a number is not finite, the sum is not; the other way round it may be only the sum.
+fn store_sums<S: Simd>(s: S, light: F3<S>, sums: &mut [Column<f32>; 3], at: usize) -> u64 {
+    store3(light, sums, at);
+    // Where a number is not finite, their sum is not; the other way round it may be only their sum.
     let all_finite = magnitude(light).less(F::splat(s, f32::INFINITY));
-    if (!all_finite).any() { store_only_finite(light, radiance, at) } else { 0 }
+    if (!all_finite).any() { store_one_by_one(light, sums, at) } else { 0 }
 }
 
 #[cold]
 #[inline(never)]
-fn store_only_finite<S: Simd>(light: F3<S>, radiance: &mut [Column<f32>; 3], at: usize) -> u64 {
+fn store_one_by_one<S: Simd>(light: F3<S>, sums: &mut [Column<f32>; 3], at: usize) -> u64 {
     let mut not_finite = 0;
-    for (pixels, light) in radiance.iter_mut().zip([light.x, light.y, light.z]) {
-        let (kept, broken) = storable(light);
-        kept.store(&mut pixels[at..]);
-        not_finite += broken.count();
-    }
-    not_finite
-}
-
-/// Divides the sums of a tile by the number of samples a pixel, `grid` x `grid`.
-#[inline(always)]
-pub(crate) fn divide<S: Simd>(s: S, tile: &mut Tile, grid: u32) {
-    if grid == 1 {
-        return;
-    }
-    let share = F::splat(s, 1.0 / (grid as f32 * grid as f32));
-    for column in &mut tile.radiance {
-        for at in (0..column.len()).step_by(F::<S>::LANES) {
-            (F::load(s, &column[at..]) * share).store(&mut column[at..]);
+    for (pixels, light) in sums.iter_mut().zip([light.x, light.y, light.z]) {
+        for (lane, pixel) in pixels[at..at + F::<S>::LANES].iter_mut().enumerate() {
+            not_finite += store_finite(pixel, light.lane(lane));
         }
     }
+    not_finite
 }
 
 impl<'a, S: Simd> Batch<S> for Part<'a, S> {
@@ -202,16 +188,15 @@ impl<S: Simd> Batch<S> for Queue {
             (self.pixels(s, at), self.live_lanes(s, at), light.times(self.weights(s, at)));
         let first = pixel.lane(0);
         if (pixel.counts_from(s, first) & live).count() as usize == F::<S>::LANES {
-            let sum = load3(s, &tile.radiance, first as usize) + light;
-            return store_finite(s, sum, &mut tile.radiance, first as usize);
+            let sum = load3(s, &tile.sums, first as usize) + light;
+            return store_sums(s, sum, &mut tile.sums, first as usize);
         }
         let mut not_finite = 0;
         for lane in live.lanes() {
             let pixel = pixel.lane(lane) as usize;
-            for (pixels, light) in tile.radiance.iter_mut().zip([light.x, light.y, light.z]) {
-                let sum = pixels[pixel] + light.lane(lane);
-                pixels[pixel] = if sum.is_finite() { sum } else { storable(f64::from(sum)).0 as f32 };
-                not_finite += u64::from(!sum.is_finite());
+            for (pixels, light) in tile.sums.iter_mut().zip([light.x, light.y, light.z]) {
+                let pixel = &mut pixels[pixel];
+                not_finite += store_finite(pixel, *pixel + light.lane(lane));
             }
         }
         not_finite

@@ -5,7 +5,7 @@ mod camera_rays;
 mod lane_bounds;
 mod queue;
 
-pub(crate) use batch::{Batch, Part, divide};
+pub(crate) use batch::{Batch, Part};
 pub(crate) use camera_rays::{CameraPackets, CameraRays};
 pub(crate) use lane_bounds::LaneBounds;
 pub(crate) use queue::{Queue, QueuedRays};

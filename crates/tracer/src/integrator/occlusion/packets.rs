@@ -9,11 +9,12 @@ use fearless_simd::{Level, Simd};
 
 use super::DIRECTION;
 use crate::cull::{Candidates, Frustum};
+use crate::film::EarlierSums;
 use crate::kernel::mesh::Visits;
 use crate::lanes::{F, F3, M, U, Work, at_level, narrow3, outlined, share_of_one, splat3, widen3};
 use crate::sampler::Sampler;
 use crate::search::{Hits, OwnSegments, Packet, Searcher};
-use crate::stream::{Batch, CameraPackets, CameraRays, Part, Queue, QueuedRays, divide};
+use crate::stream::{Batch, CameraPackets, CameraRays, Part, Queue, QueuedRays};
 use crate::{Frame, Instructions, Region, Size, Stats, Tile};
 
 /// Traces all pixels of a tile.
@@ -36,6 +37,7 @@ struct Room {
     all: Candidates,
     /// Those that the tile may show.
     visible: Candidates,
+    earlier: EarlierSums,
 }
 
 /// Tracing one tile.
@@ -50,7 +52,7 @@ impl Work for TraceTile<'_> {
 
     #[inline(always)]
     fn with<S: Simd>(self, s: S) -> Stats {
-        let Self { frame, tile, room: Room { rays, queue, visits, all, visible } } = self;
+        let Self { frame, tile, room: Room { rays, queue, visits, all, visible, earlier } } = self;
         let (snapshot, view) = (frame.snapshot, frame.view);
         let (stats, outside) = (Stats::default(), frame.outside_solids);
         let mut tracer =
@@ -84,8 +86,8 @@ impl Work for TraceTile<'_> {
                 #[inline(always)]
                 || tracer.look_for_the_sky(all, tile),
             );
+            earlier.add_sample(tile, sample);
         }
-        divide(s, tile, view.grid);
         tracer.search.stats
     }
 }

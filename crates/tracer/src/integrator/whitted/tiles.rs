@@ -13,11 +13,12 @@ use fearless_simd::{Level, Simd};
 
 use super::streams::Bounce;
 use crate::cull::{Candidates, Frustum, Planner, PointBounds, TilePlan, quarters};
+use crate::film::EarlierSums;
 use crate::kernel::mesh::Visits;
 use crate::lanes::{F, Work, at_level, outlined};
 use crate::search::{HitColumns, Searcher};
 use crate::shade::{Chunk, Shader};
-use crate::stream::{Batch, CameraPackets, CameraRays, LaneBounds, Part, Queue, divide};
+use crate::stream::{Batch, CameraPackets, CameraRays, LaneBounds, Part, Queue};
 use crate::{Frame, Instructions, Region, Size, Stats, Tile};
 
 /// Traces all pixels of a tile.
@@ -44,6 +45,7 @@ struct Room {
     points: Vec<PointBounds>,
     visits: Visits,
     rays: CameraRays,
+    earlier: EarlierSums,
     /// [`Registers`] of the kind of instructions that were used last.
     registers: Option<Box<dyn Any>>,
 }
@@ -94,7 +96,7 @@ impl Work for TraceTile<'_> {
 #[inline(always)]
 fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
     let (snapshot, view, grid) = (frame.snapshot, frame.view, frame.view.grid);
-    let Room { next, bounce, found, visible, plan, points, visits, rays, registers } = room;
+    let Room { next, bounce, found, visible, plan, points, visits, rays, earlier, registers } = room;
     let mut own = Registers::take(s, registers.take());
     let Registers { chunk, seen, sent } = &mut *own;
     for queue in [&mut *next, &mut bounce.stream] {
@@ -119,8 +121,8 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
         if tracer.shader.next.len() > 0 {
             tracer.follow(bounce, tile);
         }
+        earlier.add_sample(tile, sample);
     }
-    divide(s, tile, grid);
     let stats = tracer.shader.search.stats;
     *registers = Some(own);
     stats

@@ -1,11 +1,17 @@
 //! Where a picture is gathered: linear light, depth and surface of every pixel, in tiles that are written apart.
+//!
+//! Light is kept as the sum over a pixel's samples; reading divides by how many they are.
 
-use std::sync::Arc;
+mod earlier_sums;
+mod sums;
+mod tile;
 
 use catoptra_core::EntityId;
 
-use crate::lanes::Column;
 use crate::{Region, Size};
+pub(crate) use earlier_sums::EarlierSums;
+pub(crate) use sums::{Sum, store_finite};
+pub use tile::Tile;
 
 /// Edge of the square blocks that pixels of a tile are stored in. Sixteen pixels lie side by side in memory, so that
 /// a packet of 4, 8 or 16 lanes is one stretch of a column.
@@ -17,29 +23,7 @@ pub(crate) const BLOCK_PIXELS: usize = (BLOCK * BLOCK) as usize;
 /// Stands for "no surface".
 pub(crate) const NOTHING: u32 = u32::MAX;
 
-/// A rectangle of a film, written by one thread. Its place is counted from the corner of the whole picture.
-///
-/// Columns hold whole blocks of 4 x 4 pixels, row by row of blocks and row by row within a block; blocks at the right
-/// and lower edge of the picture reach beyond it.
-#[derive(Debug, Clone)]
-pub struct Tile {
-    pub(crate) x: u32,
-    pub(crate) y: u32,
-    pub(crate) width: u32,
-    pub(crate) height: u32,
-    pub(crate) radiance: [Column<f32>; 3],
-    pub(crate) depth: Column<f32>,
-    pub(crate) surface: Column<u32>,
-    /// The one light that all pixels show, where it is known that none shows a surface.
-    blank: Option<Light>,
-    /// The same before the trace under way.
-    before: Option<Light>,
-}
-
-/// Bits of red, green and blue.
-type Light = [u32; 3];
-
-/// Bytes of a pixel: light, depth and surface.
+/// Bytes of a pixel: light, depth and surface. Standard errors, where a view asks for them, take 8 more.
 const PIXEL_BYTES: u64 = 20;
 
 /// There is no memory for a film.
@@ -50,55 +34,12 @@ pub struct NoRoom {
     bytes: u64,
 }
 
-impl Tile {
-    /// A black one, where there is memory for it.
-    fn new(x: u32, y: u32, width: u32, height: u32) -> Option<Self> {
-        let pixels = (width.div_ceil(BLOCK) * height.div_ceil(BLOCK)) as usize * BLOCK_PIXELS;
-        let light = || Column::try_filled(pixels, 0.0);
-        Some(Self {
-            x,
-            y,
-            width,
-            height,
-            radiance: [light()?, light()?, light()?],
-            depth: Column::try_filled(pixels, f32::INFINITY)?,
-            surface: Column::try_filled(pixels, NOTHING)?,
-            blank: Some([0; 3]),
-            before: None,
-        })
-    }
-
-    /// Says that the tile is traced anew.
-    pub(crate) fn begin(&mut self) {
-        self.before = self.blank.take();
-    }
-
-    /// Says that all pixels show a light and no surface; answers whether they did so before.
-    pub(crate) fn goes_blank(&mut self, light: [f32; 3]) -> bool {
-        self.blank = Some(light.map(f32::to_bits));
-        self.blank == self.before
-    }
-
-    /// Blocks across.
-    pub(crate) fn blocks_across(&self) -> u32 {
-        self.width.div_ceil(BLOCK)
-    }
-
-    /// Where a pixel of the tile lies in its columns.
-    #[inline]
-    pub(crate) fn index(&self, x: u32, y: u32) -> usize {
-        let block = (y / BLOCK) * self.blocks_across() + x / BLOCK;
-        block as usize * BLOCK_PIXELS + ((y % BLOCK) * BLOCK + x % BLOCK) as usize
-    }
-}
-
 /// A picture in linear Rec. 709 light, with depth and surface of every pixel.
 #[derive(Debug, Clone)]
 pub struct Film {
     region: Region,
     edge: u32,
     tiles: Vec<Tile>,
-    entities: Arc<[EntityId]>,
 }
 
 impl Film {
@@ -152,10 +93,10 @@ impl Film {
             let tile = Tile::new(left + x, top + y, edge.min(size.width - x), edge.min(size.height - y));
             tiles.push(tile.ok_or(no_room)?);
         }
-        Ok(Self { region, edge, tiles, entities: Arc::default() })
+        Ok(Self { region, edge, tiles })
     }
 
-    /// Bytes of memory that a film of so many pixels takes.
+    /// Bytes of memory that a film of so many pixels takes, without those for standard errors.
     #[must_use]
     pub fn bytes_of(size: Size) -> u64 {
         let side = |length: u32| u64::from(length.next_multiple_of(BLOCK));
@@ -174,14 +115,14 @@ impl Film {
         self.region
     }
 
-    /// Linear red, green and blue of a pixel; never NaN or infinite.
+    /// Linear red, green and blue of a pixel, the mean of its samples; never NaN or infinite.
     ///
     /// # Panics
     /// A pixel outside the picture.
     #[must_use]
     pub fn radiance(&self, x: u32, y: u32) -> [f32; 3] {
         let (tile, i) = self.place(x, y);
-        [tile.radiance[0][i], tile.radiance[1][i], tile.radiance[2][i]]
+        tile.radiance(i)
     }
 
     /// Metres from the eye to what a pixel shows, along its ray; infinite where it shows nothing.
@@ -201,7 +142,47 @@ impl Film {
     #[must_use]
     pub fn surface(&self, x: u32, y: u32) -> Option<EntityId> {
         let (tile, i) = self.place(x, y);
-        self.entities.get(tile.surface[i] as usize).copied()
+        tile.entity(i)
+    }
+
+    /// How many samples a pixel is the mean of; 0 before it is traced.
+    ///
+    /// # Panics
+    /// A pixel outside the picture.
+    #[must_use]
+    pub fn samples(&self, x: u32, y: u32) -> u32 {
+        let (tile, i) = self.place(x, y);
+        tile.samples(i)
+    }
+
+    /// The standard error of a pixel's [luminance](catoptra_core::Rgb::luminance), as its samples tell it: the root of their
+    /// variance over their number. Never NaN or infinite; `None` for fewer than two samples, and where the view did not ask
+    /// for [moments](crate::View::moments).
+    ///
+    /// It is that of independent samples. Samples that are spread evenly, as those of every pattern and sampler here, err by
+    /// less; how much less they do not tell.
+    ///
+    /// # Panics
+    /// A pixel outside the picture.
+    #[must_use]
+    pub fn standard_error(&self, x: u32, y: u32) -> Option<f32> {
+        let (tile, i) = self.place(x, y);
+        tile.standard_error(i)
+    }
+
+    /// Adds the samples of another film of the same picture, or of a part of it, to those of this one: with another seed,
+    /// what both have found. Depths and surfaces stay. Standard errors go on where both films have them.
+    ///
+    /// # Panics
+    /// A film that reaches beyond this one.
+    pub fn merge(&mut self, part: &Self) {
+        let Region { x: left, y: top, size } = part.region;
+        for (x, y) in (0..size.height).flat_map(|y| (0..size.width).map(move |x| (x, y))) {
+            let (from, j) = part.place(x, y);
+            let inside = |at: u32, start: u32| at.checked_sub(start).unwrap_or(u32::MAX);
+            let (tile, i) = self.find(inside(left + x, self.region.x), inside(top + y, self.region.y));
+            self.tiles[tile].add(i, from, j);
+        }
     }
 
     /// Depths of all pixels, row by row; see [`depth`](Self::depth).
@@ -213,7 +194,7 @@ impl Film {
     /// Linear radiance of all pixels, row by row; see [`radiance`](Self::radiance).
     #[must_use]
     pub fn radiances(&self) -> Vec<[f32; 3]> {
-        self.rows(|tile, i| [tile.radiance[0][i], tile.radiance[1][i], tile.radiance[2][i]])
+        self.rows(Tile::radiance)
     }
 
     fn rows<T>(&self, read: impl Fn(&Tile, usize) -> T) -> Vec<T> {
@@ -228,16 +209,21 @@ impl Film {
     }
 
     fn place(&self, x: u32, y: u32) -> (&Tile, usize) {
+        let (tile, i) = self.find(x, y);
+        (&self.tiles[tile], i)
+    }
+
+    /// In which tile a pixel lies, and where in its columns.
+    fn find(&self, x: u32, y: u32) -> (usize, usize) {
         let Size { width, height } = self.size();
         assert!(x < width && y < height, "pixel ({x}, {y}) lies outside the picture");
         let across = width.div_ceil(self.edge);
-        let tile = &self.tiles[((y / self.edge) * across + x / self.edge) as usize];
-        (tile, tile.index(x % self.edge, y % self.edge))
+        let tile = ((y / self.edge) * across + x / self.edge) as usize;
+        (tile, self.tiles[tile].index(x % self.edge, y % self.edge))
     }
 
-    /// The tiles to be written, and what their surfaces are called from now on.
-    pub(crate) fn begin(&mut self, entities: &Arc<[EntityId]>) -> &mut [Tile] {
-        self.entities = Arc::clone(entities);
+    /// The tiles, to be written.
+    pub(crate) fn tiles_mut(&mut self) -> &mut [Tile] {
         &mut self.tiles
     }
 
@@ -283,8 +269,14 @@ mod tests {
         let columns = film
             .tiles
             .iter()
-            .map(|tile| 4 * tile.depth.len() + 4 * tile.surface.len() + 12 * tile.radiance[0].len());
+            .map(|tile| 4 * tile.depth.len() + 4 * tile.surface.len() + 12 * tile.sums[0].len());
         assert_eq!(columns.sum::<usize>() as u64, Film::bytes_of(size));
+    }
+
+    #[test]
+    fn a_film_that_was_not_traced_is_black_and_holds_no_samples() {
+        let film = Film::new(Size::new(5, 3));
+        assert_eq!((film.samples(4, 2), film.radiance(4, 2), film.standard_error(4, 2)), (0, [0.0; 3], None));
     }
 
     #[test]
