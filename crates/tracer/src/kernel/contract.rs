@@ -5,7 +5,7 @@ use fearless_simd::Simd;
 
 use super::{Blocking, PlaneRow, Proposal, Rays, Target};
 use crate::film::NOTHING;
-use crate::lanes::{D, D3, F, F3, M, U};
+use crate::lanes::{D, D3, F, F3, M, U, narrow3, widen3};
 
 /// The surfaces that the rays of a packet leave.
 #[derive(Clone, Copy)]
@@ -140,5 +140,18 @@ pub(crate) trait Kernel {
 #[inline(always)]
 pub(super) fn off_planes<S: Simd>(normal: D3<S>, distance: D<S>, hit: &impl NearHit<S>) -> (F<S>, F<S>) {
     let off = normal.dot(hit.near()) - distance;
-    (off.narrow(), crate::lanes::narrow3(normal).dot(hit.direction()))
+    (off.narrow(), narrow3(normal).dot(hit.direction()))
+}
+
+/// Points and normals on planes as exact as `f32` can hold them: one Newton step from the `f64` points that the `f32`
+/// distances lead to.
+#[inline(always)]
+pub(super) fn surface_on_planes<S: Simd>(
+    normal: D3<S>,
+    distance: D<S>,
+    hit: &impl NearHit<S>,
+) -> (F3<S>, F3<S>) {
+    let (off, slope) = off_planes(normal, distance, hit);
+    let step = hit.direction().scale(-(off / slope));
+    (narrow3(hit.near() + widen3(step)), narrow3(normal))
 }

@@ -7,8 +7,8 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane, LaneMask};
 use fearless_simd::Simd;
 
-use super::contract::off_planes;
-use super::faces::{facing_normals32, planes_met};
+use super::contract::{off_planes, surface_on_planes};
+use super::faces::planes_met;
 use super::{Crossing, Kernel, NearHit, Obstacle, PlaneRow, Proposal, Rays, Target, Tried, bound};
 use crate::film::NOTHING;
 use crate::lanes::{D3, F, F3, M, U, splat3};
@@ -126,7 +126,8 @@ impl Kernel for CuboidRow {
 
     #[inline(always)]
     fn surface<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F3<S>, F3<S>) {
-        (hit.point(), facing_normals32(s, &self.faces, hit))
+        let (normal, distance) = planes_met(s, &self.faces, hit);
+        surface_on_planes(normal, distance, hit)
     }
 
     #[inline(always)]

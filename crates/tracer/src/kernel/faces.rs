@@ -69,11 +69,7 @@ impl Kernel for Faces<'_> {
 
 /// Normals of the faces that lanes have met.
 #[inline(always)]
-pub(super) fn facing_normals32<S: Simd>(
-    s: S,
-    faces: &[impl AsRef<PlaneRow>],
-    hit: &impl NearHit<S>,
-) -> F3<S> {
+fn facing_normals32<S: Simd>(s: S, faces: &[impl AsRef<PlaneRow>], hit: &impl NearHit<S>) -> F3<S> {
     let mut normal = hit.point();
     let (facets, mask) = hit.facets();
     for (facet, lanes) in facets.groups(mask) {

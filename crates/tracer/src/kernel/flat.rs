@@ -4,11 +4,12 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, LaneMask};
 use fearless_simd::Simd;
 
+use super::contract::surface_on_planes;
 use super::{
     Crossing, DiskOutline, Kernel, NearHit, Obstacle, PlaneRow, Proposal, Rays, RectangleOutline, Target,
     Tried, bound,
 };
-use crate::lanes::{D3, F, F3, M, U, splat3};
+use crate::lanes::{D, D3, F, F3, M, U, splat_wide, splat3};
 use crate::numeric::{POINT_ERROR, rounded};
 
 /// A bounded flat shape.
@@ -92,7 +93,13 @@ impl Kernel for FlatRow {
 
     #[inline(always)]
     fn surface<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F3<S>, F3<S>) {
-        self.plane.surface(s, hit)
+        match self.outline {
+            Outline::Rectangle(_) => self.plane.surface(s, hit),
+            Outline::Disk(_) => {
+                let (normal, distance) = (splat_wide(s, self.plane.normal), D::splat(s, self.plane.distance));
+                surface_on_planes(normal, distance, hit)
+            }
+        }
     }
 
     #[inline(always)]
