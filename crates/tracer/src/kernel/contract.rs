@@ -61,6 +61,7 @@ impl<S: Simd> Tried<S> {
 }
 
 /// A crossing that a kernel proposes.
+#[derive(Clone, Copy)]
 pub(crate) struct Crossing<S: Simd> {
     pub(crate) proposal: Proposal<S>,
     /// The facet that it lies on.
@@ -70,6 +71,7 @@ pub(crate) struct Crossing<S: Simd> {
 }
 
 /// What a kernel finds out about segments to a target.
+#[derive(Clone, Copy)]
 pub(crate) struct Obstacle<S: Simd> {
     pub(crate) blocking: Blocking<S>,
     /// The facet in question, where it is the same in all lanes.
