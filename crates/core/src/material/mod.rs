@@ -80,7 +80,7 @@ impl Material {
         each_material!(self, material => material.lobes(at))
     }
 
-    /// What is made of its lobes. The work is compiled for each kind of material, so lobes that the kind lacks cost nothing,
+    /// Calls `work` with its lobes. That is compiled for each kind of material, so lobes that the kind lacks cost nothing,
     /// and of `at` only what it needs is computed.
     #[inline(always)]
     pub fn visit_lobes<L: Lane, T>(

@@ -318,7 +318,7 @@ impl<S: Simd> Grower<'_, S> {
 /// Triangles with free slots behind them, and as much room to sort them.
 type Room<'a> = (&'a mut [Item], &'a mut [Item]);
 
-/// Brings the triangles of a leaf that stand aside to where the tree looks for them.
+/// Moves the triangles of a leaf that are in the buffer for sorting to where the tree expects them.
 fn bring_back((items, scratch): Room<'_>, first: usize, leaf: &Set<impl Simd>) {
     if leaf.aside {
         let own = first..first + leaf.count;

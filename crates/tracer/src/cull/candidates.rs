@@ -8,7 +8,7 @@ use crate::kernel::PlaneRow;
 use crate::numeric::PLAN_MARGIN;
 use crate::snapshot::{Ball, Columns, LightRow};
 
-/// Shapes are tried one by one up to this many; more go by the tree.
+/// Up to this many shapes are tested one by one; more are searched by the tree.
 pub(super) const FEW: usize = 4;
 
 /// Longer lists of bounded shapes are not read through to find out that none matters: a walk down the tree says so sooner.
@@ -172,23 +172,26 @@ impl Candidates {
         for &near in &self.near {
             let (prim, ball) = (columns.bounded[near as usize], &columns.balls[near as usize]);
             let round = columns.is_sphere(prim) && !frustum.is_within(ball);
-            let place =
-                if round { frustum.place_on_ball(prim, ball) } else { PointBounds::new(prim, ball.bounds()) };
+            let visible = if round {
+                frustum.bounds_on_ball(prim, ball)
+            } else {
+                PointBounds::new(prim, ball.bounds())
+            };
             self.filled = self.near.len() == 1
                 && ((round && frustum.filled_by_ball(ball)) || (faced && self.faces.len() == 1));
             if self.filled {
                 // Planes behind it are not seen.
-                self.planes.retain(|&plane| !frustum.is_free_of(&columns.planes[plane as usize], &place));
+                self.planes.retain(|&plane| !frustum.is_free_of(&columns.planes[plane as usize], &visible));
                 self.filled = self.planes.is_empty();
             }
-            self.points.push(place);
+            self.points.push(visible);
         }
         for &plane in &self.planes {
-            let Some(place) = frustum.place_on(&columns.planes[plane as usize]) else {
+            let Some(visible) = frustum.bounds_on(&columns.planes[plane as usize]) else {
                 self.points.clear();
                 return;
             };
-            self.points.push(place);
+            self.points.push(visible);
         }
         self.filled |= self.near.is_empty() && self.planes.len() == 1;
     }
@@ -207,7 +210,7 @@ impl Candidates {
             for beam in beams {
                 match beam.crosses(&columns.planes[row as usize]) {
                     Crosses::Never => {}
-                    Crosses::Within(place) => self.points.push(place),
+                    Crosses::Within(visible) => self.points.push(visible),
                     Crosses::Anywhere => {
                         self.points.clear();
                         return false;
@@ -227,11 +230,14 @@ impl Candidates {
         outside: bool,
     ) {
         let crosses = |i: usize, row: &PlaneRow| {
-            light.behind[i] != 0.0 && points.iter().any(|place| place.may_lie_beyond(row, light.behind[i]))
+            light.behind[i] != 0.0
+                && points.iter().any(|visible| visible.may_lie_beyond(row, light.behind[i]))
         };
         let meets = |prim: u32, ball: &Ball| {
             let passes_by = outside && columns.is_convex(prim);
-            points.iter().any(|place| !(passes_by && place.prim == prim) && place.shaft_meets(light, ball))
+            points
+                .iter()
+                .any(|visible| !(passes_by && visible.prim == prim) && visible.shaft_meets(light, ball))
         };
         self.keep(columns, crosses, meets);
     }

@@ -93,7 +93,7 @@ impl Frustum {
     }
 
     /// Bounds of the points of a plane that are seen through the frustum; `None` where they may be unbounded.
-    pub(crate) fn place_on(&self, row: &PlaneRow) -> Option<PointBounds> {
+    pub(crate) fn bounds_on(&self, row: &PlaneRow) -> Option<PointBounds> {
         let inverse_t = self.inverse_t(row);
         let margin = PLAN_MARGIN * inverse_t.iter().fold(0.0, |m, w| w.abs().max(m));
         if !inverse_t.iter().all(|w| *w > margin && w.is_finite()) {
@@ -152,7 +152,7 @@ impl Frustum {
     ///
     /// At an angle θ to the ball's centre, its near side is |L| cos θ − √(R² − |L|² sin² θ) away, which grows with θ up
     /// to the silhouette. The frustum holds the directions within ω of its middle.
-    pub(crate) fn place_on_ball(&self, prim: u32, ball: &Ball) -> PointBounds {
+    pub(crate) fn bounds_on_ball(&self, prim: u32, ball: &Ball) -> PointBounds {
         let to_center = ball.center - self.eye;
         let (distance2, radius2) = (to_center.length_squared(), ball.radius * ball.radius);
         let middle = self.corners.iter().sum::<DVec3>().normalize_or_zero();
@@ -196,7 +196,7 @@ impl Frustum {
     }
 
     /// Whether a plane certainly does not lie between the eye and these points.
-    pub(crate) fn is_free_of(&self, row: &PlaneRow, place: &PointBounds) -> bool {
-        self.behind(row).is_some_and(|behind| !place.may_lie_beyond(row, behind))
+    pub(crate) fn is_free_of(&self, row: &PlaneRow, points: &PointBounds) -> bool {
+        self.behind(row).is_some_and(|behind| !points.may_lie_beyond(row, behind))
     }
 }

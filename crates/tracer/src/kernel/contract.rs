@@ -48,7 +48,7 @@ pub(crate) struct Tried<S: Simd> {
     pub(crate) leaving: Leaving<S>,
     /// The facets through which rays run into the solid that they leave; [`NOTHING`] for all others.
     pub(crate) entered: U<S>,
-    /// Whether no ray starts inside a convex solid, so that what it leaves it does not meet again.
+    /// Whether no ray starts inside a convex solid, so that it does not meet again the solid that it leaves.
     pub(crate) outside: bool,
 }
 
@@ -80,7 +80,7 @@ pub(crate) struct Obstacle<S: Simd> {
     pub(crate) lanes: M<S>,
 }
 
-/// Where a ray has met a shape, as far as `f32` knows.
+/// Hits of a packet on a shape, with the precision of `f32`.
 pub(crate) trait NearHit<S: Simd> {
     /// The points, in `f32`.
     fn point(&self) -> F3<S>;

@@ -67,7 +67,7 @@ impl Kernel for Faces<'_> {
     }
 }
 
-/// Normals of the faces that lanes have met.
+/// Normals of the faces that lanes have hit.
 #[inline(always)]
 pub(super) fn facing_normals32<S: Simd>(
     s: S,
@@ -83,7 +83,7 @@ pub(super) fn facing_normals32<S: Simd>(
     normal
 }
 
-/// Normals and distances of the planes of the faces that lanes have met.
+/// Normals and distances of the planes of the faces that lanes have hit.
 #[inline(always)]
 pub(super) fn planes_met<S: Simd>(
     s: S,

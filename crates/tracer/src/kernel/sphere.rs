@@ -102,8 +102,8 @@ impl SphereRow {
     ) -> Blocking<S> {
         let most = self.radius * self.radius * (1.0 + PLAN_MARGIN);
         let may_end_inside = match target.end {
-            Some(End::At(place)) => place.distance_squared(self.center) <= most,
-            Some(End::Towards(_)) => false,
+            Some(End::At(point)) => point.distance_squared(self.center) <= most,
+            Some(End::AtInfinity(_)) => false,
             None => true,
         };
         if may_end_inside || leaving.any() {

@@ -1,6 +1,6 @@
 //! Chooses the origin of a snapshot's coordinates.
 //!
-//! `f32` shall be spent on detail and not on distance. What is seen sharply is what is near the eye, so the origin
+//! The precision of `f32` is to be spent on detail and not on distance. What is seen sharply is what is near the eye, so the origin
 //! follows the eye. It stays at the world's where that is near enough, which leaves every coordinate as it was given.
 
 use std::borrow::Cow;
@@ -44,7 +44,7 @@ fn rounded(place: DVec3, detail: f64) -> DVec3 {
 /// shape, so that points near the eye are known the better; else the world's own zero, so that every shape stays what it
 /// is.
 pub(super) fn frame_for<'a>(mut shapes: impl Iterator<Item = &'a Shape>, origin: DVec3) -> DVec3 {
-    // Where the origin is the world's own zero, so is the frame, whatever the shapes.
+    // Where the origin is the world's own zero, the frame is the world, whatever the shapes.
     if origin != DVec3::ZERO && shapes.all(|shape| moves_exactly(shape, origin)) {
         origin
     } else {

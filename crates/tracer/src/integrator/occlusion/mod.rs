@@ -26,5 +26,5 @@ impl Integrate for Occlusion {
     }
 }
 
-/// The pair of dimensions that the direction goes by.
+/// The pair of sample dimensions that the direction is drawn from.
 const DIRECTION: u32 = 0;

@@ -41,7 +41,7 @@ struct OpenLanes {
     inside: u64,
 }
 
-/// One of them.
+/// An open lane.
 #[derive(Clone, Copy)]
 struct OpenLane {
     lane: usize,
@@ -135,7 +135,7 @@ impl CommonOrigin {
         }
     }
 
-    /// Decides by depths from `f64` planes; the lanes that those leave open.
+    /// Decides by depths from `f64` planes; returns the lanes that those leave open.
     fn decide_by_depths<S: Simd>(
         &self,
         triangle: TreeTriangle<'_>,
@@ -171,7 +171,7 @@ impl CommonOrigin {
         )
     }
 
-    /// At which `t` the ray of a lane meets a triangle in front of all that it has met, if it does.
+    /// The `t` at which the ray of a lane meets a triangle, if that is before its nearest hit so far.
     fn nearer<S: Simd>(
         &self,
         triangle: TreeTriangle<'_>,

@@ -43,7 +43,7 @@ pub(crate) struct CommonOrigin {
     pub(super) any: bool,
 }
 
-/// One packet of a bundle: the slopes of its rays, and what they have met.
+/// One packet of a bundle: the slopes of its rays, and their nearest hits.
 #[derive(Clone, Copy)]
 pub(crate) struct BundledRays<S: Simd> {
     pub(crate) u: F<S>,

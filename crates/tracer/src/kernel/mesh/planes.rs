@@ -27,13 +27,13 @@ pub(super) struct Plane {
     errors: [f32; 2],
 }
 
-/// What is certain of where rays cross a plane on a triangle.
+/// Bounds on where rays cross the plane of a triangle.
 pub(super) struct Crossing<S: Simd> {
-    /// Depths between which they do.
+    /// Depths between which the crossings lie.
     pub(super) depth: [F<S>; 2],
-    /// In front of all that they have met, and within their stretch.
+    /// Lanes that cross for certain before their nearest hit so far and within their span.
     pub(super) nearer: M<S>,
-    /// Behind that, or before their stretch.
+    /// Lanes that cross for certain behind that hit or before their span.
     pub(super) beside: M<S>,
 }
 
