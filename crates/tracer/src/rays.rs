@@ -63,8 +63,8 @@ impl RayList {
         self.length == 0
     }
 
-    /// Appends a ray of the world to be searched on `min <= t <= max`. It may leave a surface, which it does not meet again
-    /// at its origin.
+    /// Appends a ray of the world to be searched on `min <= t <= max`. It may leave a surface, which it does not meet
+    /// again at its origin.
     pub fn push(&mut self, ray: &Ray, [min, max]: [f64; 2], leaving: Option<SurfaceId>) {
         let (block, lane) = (self.length / RAYS_PER_BLOCK, self.length % RAYS_PER_BLOCK);
         if lane == 0 {

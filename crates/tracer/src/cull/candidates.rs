@@ -11,7 +11,8 @@ use crate::snapshot::{Ball, Columns, LightRow};
 /// Up to this many shapes are tested one by one; more are searched by the tree.
 pub(super) const FEW: usize = 4;
 
-/// Longer lists of bounded shapes are not read through to find out that none matters: a walk down the tree says so sooner.
+/// Longer lists of bounded shapes are not read through to find out that none matters: a walk down the tree says so
+/// sooner.
 const MANY: usize = 1024;
 
 /// Shapes to be tried: rows of planes, ids of bounded shapes one by one, or all of those by the tree.
@@ -97,8 +98,8 @@ impl Candidates {
         self.keep(columns, |_, _| true, |_, _| true);
     }
 
-    /// Keeps the shapes that a ray of some beams may meet. Where all rays stay outside all convex solids, those that leave one do
-    /// not meet it again.
+    /// Keeps the shapes that a ray of some beams may meet. Where all rays stay outside all convex solids, those that
+    /// leave one do not meet it again.
     pub(crate) fn reachable(&mut self, columns: &Columns, beams: &[Beam], outside: bool) {
         let met = |prim: u32, ball: &Ball| {
             beams.iter().any(|beam| beam.may_meet_shape(columns, prim, ball, outside))
@@ -106,8 +107,8 @@ impl Candidates {
         self.keep(columns, |_, row| beams.iter().any(|beam| beam.may_cross(row)), met);
     }
 
-    /// Keeps those of `candidates` that a camera ray through a frustum may see first. Of solids that are seen from outside,
-    /// those are the faces on the eye's side.
+    /// Keeps those of `candidates` that a camera ray through a frustum may see first. Of solids that are seen from
+    /// outside, those are the faces on the eye's side.
     pub(crate) fn visible_through(
         &mut self,
         frustum: &Frustum,
@@ -164,7 +165,8 @@ impl Candidates {
         all
     }
 
-    /// Finds bounds of the points that may be seen, where those are bounded. `faced` says that each face fills the frustum.
+    /// Finds bounds of the points that may be seen, where those are bounded. `faced` says that each face fills the
+    /// frustum.
     fn find_points(&mut self, frustum: &Frustum, columns: &Columns, faced: bool) {
         if self.tree || !columns.general_unbounded.is_empty() {
             return;

@@ -72,8 +72,8 @@ impl Frustum {
         Beam::new(NOTHING, Aabb::of([self.eye]), Aabb::of(self.corners.map(|corner| corner / length)))
     }
 
-    /// How far the eye lies on the side of a plane that its normal does not point to, to a share of [`PLAN_MARGIN`]; `None`
-    /// where that is not known so well.
+    /// How far the eye lies on the side of a plane that its normal does not point to, to a share of [`PLAN_MARGIN`];
+    /// `None` where that is not known so well.
     fn behind(&self, row: &PlaneRow) -> Option<f64> {
         let behind = row.distance - row.normal.dot(self.eye);
         let error = row.distance_error() + PLAN_MARGIN * PLAN_MARGIN * self.eye.abs().element_sum();
@@ -113,8 +113,8 @@ impl Frustum {
     /// How much of the frustum a face takes up.
     ///
     /// Directions that meet a triangle make a convex cone with three sides, as those of the frustum make one with four:
-    /// they are disjoint where all corners of one lie beyond a side of the other, and the frustum lies within the triangle
-    /// where its corners do.
+    /// they are disjoint where all corners of one lie beyond a side of the other, and the frustum lies within the
+    /// triangle where its corners do.
     pub(crate) fn coverage(&self, face: &TriangleRow) -> Coverage {
         let corners = face.corners().map(|corner| corner - self.eye);
         let size = corners.map(|corner| corner.abs().element_sum()).into_iter().fold(0.0, f64::max);

@@ -123,8 +123,8 @@ pub(crate) trait Kernel {
     /// Points and outer unit normals to shade with, in `f32`.
     fn surface<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F3<S>, F3<S>);
 
-    /// How far `f64` points near the shape are off it, in a measure of the shape's own, and how much that changes with a metre
-    /// along the rays: what a Newton step needs.
+    /// How far `f64` points near the shape are off it, in a measure of the shape's own, and how much that changes with
+    /// a metre along the rays: what a Newton step needs.
     fn off<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F<S>, F<S>);
 
     /// Outer unit normals at `f64` points of the shape.

@@ -89,8 +89,8 @@ impl SphereRow {
         }
     }
 
-    /// A sphere blocks a segment between two points outside it if the line crosses it between them, and always one between
-    /// a point inside and one outside. `starts_outside` says that no segment starts inside.
+    /// A sphere blocks a segment between two points outside it if the line crosses it between them, and always one
+    /// between a point inside and one outside. `starts_outside` says that no segment starts inside.
     #[inline(always)]
     pub(crate) fn block<S: Simd>(
         &self,

@@ -2,8 +2,8 @@
 
 use catoptra_core::Lane;
 
-/// Sums limited to the range of `f32`, and which of them were not finite: +∞ becomes the largest number, −∞ and NaN become
-/// 0.
+/// Sums limited to the range of `f32`, and which of them were not finite: +∞ becomes the largest number, −∞ and NaN
+/// become 0.
 #[inline(always)]
 pub(crate) fn storable<L: Lane>(light: L) -> (L, L::Mask) {
     let finite = light.abs().less(light.number(f64::INFINITY));

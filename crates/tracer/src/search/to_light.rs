@@ -88,8 +88,8 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
 }
 
 impl<S: Simd, P: PreciseRays<S>> ToLight<'_, S, P> {
-    /// Where segments begin in a mesh's own space, and how far that may be off: refined in `f64` where they leave the mesh
-    /// itself.
+    /// Where segments begin in a mesh's own space, and how far that may be off: refined in `f64` where they leave the
+    /// mesh itself.
     #[inline(always)]
     fn own_starts(
         &self,

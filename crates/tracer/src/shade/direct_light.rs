@@ -129,7 +129,8 @@ fn face<S: Simd, E: Emitter>(
 }
 
 impl<S: Simd> Shader<'_, S> {
-    /// Adds what every light contributes to the first `count` packets of the chunk. Each kind of light has a loop of its own.
+    /// Adds what every light contributes to the first `count` packets of the chunk. Each kind of light has a loop of
+    /// its own.
     #[inline(always)]
     pub(crate) fn add_lights(&mut self, batch: &impl Batch<S>, count: usize) {
         let rows = self.search.snapshot.light_rows();

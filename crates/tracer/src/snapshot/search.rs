@@ -114,8 +114,8 @@ impl Snapshot {
         }
     }
 
-    /// Whether a ray meets one hit before another: exactly, and of hits at the same `t` that with the lower shape, then the
-    /// lower facet.
+    /// Whether a ray meets one hit before another: exactly, and of hits at the same `t` that with the lower shape, then
+    /// the lower facet.
     pub(crate) fn precedes(&self, segment: &RaySegment<'_>, a: &Hit, b: &Hit) -> bool {
         let order = a.crossing.order(
             &b.crossing,
@@ -206,7 +206,8 @@ fn comes_first(order: Ordering, a: SurfaceId, b: SurfaceId) -> bool {
     order.then((a.prim, a.facet).cmp(&(b.prim, b.facet))).is_lt()
 }
 
-/// The nearest crossing of a ray in a mesh's own space with its triangles; of crossings at the same `t`, that of the lowest.
+/// The nearest crossing of a ray in a mesh's own space with its triangles; of crossings at the same `t`, that of the
+/// lowest.
 fn cross_mesh(mesh: &Mesh, tree: &WideTree, own: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
     let mut best: Option<Crossing> = None;
     tree.walk(own, span, |triangle| {

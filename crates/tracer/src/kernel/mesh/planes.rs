@@ -128,8 +128,8 @@ impl CommonOrigin {
     /// lie in either plane.
     ///
     /// Where both tops are positive, z₁ < z₂ means top₁ s₂ < top₂ s₁: m = top₁ n₂ − top₂ n₁, whose terms all but cancel
-    /// where the planes all but coincide: in `f64`, before anything is rounded to `f32`. A ray that passes the origin by δ
-    /// changes the product by δ·(d × (n₁ × n₂)).
+    /// where the planes all but coincide: in `f64`, before anything is rounded to `f32`. A ray that passes the origin
+    /// by δ changes the product by δ·(d × (n₁ × n₂)).
     pub(super) fn order(&self, [first, second]: [&PrecisePlane; 2]) -> Option<([f32; 3], f32)> {
         if [first, second].iter().any(|plane| plane.top.abs() <= 2.0 * self.top_error(plane)) {
             return None;
