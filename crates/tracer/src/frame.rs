@@ -8,7 +8,7 @@ use crate::{Snapshot, View};
 /// What a backend is given: a snapshot, and from where it is looked at.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame<'a> {
-    /// What is looked at.
+    /// The snapshot that is traced.
     pub snapshot: &'a Snapshot,
     /// From where, and how far to go.
     pub view: &'a View,

@@ -8,8 +8,8 @@ use catoptra_core::numeric::UNIT_ROUNDOFF_F64;
 /// A quarter of the step between two levels of an 8-bit display, 1/255, for light that would show as white.
 pub(crate) const WEIGHT_CUTOFF: f32 = 0.25 / 255.0;
 
-/// How many times as far from zero as the smallest thing seen sharply is large the eye may stand before a snapshot gets an
-/// origin of its own: up to there `f32` has coordinates right to 2³ · 2⁻²⁴, two millionths, of that thing.
+/// How many times as far from zero as the smallest thing seen sharply is large the eye may stand before a snapshot gets
+/// an origin of its own: up to there `f32` has coordinates right to 2³ · 2⁻²⁴, two millionths, of that thing.
 pub(crate) const FAR: f64 = 8.0;
 
 /// Samples lie on multiples of this within their pixel, in pixels: then the sum of a sample's place and the number of
@@ -75,10 +75,10 @@ pub(crate) const EDGE_ERROR: f32 = 24.0 * U;
 /// coordinates), with room to spare.
 pub(crate) const PLAN_MARGIN: f64 = 1.0 / (1_u64 << 18) as f64;
 
-/// Share of the distance from a light by which points are taken to lie nearer to its cone than they do. `f32` knows the cosine
-/// of a point's angle to the axis to 20 u, below 2⁻¹⁹ (six roundings of each coordinate of a unit vector, whose difference
-/// to another is up to 2 long, and four of half its square, up to 2): for a cone of all but a full turn, whose rim is a
-/// small circle round the axis, that is an angle of up to √(2 · 2⁻¹⁹).
+/// Share of the distance from a light by which points are taken to lie nearer to its cone than they do. `f32` knows the
+/// cosine of a point's angle to the axis to 20 u, below 2⁻¹⁹ (six roundings of each coordinate of a unit vector, whose
+/// difference to another is up to 2 long, and four of half its square, up to 2): for a cone of all but a full turn,
+/// whose rim is a small circle round the axis, that is an angle of up to √(2 · 2⁻¹⁹).
 pub(crate) const CONE_MARGIN: f64 = 1.0 / (1_u32 << 9) as f64;
 
 /// Far ends of box intervals are stretched by 1 + 2γ₃ (Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013), with two
@@ -118,8 +118,8 @@ pub(crate) const PRECISE_TOP_ERROR: f64 = 48.0 * W;
 /// quotient of the share that is at most 1 (5u), the sum (u); rounded up for the sum that widens by it.
 pub(crate) const CLIP_ERROR: f64 = 8.0 * W;
 
-/// How far a box is widened for a single ray, per metre of the origin's largest coordinate: the origin is rounded once, and
-/// once more when it is widened.
+/// How far a box is widened for a single ray, per metre of the origin's largest coordinate: the origin is rounded once,
+/// and once more when it is widened.
 pub(crate) const SINGLE_RAY_PAD: f32 = 4.0 * U;
 
 /// What an origin that is off by a metre counts among the coordinates that the bounds of a single ray go by: they hold a
@@ -139,17 +139,18 @@ pub(crate) const SINGLE_RAY_SHARE: f32 = 24.0 * U;
 /// As [`SINGLE_RAY_SPREAD`].
 pub(crate) const SINGLE_RAY_FLOOR: f32 = 12.0 * U;
 
-/// Error of the depth z of a crossing along a single ray, beside the [`SINGLE_RAY_SHARE`] of H that corners are off by (6u), their
-/// differences, products and sum, at most 2H each (6u), a sum of edge values, a quotient and a product (8u) and the last sum
-/// (u): in units of E D / A, E the error of an edge value, D the corners' spread along the ray, A the three edge values' sum.
+/// Error of the depth z of a crossing along a single ray, beside the [`SINGLE_RAY_SHARE`] of H that corners are off by
+/// (6u), their differences, products and sum, at most 2H each (6u), a sum of edge values, a quotient and a product (8u)
+/// and the last sum (u): in units of E D / A, E the error of an edge value, D the corners' spread along the ray, A the
+/// three edge values' sum.
 ///
-/// A is off by 3E, so where it is beyond twice this many E three quarters of it are certain; of the depth's two terms each
-/// is off by ED and A's own error by 3ED: 5ED over three quarters of A, rounded up.
+/// A is off by 3E, so where it is beyond twice this many E three quarters of it are certain; of the depth's two terms
+/// each is off by ED and A's own error by 3ED: 5ED over three quarters of A, rounded up.
 /// Products that underflow are off by at most 2⁻¹⁴⁹ each, which the least normal number added to them has room for.
 pub(crate) const SINGLE_RAY_STEEP: f32 = 8.0;
 
-/// Error of `t` from that depth, relative to itself: two roundings; and of a `t` that is rounded to `f32`, of the ends of a
-/// stretch, and of a sum of these: rounded up.
+/// Error of `t` from that depth, relative to itself: two roundings; and of a `t` that is rounded to `f32`, of the ends
+/// of a stretch, and of a sum of these: rounded up.
 pub(crate) const SINGLE_RAY_DEPTH: f32 = 8.0 * U;
 
 /// Error of the slopes of a ray bundle: computed in `f64` and rounded once; they are below 2.
@@ -187,16 +188,16 @@ pub(crate) const BUNDLE_DEPTH: f32 = 8.0 * U;
 pub(crate) const ORDER_ERROR: f64 = 4.0 * W;
 
 /// Error of the sum of the components of n₁ × n₂ in `f64`, relative to L₁² L₂², the squares of the edges' largest
-/// coordinates: 7u 2L² in each component of n, which are below 2L², makes 4 · 14u in each of three, and 3u · 8 for their own
-/// products; rounded up.
+/// coordinates: 7u 2L² in each component of n, which are below 2L², makes 4 · 14u in each of three, and 3u · 8 for
+/// their own products; rounded up.
 pub(crate) const ORDER_SHEAR: f64 = 256.0 * W;
 
 /// How far lines may pass a point by to be traced as a bundle with that common origin, per metre that they run: ends of
 /// rays that were given in `f32` lie within a few roundings of each other.
 pub(crate) const BUNDLE_SPREAD: f32 = 64.0 * U;
 
-/// Most that slopes of rays may be to be traced together: so far below 2 that no error takes them there, which all bounds of
-/// ray bundles rest on.
+/// Most that slopes of rays may be to be traced together: so far below 2 that no error takes them there, which all
+/// bounds of ray bundles rest on.
 pub(crate) const BUNDLE_STEEP: f32 = 1.9;
 
 /// Largest relative error of a triangle's `t` for which the `f64` plane equation is trusted: a 64th of what `f32` can

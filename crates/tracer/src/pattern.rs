@@ -9,8 +9,8 @@ pub enum Pattern {
     /// A square grid. Best where nothing is known of what is seen; steps along edges that run along the grid.
     #[default]
     Grid,
-    /// Sobol's first two dimensions, scrambled by Owen's method: as even as the grid in squares, and no two samples in one
-    /// row or column, so that an edge of any direction is seen in as many shades as there are samples.
+    /// Sobol's first two dimensions, scrambled by Owen's method: as even as the grid in squares, and no two samples in
+    /// one row or column, so that an edge of any direction is seen in as many shades as there are samples.
     Sobol,
 }
 

@@ -11,7 +11,7 @@ use crate::{Backend, Pool, Snapshot, Stats};
 /// Rays handed to a thread in one go.
 const SHARE: usize = 256 * RAYS_PER_BLOCK;
 
-/// Asks what each ray meets first, on the threads of `pool`. The answers do not depend on their number.
+/// Finds the closest hit of each ray, on the threads of `pool`. The answers do not depend on their number.
 pub fn find_nearest(
     backend: &dyn Backend,
     snapshot: &Snapshot,

@@ -63,8 +63,8 @@ impl RayList {
         self.length == 0
     }
 
-    /// Appends a ray of the world to be searched on `min <= t <= max`. It may leave a surface, which it does not meet again
-    /// at its origin.
+    /// Appends a ray of the world to be searched on `min <= t <= max`. It may leave a surface, which it does not meet
+    /// again at its origin.
     pub fn push(&mut self, ray: &Ray, [min, max]: [f64; 2], leaving: Option<SurfaceId>) {
         let (block, lane) = (self.length / RAYS_PER_BLOCK, self.length % RAYS_PER_BLOCK);
         if lane == 0 {
@@ -234,7 +234,7 @@ impl HitList {
 
     /// What a ray meets first: where, and at which `t` in lengths of its direction. `None` where it meets nothing.
     ///
-    /// The surface is the right one. `t` is what `f64` makes of it: the parameter of the plane or sphere it belongs to.
+    /// The surface is the right one. `t` is computed in `f64`: the parameter of the plane or sphere it belongs to.
     ///
     /// # Panics
     /// A number that is not below [`len`](Self::len).
@@ -245,7 +245,7 @@ impl HitList {
         (prim != NOTHING).then(|| (SurfaceId { prim, facet: self.facet[at] }, self.t[at]))
     }
 
-    /// Makes room for the answers about `length` rays.
+    /// Makes room for the hits of `length` rays.
     pub(crate) fn resize(&mut self, length: usize) {
         let room = length.next_multiple_of(RAYS_PER_BLOCK);
         self.length = length;
@@ -255,7 +255,7 @@ impl HitList {
     }
 }
 
-/// Room for the answers about some rays, in whole blocks.
+/// Columns for the hits of some rays, in whole blocks.
 #[derive(Debug)]
 pub struct HitSlice<'a> {
     pub(crate) prim: &'a mut [u32],

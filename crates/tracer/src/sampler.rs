@@ -22,8 +22,8 @@ impl<W: Word> Sampler<W> {
         Self { pixel: mixed(mixed(x.plus_number(columns)).plus(mixed(y.plus_number(rows)))) }
     }
 
-    /// Dimensions 2 `pair` and 2 `pair` + 1 of a sample, as shares of 2³². Of the first 2ᵐ samples of a pixel (and of every
-    /// 2ᵐ after them) one lies in each cell of every grid of 2ᵏ x 2ᵐ⁻ᵏ cells; pairs know nothing of each other.
+    /// Dimensions 2 `pair` and 2 `pair` + 1 of a sample, as shares of 2³². Of the first 2ᵐ samples of a pixel (and of
+    /// every 2ᵐ after them) one lies in each cell of every grid of 2ᵏ x 2ᵐ⁻ᵏ cells; pairs know nothing of each other.
     #[inline(always)]
     pub(crate) fn pair(self, sample: W, pair: u32) -> [W; 2] {
         let key = mixed(self.pixel.plus_number(pair.wrapping_mul(GOLDEN)));
@@ -41,16 +41,16 @@ pub(crate) fn share(bits: u32) -> f64 {
 /// Point number `index` of Sobol's first two dimensions, each scrambled with its own seed, as shares of 2³².
 #[inline(always)]
 pub(crate) fn sobol<W: Word>(index: W, [first, second]: [W; 2]) -> [W; 2] {
-    // The first dimension is the index from its lowest bit on. Bit i of the second, from its highest one on, is the sum of
-    // C(j, i) times bit j of the index: Pascal's triangle modulo 2, which falls into one step a halving.
+    // The first dimension is the index from its lowest bit on. Bit i of the second, from its highest one on, is the sum
+    // of C(j, i) times bit j of the index: Pascal's triangle modulo 2, which falls into one step a halving.
     let triangle = HALVES
         .iter()
         .fold(index, |bits, &(places, lower)| bits.xor(bits.shift_down(places).and(bits.of(lower))));
     [scrambled_reversed(index, first).reversed(), scrambled_reversed(triangle, second).reversed()]
 }
 
-/// A nested uniform scramble of bits that stand in reverse: every bit is flipped or not by a hash of those below it (Laine
-/// and Karras 2011, with Burley's constants).
+/// A nested uniform scramble of bits that stand in reverse: every bit is flipped or not by a hash of those below it
+/// (Laine and Karras 2011, with Burley's constants).
 #[inline(always)]
 fn scrambled_reversed<W: Word>(bits: W, seed: W) -> W {
     [0x6c50_b47c_u32, 0xb82f_1e52, 0xc7af_e638, 0x8d22_f6e6]

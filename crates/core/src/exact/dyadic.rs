@@ -16,7 +16,7 @@ pub struct Dyadic {
     exponent: i64,
 }
 
-/// Bits that roots are worked out to before they are rounded to `f64`.
+/// Bits that roots are computed to before they are rounded to `f64`.
 const WORKING_BITS: i64 = 96;
 
 impl Dyadic {

@@ -9,7 +9,8 @@ use crate::exact::{Located, Number, Root, Verdict};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
-/// A closed box, or a flat one where its corners share a coordinate. Face `2 * axis` lies at the lower end of that axis, face `2 * axis + 1` at the upper end.
+/// A closed box, or a flat one where its corners share a coordinate. Face `2 * axis` lies at the lower end of that
+/// axis, face `2 * axis + 1` at the upper end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cuboid {
     bounds: Aabb,

@@ -30,8 +30,9 @@ use crate::{Aabb, Crossing, Placement, Ray, Span};
 /// What the tracer and the editor ask of a shape.
 ///
 /// A shape says where a ray meets it once, in [`nearest_root`](Self::nearest_root), over any kind of number;
-/// [`cross`](Self::cross) computes that first in `f64` with bounds, then, where those do not decide, exactly. So hit or miss, and which crossing comes
-/// first, is the answer of exact arithmetic on the shape's numbers and those of [`own_ray`](Self::own_ray).
+/// [`cross`](Self::cross) computes that first in `f64` with bounds, then, where those do not decide, exactly. So hit or
+/// miss, and which crossing comes first, is the answer of exact arithmetic on the shape's numbers and those of
+/// [`own_ray`](Self::own_ray).
 pub trait Geometry {
     /// How many pieces it is made of that are met one by one, each a facet of that number: the triangles of a mesh. 1 for
     /// a shape that is met as a whole.
@@ -184,7 +185,8 @@ impl Shape {
         each_shape!(self, shape => shape.cross(ray, span, leaving))
     }
 
-    /// As [`cross`](Self::cross) for the piece alone that a facet belongs to: that facet, where the shape is made of them.
+    /// As [`cross`](Self::cross) for the piece alone that a facet belongs to: that facet, where the shape is made of
+    /// them.
     #[must_use]
     pub fn cross_part(&self, facet: u32, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
         each_shape!(self, shape => {

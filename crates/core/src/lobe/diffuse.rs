@@ -22,8 +22,9 @@ impl<L: Lane> Diffuse<L> {
         self.albedo.scale(self.albedo.x.of(LAMBERT))
     }
 
-    /// A unit vector on the side of a unit normal, chosen by two numbers in 0..1 with a density of its cosine to the normal
-    /// over π, and that cosine: points spread evenly over the unit disk, raised to the half sphere (Malley's method).
+    /// A unit vector on the side of a unit normal, chosen by two numbers in 0..1 with a density of its cosine to the
+    /// normal over π, and that cosine: points spread evenly over the unit disk, raised to the half sphere (Malley's
+    /// method).
     #[inline(always)]
     #[must_use]
     pub fn direction(normal: Triple<L>, u: [L; 2]) -> (Triple<L>, L) {

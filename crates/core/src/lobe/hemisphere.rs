@@ -45,8 +45,8 @@ fn eighth_turns<L: Lane>(eighths: L) -> [L; 2] {
     [series(square, 1, 8), angle * series(square, 2, 7)]
 }
 
-/// 1 − x²/(a (a + 1)) (1 − x²/((a + 2) (a + 3)) (…)), `terms` terms of it: with a = 1 the cosine's 1 − x²/2! + x⁴/4! …, with
-/// a = 2 the sine's 1 − x²/3! + x⁴/5! ….
+/// 1 − x²/(a (a + 1)) (1 − x²/((a + 2) (a + 3)) (…)), `terms` terms of it: with a = 1 the cosine's 1 − x²/2! + x⁴/4! …,
+/// with a = 2 the sine's 1 − x²/3! + x⁴/5! ….
 #[inline(always)]
 fn series<L: Lane>(square: L, first: u32, terms: u32) -> L {
     let one = square.number(1.0);

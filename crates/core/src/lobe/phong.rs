@@ -101,8 +101,8 @@ impl<L: Lane> Scatter<L> for Phong<L> {
         highlight * length.number((self.shape.exponent.wide + 1.0) / (4.0 * PI)) / length
     }
 
-    /// By half vectors. Those that would send the viewer's ray below the surface are lost: what [`pdf`](Self::pdf) sums up
-    /// to over the half sphere is the share of the others.
+    /// By half vectors. Those that would send the viewer's ray below the surface are lost: what [`pdf`](Self::pdf) sums
+    /// up to over the half sphere is the share of the others.
     #[inline(always)]
     fn sample(&self, at: &ShadingPoint<L>, u: [L; 2]) -> Sample<L> {
         let disk = Disk::at(u);

@@ -1,7 +1,7 @@
 //! Which materials there are, and what a material must answer.
 //!
-//! A material says in which [lobes](crate::lobe) light leaves it towards the viewer; it does not depend on the light that arrives. A new
-//! material is one file here, its `mod` line and its name in the list below.
+//! A material says in which [lobes](crate::lobe) light leaves it towards the viewer; it does not depend on the light
+//! that arrives. A new material is one file here, its `mod` line and its name in the list below.
 
 mod checker;
 mod depth;
@@ -80,8 +80,8 @@ impl Material {
         each_material!(self, material => material.lobes(at))
     }
 
-    /// What is made of its lobes. The work is compiled for each kind of material, so lobes that the kind lacks cost nothing,
-    /// and of `at` only what it needs is computed.
+    /// Calls `work` with its lobes. That is compiled for each kind of material, so lobes that the kind lacks cost
+    /// nothing, and of `at` only what it needs is computed.
     #[inline(always)]
     pub fn visit_lobes<L: Lane, T>(
         &self,

@@ -1,8 +1,9 @@
 //! Where do the parts of a scene live, how are they found, and how are they changed?
 //!
 //! A [`Scene`] is a [`hecs::World`] behind stable ids. An entity is a [`Shape`], a [`Light`] or a [`Camera`] with
-//! a [`Placement`], or a group whose members move with it. Materials are shared by [`MaterialId`]. Every change is an [`Edit`] that goes through [`Scene::apply`], which checks it, answers
-//! with its inverse, and writes into the edit log what was changed; [`History`] makes undo and redo of it.
+//! a [`Placement`], or a group whose members move with it. Materials are shared by [`MaterialId`]. Every change is an
+//! [`Edit`] that goes through [`Scene::apply`], which checks it, answers with its inverse, and writes into the edit log
+//! what was changed; [`History`] makes undo and redo of it.
 
 mod add;
 mod apply;

@@ -1,4 +1,4 @@
-//! What is in a scene, kind by kind, and where does it stand in the world?
+//! What is in a scene, kind by kind, and where is it placed in the world?
 //!
 //! Lists of copies, oldest first: a shape is a few numbers, and a mesh is shared.
 

@@ -121,7 +121,7 @@ pub(super) struct Set<S: Simd> {
     pub(super) around: Extent<S>,
     pub(super) centres: Extent<S>,
     pub(super) leaf: bool,
-    /// Whether they stand in the room to sort them.
+    /// Whether they are in the buffer for sorting.
     pub(super) aside: bool,
 }
 

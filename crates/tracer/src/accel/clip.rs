@@ -10,8 +10,8 @@ use catoptra_core::glam::DVec3;
 use super::Box32;
 use crate::numeric::CLIP_ERROR;
 
-/// Boxes round what of a triangle, whose corners `f32` holds, lies in a box: before a plane across an axis, and past it. A
-/// box is empty only where nothing does; what lies in the plane is part of both.
+/// Boxes round what of a triangle, whose corners `f32` holds, lies in a box: before a plane across an axis, and past
+/// it. A box is empty only where nothing does; what lies in the plane is part of both.
 pub(super) fn halves(corners: &[DVec3; 3], within: &Box32, axis: usize, at: f32) -> [Box32; 2] {
     let (mut before, mut past) = (Box32::EMPTY, Box32::EMPTY);
     let place = f64::from(at);

@@ -14,9 +14,10 @@ use super::wide_tree::{Node8, WIDTH, WideTree};
 use super::{MAX_DEPTH, Preset};
 use crate::Pool;
 
-/// Most triangles of a leaf of a node that has no room for two: a node of a few leaves costs more to visit than their blocks.
-/// Measured on three meshes of 66,000 to 871,000 triangles: single rays test an eighth to a quarter fewer blocks than with 32
-/// and visit a twentieth more nodes; 16 was not faster beyond the noise and takes 3 bytes a triangle more.
+/// Most triangles of a leaf of a node that has no room for two: a node of a few leaves costs more to visit than their
+/// blocks. Measured on three meshes of 66,000 to 871,000 triangles: single rays test an eighth to a quarter fewer
+/// blocks than with 32 and visit a twentieth more nodes; 16 was not faster beyond the noise and takes 3 bytes a
+/// triangle more.
 const FULL_LEAF: usize = 24;
 /// Stretches longer than this are shared out among threads, this many triangles at a time.
 const PARALLEL: usize = 8192;
@@ -24,8 +25,8 @@ const PARALLEL: usize = 8192;
 /// smaller leaves would cost more.
 const LEAF: usize = 8;
 /// Share of the surface of the box round a mesh that two parts must have in common for space to be cut (α in Stich et al.
-/// 2009). Measured on a scan and a building of 870,000 and 66,000 triangles: from here to 10⁻⁵ rays gain nothing more, while
-/// the tree takes up to seven times as long to build and grows by 5 %; at 10⁻¹ they have gained nothing yet.
+/// 2009). Measured on a scan and a building of 870,000 and 66,000 triangles: from here to 10⁻⁵ rays gain nothing more,
+/// while the tree takes up to seven times as long to build and grows by 5 %; at 10⁻¹ they have gained nothing yet.
 const OVERLAP: f32 = 1e-2;
 /// Depth from which on stretches are halved, which takes at most 32 levels.
 const HALVE: usize = MAX_DEPTH - 32;
@@ -253,8 +254,8 @@ impl<S: Simd> Grower<'_, S> {
         all.best_plane(self.s, scale)
     }
 
-    /// Brings what lies before the plane to the front, and the rest to where the `second` part begins, on all threads; the
-    /// boxes round the centres of both parts.
+    /// Brings what lies before the plane to the front, and the rest to where the `second` part begins, on all threads;
+    /// the boxes round the centres of both parts.
     fn partition(
         self,
         (items, scratch): Room<'_>,
@@ -318,7 +319,7 @@ impl<S: Simd> Grower<'_, S> {
 /// Triangles with free slots behind them, and as much room to sort them.
 type Room<'a> = (&'a mut [Item], &'a mut [Item]);
 
-/// Brings the triangles of a leaf that stand aside to where the tree looks for them.
+/// Moves the triangles of a leaf that are in the buffer for sorting to where the tree expects them.
 fn bring_back((items, scratch): Room<'_>, first: usize, leaf: &Set<impl Simd>) {
     if leaf.aside {
         let own = first..first + leaf.count;

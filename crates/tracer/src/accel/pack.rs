@@ -1,5 +1,6 @@
 //! How leaves are laid out in blocks: none begins within a block that it does not fit into, so that a ray tests no
-//! more blocks than the leaf's triangles fill. Small leaves share blocks: the fullest that has room takes them (best fit).
+//! more blocks than the leaf's triangles fill. Small leaves share blocks: the fullest that has room takes them (best
+//! fit).
 
 use catoptra_core::TriangleMesh;
 use rayon::prelude::*;
@@ -7,7 +8,8 @@ use rayon::prelude::*;
 use super::bins::Item;
 use super::wide_tree::{Block8, Node8, WIDTH};
 
-/// Blocks that are kept in mind for each number of free places. A twentieth of all places stays empty on the meshes measured.
+/// Blocks that are kept in mind for each number of free places. A twentieth of all places stays empty on the meshes
+/// measured.
 const OPEN: usize = 8;
 /// Threads share out the blocks in stretches of this many.
 const PARALLEL: usize = 1024;

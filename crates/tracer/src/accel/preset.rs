@@ -12,8 +12,8 @@ pub enum Preset {
     #[default]
     Balanced,
     /// For meshes that are traced for long: more bins, and space is cut where triangles overlap (Stich, Friedrich and
-    /// Dietrich, "Spatial Splits in Bounding Volume Hierarchies", HPG 2009), so that some stand in several leaves. At most
-    /// 30 % are added so; those two meshes take 6 and 1 % more room.
+    /// Dietrich, "Spatial Splits in Bounding Volume Hierarchies", HPG 2009), so that some stand in several leaves. At
+    /// most 30 % are added so; those two meshes take 6 and 1 % more room.
     Best,
 }
 

@@ -33,8 +33,8 @@ impl Planes {
         self.low + self.step * slice as f32
     }
 
-    /// The first slice and the last that a box reaches into. It lies past the planes up to the first and before those after
-    /// the last; a box in a plane lies past it.
+    /// The first slice and the last that a box reaches into. It lies past the planes up to the first and before those
+    /// after the last; a box in a plane lies past it.
     fn slices(&self, bounds: &Box32) -> (usize, usize) {
         let (low, high) = (bounds.min[self.axis], bounds.max[self.axis]);
         let near = |v: f32| (((v - self.low) / self.step) as usize).min(SLICES - 1);

@@ -45,8 +45,9 @@ impl Box32 {
 
     /// Where a ray may enter the box, if it may do so up to `far`; never a false no.
     ///
-    /// Slabs with the far side stretched by 1 + 2γ₃ in `f64` (Ize 2013), and one more rounding for the pad; NaN, from a ray within a face, counts as
-    /// inside. `far` is stretched too, and the box is wider by what a ray is off by that was carried over from elsewhere.
+    /// Slabs with the far side stretched by 1 + 2γ₃ in `f64` (Ize 2013), and one more rounding for the pad; NaN, from a
+    /// ray within a face, counts as inside. `far` is stretched too, and the box is wider by what a ray is off by that
+    /// was carried over from elsewhere.
     pub(crate) fn entered_by(&self, ray: &Ray, far: f64) -> Option<f64> {
         let stretch = 1.0 + 2.0 * gamma_f64(4);
         let (mut enter, mut leave) = (0.0_f64, far * stretch);

@@ -47,7 +47,7 @@ impl Beam {
     /// Its rays once they have been mirrored in a place, about unit normals within `half` of one in every coordinate.
     ///
     /// d − 2 (d·n) n with n = m + g is M d − 2 ((d·g) m + (d·m) g + (d·g) g), where M = 1 − 2 m mᵀ.
-    pub(crate) fn sent_on(&self, place: &PointBounds, normal: DVec3, half: DVec3) -> Self {
+    pub(crate) fn mirrored(&self, points: &PointBounds, normal: DVec3, half: DVec3) -> Self {
         let mirrored = |v: DVec3| v - normal * (2.0 * v.dot(normal));
         let most = self.axis.abs() + self.half_spread;
         let (along, aside) =
@@ -56,9 +56,9 @@ impl Beam {
         let spread =
             turned.into_iter().sum::<DVec3>() + (normal.abs() * aside + half * (along + aside)) * 2.0;
         Self {
-            prim: place.prim,
-            center: place.center,
-            half: place.half,
+            prim: points.prim,
+            center: points.center,
+            half: points.half,
             axis: mirrored(self.axis),
             half_spread: spread + DVec3::splat(PLAN_MARGIN),
         }

@@ -8,10 +8,11 @@ use crate::kernel::PlaneRow;
 use crate::numeric::PLAN_MARGIN;
 use crate::snapshot::{Ball, Columns, LightRow};
 
-/// Shapes are tried one by one up to this many; more go by the tree.
+/// Up to this many shapes are tested one by one; more are searched by the tree.
 pub(super) const FEW: usize = 4;
 
-/// Longer lists of bounded shapes are not read through to find out that none matters: a walk down the tree says so sooner.
+/// Longer lists of bounded shapes are not read through to find out that none matters: a walk down the tree says so
+/// sooner.
 const MANY: usize = 1024;
 
 /// Shapes to be tried: rows of planes, ids of bounded shapes one by one, or all of those by the tree.
@@ -97,8 +98,8 @@ impl Candidates {
         self.keep(columns, |_, _| true, |_, _| true);
     }
 
-    /// Keeps the shapes that a ray of some beams may meet. Where all rays stay outside all convex solids, those that leave one do
-    /// not meet it again.
+    /// Keeps the shapes that a ray of some beams may meet. Where all rays stay outside all convex solids, those that
+    /// leave one do not meet it again.
     pub(crate) fn reachable(&mut self, columns: &Columns, beams: &[Beam], outside: bool) {
         let met = |prim: u32, ball: &Ball| {
             beams.iter().any(|beam| beam.may_meet_shape(columns, prim, ball, outside))
@@ -106,8 +107,8 @@ impl Candidates {
         self.keep(columns, |_, row| beams.iter().any(|beam| beam.may_cross(row)), met);
     }
 
-    /// Keeps those of `candidates` that a camera ray through a frustum may see first. Of solids that are seen from outside,
-    /// those are the faces on the eye's side.
+    /// Keeps those of `candidates` that a camera ray through a frustum may see first. Of solids that are seen from
+    /// outside, those are the faces on the eye's side.
     pub(crate) fn visible_through(
         &mut self,
         frustum: &Frustum,
@@ -164,7 +165,8 @@ impl Candidates {
         all
     }
 
-    /// Finds bounds of the points that may be seen, where those are bounded. `faced` says that each face fills the frustum.
+    /// Finds bounds of the points that may be seen, where those are bounded. `faced` says that each face fills the
+    /// frustum.
     fn find_points(&mut self, frustum: &Frustum, columns: &Columns, faced: bool) {
         if self.tree || !columns.general_unbounded.is_empty() {
             return;
@@ -172,23 +174,26 @@ impl Candidates {
         for &near in &self.near {
             let (prim, ball) = (columns.bounded[near as usize], &columns.balls[near as usize]);
             let round = columns.is_sphere(prim) && !frustum.is_within(ball);
-            let place =
-                if round { frustum.place_on_ball(prim, ball) } else { PointBounds::new(prim, ball.bounds()) };
+            let visible = if round {
+                frustum.bounds_on_ball(prim, ball)
+            } else {
+                PointBounds::new(prim, ball.bounds())
+            };
             self.filled = self.near.len() == 1
                 && ((round && frustum.filled_by_ball(ball)) || (faced && self.faces.len() == 1));
             if self.filled {
                 // Planes behind it are not seen.
-                self.planes.retain(|&plane| !frustum.is_free_of(&columns.planes[plane as usize], &place));
+                self.planes.retain(|&plane| !frustum.is_free_of(&columns.planes[plane as usize], &visible));
                 self.filled = self.planes.is_empty();
             }
-            self.points.push(place);
+            self.points.push(visible);
         }
         for &plane in &self.planes {
-            let Some(place) = frustum.place_on(&columns.planes[plane as usize]) else {
+            let Some(visible) = frustum.bounds_on(&columns.planes[plane as usize]) else {
                 self.points.clear();
                 return;
             };
-            self.points.push(place);
+            self.points.push(visible);
         }
         self.filled |= self.near.is_empty() && self.planes.len() == 1;
     }
@@ -207,7 +212,7 @@ impl Candidates {
             for beam in beams {
                 match beam.crosses(&columns.planes[row as usize]) {
                     Crosses::Never => {}
-                    Crosses::Within(place) => self.points.push(place),
+                    Crosses::Within(visible) => self.points.push(visible),
                     Crosses::Anywhere => {
                         self.points.clear();
                         return false;
@@ -227,11 +232,14 @@ impl Candidates {
         outside: bool,
     ) {
         let crosses = |i: usize, row: &PlaneRow| {
-            light.behind[i] != 0.0 && points.iter().any(|place| place.may_lie_beyond(row, light.behind[i]))
+            light.behind[i] != 0.0
+                && points.iter().any(|visible| visible.may_lie_beyond(row, light.behind[i]))
         };
         let meets = |prim: u32, ball: &Ball| {
             let passes_by = outside && columns.is_convex(prim);
-            points.iter().any(|place| !(passes_by && place.prim == prim) && place.shaft_meets(light, ball))
+            points
+                .iter()
+                .any(|visible| !(passes_by && visible.prim == prim) && visible.shaft_meets(light, ball))
         };
         self.keep(columns, crosses, meets);
     }

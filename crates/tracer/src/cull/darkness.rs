@@ -6,7 +6,7 @@ use super::point_bounds::PointBounds;
 use crate::kernel::Kernel;
 use crate::snapshot::{Columns, Instance, KernelVisitor};
 
-/// Whether no ray of a beam that meets a shape in a place meets anything once it is mirrored there.
+/// Whether no ray of a beam meets anything once it is mirrored at given points of a shape.
 pub(super) fn goes_dark(columns: &Columns, beam: &Beam, bounds: &PointBounds, outside: bool) -> bool {
     columns.visit_here(bounds.prim, GoesDark { columns, beam, bounds, outside })
 }
@@ -24,7 +24,7 @@ impl KernelVisitor for GoesDark<'_> {
     fn visit(self, kernel: &impl Kernel) -> bool {
         let Self { columns, beam, bounds, outside } = self;
         kernel.all_normals(bounds.center, bounds.half, |normal, half| {
-            !beam.sent_on(bounds, normal, half).may_meet_any(columns, outside)
+            !beam.mirrored(bounds, normal, half).may_meet_any(columns, outside)
         })
     }
 

@@ -72,8 +72,8 @@ impl Frustum {
         Beam::new(NOTHING, Aabb::of([self.eye]), Aabb::of(self.corners.map(|corner| corner / length)))
     }
 
-    /// How far the eye lies on the side of a plane that its normal does not point to, to a share of [`PLAN_MARGIN`]; `None`
-    /// where that is not known so well.
+    /// How far the eye lies on the side of a plane that its normal does not point to, to a share of [`PLAN_MARGIN`];
+    /// `None` where that is not known so well.
     fn behind(&self, row: &PlaneRow) -> Option<f64> {
         let behind = row.distance - row.normal.dot(self.eye);
         let error = row.distance_error() + PLAN_MARGIN * PLAN_MARGIN * self.eye.abs().element_sum();
@@ -93,7 +93,7 @@ impl Frustum {
     }
 
     /// Bounds of the points of a plane that are seen through the frustum; `None` where they may be unbounded.
-    pub(crate) fn place_on(&self, row: &PlaneRow) -> Option<PointBounds> {
+    pub(crate) fn bounds_on(&self, row: &PlaneRow) -> Option<PointBounds> {
         let inverse_t = self.inverse_t(row);
         let margin = PLAN_MARGIN * inverse_t.iter().fold(0.0, |m, w| w.abs().max(m));
         if !inverse_t.iter().all(|w| *w > margin && w.is_finite()) {
@@ -113,8 +113,8 @@ impl Frustum {
     /// How much of the frustum a face takes up.
     ///
     /// Directions that meet a triangle make a convex cone with three sides, as those of the frustum make one with four:
-    /// they are disjoint where all corners of one lie beyond a side of the other, and the frustum lies within the triangle
-    /// where its corners do.
+    /// they are disjoint where all corners of one lie beyond a side of the other, and the frustum lies within the
+    /// triangle where its corners do.
     pub(crate) fn coverage(&self, face: &TriangleRow) -> Coverage {
         let corners = face.corners().map(|corner| corner - self.eye);
         let size = corners.map(|corner| corner.abs().element_sum()).into_iter().fold(0.0, f64::max);
@@ -152,7 +152,7 @@ impl Frustum {
     ///
     /// At an angle θ to the ball's centre, its near side is |L| cos θ − √(R² − |L|² sin² θ) away, which grows with θ up
     /// to the silhouette. The frustum holds the directions within ω of its middle.
-    pub(crate) fn place_on_ball(&self, prim: u32, ball: &Ball) -> PointBounds {
+    pub(crate) fn bounds_on_ball(&self, prim: u32, ball: &Ball) -> PointBounds {
         let to_center = ball.center - self.eye;
         let (distance2, radius2) = (to_center.length_squared(), ball.radius * ball.radius);
         let middle = self.corners.iter().sum::<DVec3>().normalize_or_zero();
@@ -196,7 +196,7 @@ impl Frustum {
     }
 
     /// Whether a plane certainly does not lie between the eye and these points.
-    pub(crate) fn is_free_of(&self, row: &PlaneRow, place: &PointBounds) -> bool {
-        self.behind(row).is_some_and(|behind| !place.may_lie_beyond(row, behind))
+    pub(crate) fn is_free_of(&self, row: &PlaneRow, points: &PointBounds) -> bool {
+        self.behind(row).is_some_and(|behind| !points.may_lie_beyond(row, behind))
     }
 }

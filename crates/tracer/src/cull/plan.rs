@@ -10,7 +10,7 @@ use super::point_bounds::PointBounds;
 use crate::snapshot::LightRow;
 use crate::{Skip, Snapshot};
 
-/// What is planned for, and which work may be left out.
+/// The snapshot that is planned for, and which work may be left out.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Planner<'a> {
     pub(crate) snapshot: &'a Snapshot,

@@ -24,7 +24,7 @@ impl PointBounds {
         Self { prim, center, half, radius: half.length() }
     }
 
-    /// Whether a point may lie on the other side of a plane than a light that is `behind` it by so much.
+    /// Whether a point may lie on the other side of a plane than a light that is `behind` metres behind it.
     pub(crate) fn may_lie_beyond(&self, row: &PlaneRow, behind: f64) -> bool {
         if self.prim == row.prim {
             return false;
@@ -38,7 +38,7 @@ impl PointBounds {
 
     /// Whether anything may arrive from a light.
     pub(crate) fn is_reached_by(&self, light: &LightRow) -> bool {
-        let farthest = light.place.distance(self.center) + self.radius;
+        let farthest = light.position.distance(self.center) + self.radius;
         light.light.may_reach(self.center, self.radius * (1.0 + PLAN_MARGIN) + CONE_MARGIN * farthest)
     }
 
@@ -47,7 +47,7 @@ impl PointBounds {
         let to_ball = ball.center - self.center;
         let reach =
             (ball.radius + self.radius) * (1.0 + PLAN_MARGIN) + PLAN_MARGIN * to_ball.abs().element_sum();
-        let way = if light.at_infinity { light.place } else { light.place - self.center };
+        let way = if light.at_infinity { light.position } else { light.position - self.center };
         let most = if light.at_infinity { f64::INFINITY } else { 1.0 };
         let share = (to_ball.dot(way) / way.length_squared()).clamp(0.0, most);
         !((to_ball - way * share).length_squared() > reach * reach)

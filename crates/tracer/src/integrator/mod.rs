@@ -16,7 +16,7 @@ pub(crate) use pixels::trace_pixels;
 pub(crate) use search::{Exhaustive, Search, Trees};
 use walker::{CameraRay, Walker};
 
-/// What an integrator must answer.
+/// What an integrator implements.
 pub(crate) trait Integrate {
     /// The light that arrives along a camera ray, one path at a time in `f64`, and what the ray meets first.
     fn gather<S: Search>(walker: &mut Walker<'_, S>, camera: &CameraRay) -> (Rgb, Option<Hit>);
@@ -25,19 +25,19 @@ pub(crate) trait Integrate {
     fn trace_tile(frame: &Frame<'_>, tile: &mut Tile) -> Stats;
 }
 
-/// What wants to know which integrator it is before it traces many rays.
+/// Work that is compiled once per integrator.
 pub(crate) trait IntegratorVisitor {
-    /// What the work comes to.
+    /// The result of the work.
     type Output;
 
-    /// Works by the rules of some integrator.
+    /// Works with an integrator.
     fn visit<I: Integrate>(self) -> Self::Output;
 }
 
-/// Declares whose rules stand for which integrator: a type of the name that the enum has for it.
+/// Declares the types that implement the integrators, by the names that the enum has for them.
 macro_rules! integrators {
     ($($file:ident::$name:ident),+ $(,)?) => {
-        /// Shows a visitor whose rules an integrator goes by.
+        /// Calls a visitor with the type that implements an integrator.
         pub(crate) fn visit<V: IntegratorVisitor>(integrator: Integrator, visitor: V) -> V::Output {
             match integrator { $(Integrator::$name => visitor.visit::<$file::$name>()),+ }
         }

@@ -23,7 +23,7 @@ pub(crate) struct Walker<'a, S> {
     pub(super) stats: Stats,
 }
 
-/// Where a ray has met a surface.
+/// A hit of a ray, with what shading needs of the surface.
 pub(super) struct SurfaceHit<'a> {
     pub(super) hit: Hit,
     pub(super) ray: Ray,

@@ -48,7 +48,7 @@ pub(crate) struct Tried<S: Simd> {
     pub(crate) leaving: Leaving<S>,
     /// The facets through which rays run into the solid that they leave; [`NOTHING`] for all others.
     pub(crate) entered: U<S>,
-    /// Whether no ray starts inside a convex solid, so that what it leaves it does not meet again.
+    /// Whether no ray starts inside a convex solid, so that it does not meet again the solid that it leaves.
     pub(crate) outside: bool,
 }
 
@@ -61,6 +61,7 @@ impl<S: Simd> Tried<S> {
 }
 
 /// A crossing that a kernel proposes.
+#[derive(Clone, Copy)]
 pub(crate) struct Crossing<S: Simd> {
     pub(crate) proposal: Proposal<S>,
     /// The facet that it lies on.
@@ -70,6 +71,7 @@ pub(crate) struct Crossing<S: Simd> {
 }
 
 /// What a kernel finds out about segments to a target.
+#[derive(Clone, Copy)]
 pub(crate) struct Obstacle<S: Simd> {
     pub(crate) blocking: Blocking<S>,
     /// The facet in question, where it is the same in all lanes.
@@ -78,7 +80,7 @@ pub(crate) struct Obstacle<S: Simd> {
     pub(crate) lanes: M<S>,
 }
 
-/// Where a ray has met a shape, as far as `f32` knows.
+/// Hits of a packet on a shape, with the precision of `f32`.
 pub(crate) trait NearHit<S: Simd> {
     /// The points, in `f32`.
     fn point(&self) -> F3<S>;
@@ -121,8 +123,8 @@ pub(crate) trait Kernel {
     /// Points and outer unit normals to shade with, in `f32`.
     fn surface<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F3<S>, F3<S>);
 
-    /// How far `f64` points near the shape are off it, in a measure of the shape's own, and how much that changes with a metre
-    /// along the rays: what a Newton step needs.
+    /// How far `f64` points near the shape are off it, in a measure of the shape's own, and how much that changes with
+    /// a metre along the rays: what a Newton step needs.
     fn off<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F<S>, F<S>);
 
     /// Outer unit normals at `f64` points of the shape.

@@ -67,7 +67,7 @@ impl Kernel for Faces<'_> {
     }
 }
 
-/// Normals of the faces that lanes have met.
+/// Normals of the faces that lanes have hit.
 #[inline(always)]
 fn facing_normals32<S: Simd>(s: S, faces: &[impl AsRef<PlaneRow>], hit: &impl NearHit<S>) -> F3<S> {
     let mut normal = hit.point();
@@ -79,7 +79,7 @@ fn facing_normals32<S: Simd>(s: S, faces: &[impl AsRef<PlaneRow>], hit: &impl Ne
     normal
 }
 
-/// Normals and distances of the planes of the faces that lanes have met.
+/// Normals and distances of the planes of the faces that lanes have hit.
 #[inline(always)]
 pub(super) fn planes_met<S: Simd>(
     s: S,

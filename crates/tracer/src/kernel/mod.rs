@@ -89,7 +89,7 @@ pub(crate) enum End {
     /// A point.
     At(DVec3),
     /// Infinitely far in the direction of a unit vector.
-    Towards(DVec3),
+    AtInfinity(DVec3),
 }
 
 impl<S: Simd> Proposal<S> {
@@ -102,7 +102,7 @@ impl<S: Simd> Proposal<S> {
     }
 }
 
-/// A bound on an error, unless `f32` is [trusted](CERTAIN): then it is 0, and not worked out.
+/// A bound on an error, unless `f32` is [trusted](CERTAIN): then it is 0, and not computed.
 #[inline(always)]
 pub(crate) fn bound<S: Simd>(s: S, error: F<S>) -> F<S> {
     if CERTAIN { error } else { F::splat(s, 0.0) }

@@ -89,8 +89,8 @@ impl SphereRow {
         }
     }
 
-    /// A sphere blocks a segment between two points outside it if the line crosses it between them, and always one between
-    /// a point inside and one outside. `starts_outside` says that no segment starts inside.
+    /// A sphere blocks a segment between two points outside it if the line crosses it between them, and always one
+    /// between a point inside and one outside. `starts_outside` says that no segment starts inside.
     #[inline(always)]
     pub(crate) fn block<S: Simd>(
         &self,
@@ -102,8 +102,8 @@ impl SphereRow {
     ) -> Blocking<S> {
         let most = self.radius * self.radius * (1.0 + PLAN_MARGIN);
         let may_end_inside = match target.end {
-            Some(End::At(place)) => place.distance_squared(self.center) <= most,
-            Some(End::Towards(_)) => false,
+            Some(End::At(point)) => point.distance_squared(self.center) <= most,
+            Some(End::AtInfinity(_)) => false,
             None => true,
         };
         if may_end_inside || leaving.any() {

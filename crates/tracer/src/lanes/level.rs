@@ -37,8 +37,8 @@ fn with_instructions<S: Simd, W: Work>(s: S, work: W) -> W::Output {
 
 /// Compiles `work` as a function of its own, with the instructions that `s` proves, rather than into its caller.
 ///
-/// Everything in the SIMD backend is inlined into a few loops per kind of instructions, which is what makes it fast; as one
-/// function they would take minutes to compile. Where an uncommon path works on copies of what its caller holds, the
+/// Everything in the SIMD backend is inlined into a few loops per kind of instructions, which is what makes it fast; as
+/// one function they would take minutes to compile. Where an uncommon path works on copies of what its caller holds, the
 /// common one can keep that in registers.
 #[inline(always)]
 pub(crate) fn outlined<S: Simd, T>(s: S, work: impl FnOnce() -> T) -> T {

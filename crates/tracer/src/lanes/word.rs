@@ -38,7 +38,7 @@ pub(crate) trait Word: Copy {
     fn reversed(self) -> Self {
         HALVES.iter().fold(self, |bits, &(places, lower)| {
             let mask = bits.of(lower);
-            // What is moved up and what is moved down share no bit.
+            // The two shifted parts share no bit.
             bits.and(mask).shift_up(places).xor(bits.shift_down(places).and(mask))
         })
     }

@@ -140,7 +140,7 @@ impl<S: Simd> Searcher<'_, S> {
         let maybe = hit & !nearer & !best.t.less(proposal.t - doubt);
         let mut undecided = (allowed & proposal.undecided) | maybe;
         if !P::FROM_ORIGIN {
-            // What is met before the span begins may hide what is met on it.
+            // A hit before the span begins may hide one on it.
             undecided = undecided | (hit & !packet.begins(self.s)[1].less(proposal.t - proposal.error));
         }
         let take = if CERTAIN { nearer & !undecided } else { nearer };
@@ -226,7 +226,7 @@ impl<S: Simd> Searcher<'_, S> {
                 }
             };
             let Some((facet, metres)) = first else { continue };
-            // What a kernel found where it was certain stays, whatever it had to compete with.
+            // The `t` that a kernel was certain of is kept, whichever hit it was compared with.
             let (t, error) = if known {
                 (doubtful.t.lane(lane), doubtful.error.lane(lane))
             } else {
@@ -241,7 +241,7 @@ impl<S: Simd> Searcher<'_, S> {
     }
 }
 
-/// Tests every ray of a packet against one shape, on copies; answers the nearest crossings after it.
+/// Tests every ray of a packet against one shape, on copies; returns the nearest crossings after it.
 struct TryShape<'t, 'a, 'b, S: Simd, P> {
     search: &'t mut Searcher<'a, S>,
     packet: Packet<'b, S, P>,

@@ -30,7 +30,7 @@ impl<S: Simd> Hits<S> {
         Self { t: far, error, prim: U::splat(s, NOTHING), facet: U::splat(s, 0) }
     }
 
-    /// What has been found before.
+    /// Loads hits that were found before.
     #[inline(always)]
     pub(crate) fn found(s: S, found: &HitColumns, at: usize) -> Self {
         Self {
@@ -41,7 +41,7 @@ impl<S: Simd> Hits<S> {
         }
     }
 
-    /// Keeps it for later.
+    /// Stores them for later.
     #[inline(always)]
     pub(crate) fn store(&self, found: &mut HitColumns, at: usize) {
         self.t.store(&mut found.t[at..]);
@@ -57,7 +57,7 @@ impl<S: Simd> Hits<S> {
     }
 }
 
-/// What the rays of a batch have met, column by column.
+/// The hits of a batch, column by column.
 #[derive(Default)]
 pub(crate) struct HitColumns {
     pub(crate) t: Column<f32>,

@@ -34,8 +34,8 @@ pub(crate) trait PreciseRays<S: Simd> {
         [F::splat(s, 0.0); 2]
     }
 
-    /// Where the spans of the packet that begins with ray `at` begin and end, relative to the snapshot's origin; not finite
-    /// for unbounded ones.
+    /// Where the spans of the packet that begins with ray `at` begin and end, relative to the snapshot's origin; not
+    /// finite for unbounded ones.
     fn ends(&self, s: S, at: usize) -> [D3<S>; 2];
 }
 

@@ -198,7 +198,7 @@ impl<S: Simd> Refined<S> {
     }
 }
 
-/// What the lanes of a packet have met.
+/// The hits of some lanes of a packet.
 pub(super) struct PacketHit<'a, 'b, S: Simd, P> {
     pub(super) s: S,
     pub(super) packet: &'a Packet<'b, S, P>,

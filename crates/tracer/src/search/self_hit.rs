@@ -54,10 +54,10 @@ impl<S: Simd> Searcher<'_, S> {
         };
         self.self_hits_by(&rays.leaving, rays.live, faces, |face| {
             let (off, size) = match end {
-                End::Towards(direction) => (face.normal.dot(direction), 1.0),
-                End::At(place) => {
-                    let size = face.distance.abs() + place.abs().element_sum();
-                    (face.normal.dot(place) - face.distance, size)
+                End::AtInfinity(direction) => (face.normal.dot(direction), 1.0),
+                End::At(point) => {
+                    let size = face.distance.abs() + point.abs().element_sum();
+                    (face.normal.dot(point) - face.distance, size)
                 }
             };
             let side = |beyond: bool| M::splat(self.s, beyond);

@@ -97,7 +97,7 @@ struct SurfaceOf<'t, 'a, 'b, S: Simd, P> {
 impl<S: Simd, P: PreciseRays<S>> SurfaceOf<'_, '_, '_, S, P> {
     /// From where the lanes meet the shape in `f64`.
     #[inline(always)]
-    fn from_refined(self) -> Surface<S> {
+    fn refined(self) -> Surface<S> {
         let refined = self.search.refine_apart(self.packet, self.best, self.mask, self.prim);
         Surface {
             point: narrow3(refined.point),
@@ -119,11 +119,11 @@ impl<S: Simd, P: PreciseRays<S>> KernelVisitor for SurfaceOf<'_, '_, '_, S, P> {
 
     #[inline(always)]
     fn visit_mesh(self, _: &Instance) -> Surface<S> {
-        self.from_refined()
+        self.refined()
     }
 
     #[inline(always)]
     fn visit_none(self) -> Surface<S> {
-        self.from_refined()
+        self.refined()
     }
 }

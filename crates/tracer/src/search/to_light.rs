@@ -18,18 +18,18 @@ use crate::snapshot::{Instance, LightRow};
 /// Segments from the surfaces that the rays of a packet meet to a light.
 pub(crate) struct ToLight<'a, S: Simd, P> {
     pub(crate) packet: &'a Packet<'a, S, P>,
-    /// What the rays have met.
+    /// The surfaces that the rays have hit.
     pub(crate) from: Leaving<S>,
     pub(crate) light: &'a LightRow,
 }
 
 impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
-    /// From where the ray of a lane meets its surface in `f64`, whatever `f32` made of that point.
+    /// Starts where the ray of a lane meets its surface in `f64`, not at the `f32` point.
     fn segment(&self, snapshot: &Snapshot, lane: usize) -> Option<(Ray, Span)> {
         let (ray, span, leaving) = self.packet.segment(lane);
         let from = self.from.lane(lane)?;
-        let met = snapshot.cross_part(from.prim, Some(from.facet), &ray, span, leaving)?;
-        Some(self.light.segment_from(ray.at(met.crossing.t)))
+        let hit = snapshot.cross_part(from.prim, Some(from.facet), &ray, span, leaving)?;
+        Some(self.light.segment_from(ray.at(hit.crossing.t)))
     }
 
     #[inline(always)]
@@ -44,7 +44,7 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
             return None;
         }
         let s = search.s;
-        let common = instance.own_points(s, splat_wide(s, self.light.place));
+        let common = instance.own_points(s, splat_wide(s, self.light.position));
         let (start, off) = self.own_starts(search, rays, open, instance);
         let lines = Lines { origin: common, direction: start - common, live: open };
         let mut bundled = [BundledRays::nothing(s)];
@@ -88,8 +88,8 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
 }
 
 impl<S: Simd, P: PreciseRays<S>> ToLight<'_, S, P> {
-    /// Where segments begin in a mesh's own space, and how far that may be off: refined in `f64` where they leave the mesh
-    /// itself.
+    /// Where segments begin in a mesh's own space, and how far that may be off: refined in `f64` where they leave the
+    /// mesh itself.
     #[inline(always)]
     fn own_starts(
         &self,

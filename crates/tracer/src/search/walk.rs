@@ -14,7 +14,7 @@ use crate::kernel::Rays;
 use crate::lanes::{F, F3, M, outlined, splat3};
 use crate::numeric::{BOX_PAD, BOX_STRETCH};
 
-/// Rays as boxes see them.
+/// Rays set up for slab tests.
 struct Slabs<S: Simd> {
     origin: F3<S>,
     inverse: F3<S>,

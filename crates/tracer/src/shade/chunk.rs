@@ -18,7 +18,7 @@ pub(crate) struct Chunk<S: Simd> {
     /// Indices of their first rays in their batch.
     pub(crate) at: [usize; CHUNK],
     pub(crate) best: [Hits<S>; CHUNK],
-    /// What they have met, relative to the snapshot's origin.
+    /// Points of their hits, relative to the snapshot's origin.
     pub(crate) point: [F3<S>; CHUNK],
     /// Geometric unit normals on the viewer's side.
     pub(crate) normal: [F3<S>; CHUNK],
@@ -26,7 +26,7 @@ pub(crate) struct Chunk<S: Simd> {
     pub(crate) smooth: [F3<S>; CHUNK],
     /// Unit vectors to the viewer, where a material has glossy lobes.
     pub(crate) to_viewer: [F3<S>; CHUNK],
-    /// Lanes that have met something, by material.
+    /// Lanes with hits, by material.
     pub(crate) groups: [Groups; CHUNK],
     /// Lanes whose materials are lit.
     pub(crate) lit: [M<S>; CHUNK],

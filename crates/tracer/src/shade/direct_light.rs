@@ -12,7 +12,7 @@ use crate::numeric::POINT_ERROR;
 use crate::search::{ShadowRays, ToLight, drift};
 use crate::stream::Batch;
 
-/// Adds to the first packets of the chunk what a light makes of them.
+/// Adds what a light contributes to the first packets of the chunk.
 struct AddLight<'t, 'a, S: Simd, B> {
     shader: &'t mut Shader<'a, S>,
     batch: &'t B,
@@ -129,7 +129,8 @@ fn face<S: Simd, E: Emitter>(
 }
 
 impl<S: Simd> Shader<'_, S> {
-    /// Adds what every light makes of the first `count` packets of the chunk. Each kind of light has a loop of its own.
+    /// Adds what every light contributes to the first `count` packets of the chunk. Each kind of light has a loop of
+    /// its own.
     #[inline(always)]
     pub(crate) fn add_lights(&mut self, batch: &impl Batch<S>, count: usize) {
         let rows = self.search.snapshot.light_rows();

@@ -1,4 +1,4 @@
-//! Hits to surfaces: packets fill the slots of a chunk with what they have met, before any light is added.
+//! From hits to surfaces: fills the slots of a chunk with the points, normals and materials of hits.
 
 use catoptra_core::{Lane, LaneMask, ShadingPoint};
 use fearless_simd::Simd;
@@ -11,13 +11,13 @@ use crate::lanes::{F, F3, M, outlined};
 use crate::search::{HitColumns, Hits, Packet, PreciseRays, Surface};
 use crate::stream::Batch;
 
-/// How packets find what they meet.
+/// How packets find their hits.
 pub(crate) trait Finder<S: Simd> {
-    /// Fills a slot of the chunk with what the packet that begins with ray `at` of a batch meets.
+    /// Fills a slot of the chunk with the hits of the packet that begins with ray `at` of a batch.
     fn fill_slot(&self, shader: &mut Shader<'_, S>, batch: &impl Batch<S>, at: usize, slot: usize);
 }
 
-/// Among some shapes.
+/// Searches some shapes.
 impl<S: Simd> Finder<S> for &Candidates {
     #[inline(always)]
     fn fill_slot(&self, shader: &mut Shader<'_, S>, batch: &impl Batch<S>, at: usize, slot: usize) {
@@ -27,7 +27,7 @@ impl<S: Simd> Finder<S> for &Candidates {
     }
 }
 
-/// As found before.
+/// Takes hits that were found before.
 impl<S: Simd> Finder<S> for &HitColumns {
     #[inline(always)]
     fn fill_slot(&self, shader: &mut Shader<'_, S>, batch: &impl Batch<S>, at: usize, slot: usize) {
@@ -38,7 +38,7 @@ impl<S: Simd> Finder<S> for &HitColumns {
 }
 
 impl<S: Simd> Shader<'_, S> {
-    /// Finds what the packets of a batch meet, and adds the light that arrives along them.
+    /// Finds the hits of a batch, and adds the light that arrives along its rays.
     #[inline(always)]
     pub(crate) fn shade(
         &mut self,
@@ -81,7 +81,7 @@ impl<S: Simd> Shader<'_, S> {
         );
     }
 
-    /// Fills a slot of the chunk with what a packet has met.
+    /// Fills a slot of the chunk with the hits of a packet.
     #[inline(always)]
     fn fill_slot<P: PreciseRays<S>>(&mut self, packet: &Packet<'_, S, P>, best: &Hits<S>, slot: usize) {
         self.begin_slot(best, slot, packet.at);

@@ -82,8 +82,8 @@ impl<S: Simd> Shader<'_, S> {
         shown.scale(share)
     }
 
-    /// Where `f32` cannot decide on which side of a pattern's edge a point lies, replaces it by one from `f64` that lies in
-    /// the same cell.
+    /// Where `f32` cannot decide on which side of a pattern's edge a point lies, replaces it by one from `f64` that
+    /// lies in the same cell.
     #[inline(always)]
     fn move_off_edges(&mut self, batch: &impl Batch<S>, slot: usize, mask: M<S>, material: &Material) {
         let at = self.shading_point(slot);

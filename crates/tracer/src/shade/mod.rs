@@ -20,7 +20,7 @@ use crate::search::Searcher;
 use crate::stream::{LaneBounds, Queue};
 
 pub(crate) use chunk::Chunk;
-pub(crate) use rules::{MirrorNormals, goes_on, mirror_direction};
+pub(crate) use rules::{MirrorNormals, continues, mirror_direction};
 
 /// Gathers the light of packets, a chunk of them at a time.
 pub(crate) struct Shader<'a, S: Simd> {

@@ -4,7 +4,7 @@ use catoptra_core::LaneMask;
 use fearless_simd::Simd;
 
 use super::Shader;
-use super::rules::{MirrorNormals, goes_on, mirror_direction};
+use super::rules::{MirrorNormals, continues, mirror_direction};
 use crate::lanes::{F3, M, U, narrow3, outlined};
 use crate::stream::{Batch, QueuedRays};
 
@@ -42,8 +42,8 @@ impl<S: Simd> Shader<'_, S> {
             let Some(mirror) = mirror else { continue };
             let weight = arriving.times(mirror.tint);
             let skipped = &mut self.search.stats.skipped;
-            let traced = goes_on(mask, weight, depth, self.view, skipped);
-            on = on | self.lead_somewhere(traced, self.chunk.best[slot].prim);
+            let traced = continues(mask, weight, depth, self.view, skipped);
+            on = on | self.may_hit(traced, self.chunk.best[slot].prim);
             weights = F3::select(mask, weight, weights);
         }
         (on, weights)
@@ -77,7 +77,7 @@ impl<S: Simd> Shader<'_, S> {
 
     /// The lanes whose reflected rays may meet anything; others are counted.
     #[inline(always)]
-    fn lead_somewhere(&mut self, lanes: M<S>, prims: U<S>) -> M<S> {
+    fn may_hit(&mut self, lanes: M<S>, prims: U<S>) -> M<S> {
         let mut on = lanes;
         for &prim in &self.plan.dark {
             on = on & !prims.is(prim);

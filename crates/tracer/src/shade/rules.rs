@@ -10,7 +10,7 @@ use crate::{Skipped, View};
 /// Of lanes that send on light of a weight after `depth` reflections, those whose rays are traced; the others are counted
 /// by their reason.
 #[inline(always)]
-pub(crate) fn goes_on<L: Lane>(
+pub(crate) fn continues<L: Lane>(
     lanes: L::Mask,
     weight: Triple<L>,
     depth: u32,
@@ -66,12 +66,12 @@ mod tests {
         let camera = Camera::look_at(DVec3::Z, DVec3::ZERO, DVec3::Y, 1.0).unwrap();
         let view = View { max_depth: 3, weight_cutoff: 0.01, ..View::new(camera, Size::new(1, 1)) };
         let mut skipped = Skipped::default();
-        assert!(goes_on(true, Triple::new(0.0, 0.01, 0.0), 2, &view, &mut skipped));
+        assert!(continues(true, Triple::new(0.0, 0.01, 0.0), 2, &view, &mut skipped));
         assert_eq!(skipped, Skipped::default());
         for (weight, depth) in [(0.0, 9), (f64::NAN, 9), (0.001, 3), (0.009, 2)] {
-            assert!(!goes_on(true, grey(weight), depth, &view, &mut skipped));
+            assert!(!continues(true, grey(weight), depth, &view, &mut skipped));
         }
-        assert!(!goes_on(false, grey(1.0), 0, &view, &mut skipped));
+        assert!(!continues(false, grey(1.0), 0, &view, &mut skipped));
         let counted = Skipped { not_reflective: 2, depth_limit: 1, weight_cutoff: 1, ..Skipped::default() };
         assert_eq!(skipped, counted);
     }

@@ -10,7 +10,7 @@ use itertools::{EitherOrBoth, merge_join_by};
 use super::Snapshot;
 use super::origin::relative;
 
-/// What is not the same in two snapshots. Values are compared as numbers, so that 0 and −0 are one.
+/// The differences between two snapshots. Values are compared as numbers, so that 0 and −0 are one.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SnapshotDiff {
     /// Shapes that stand or look otherwise, by age.
@@ -27,7 +27,7 @@ pub struct SnapshotDiff {
     pub frame: Option<Changed<DVec3>>,
     /// The sum of ambient light.
     pub ambient: Option<Changed<Rgb>>,
-    /// What is seen where there is nothing.
+    /// The background.
     pub background: Option<Changed<Rgb>>,
     /// How many reflections the scene's settings allow.
     pub max_depth: Option<Changed<u32>>,
@@ -94,7 +94,7 @@ impl<I, T> PartDiff<I, T> {
 }
 
 impl SnapshotDiff {
-    /// Compares two snapshots, of whatever scenes: what is called by the same id counts as one.
+    /// Compares two snapshots, of any scenes: things of the same id count as the same thing.
     #[must_use]
     pub fn between(before: &Snapshot, after: &Snapshot) -> Self {
         let materials = by_id(&before.parts.materials, &after.parts.materials, |(id, part)| (*id, part));
@@ -111,7 +111,7 @@ impl SnapshotDiff {
         }
     }
 
-    /// Whether all is the same.
+    /// Whether nothing differs.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
@@ -126,7 +126,7 @@ fn named<T>(placed: &Placed<T>) -> (EntityId, &T) {
     (placed.id, &placed.part)
 }
 
-/// What is in one of two lists only, or with another value in each. Both are sorted by id.
+/// Entries that are in one of two lists only, or have another value in each. Both are sorted by id.
 fn by_id<E, I: Ord, T: PartialEq + Clone>(
     before: &[E],
     after: &[E],

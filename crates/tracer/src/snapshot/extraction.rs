@@ -17,7 +17,7 @@ pub struct Extraction {
     pub(super) eye: Option<DVec3>,
 }
 
-/// What is not a shape, in the world, by age.
+/// Everything but the shapes, in the world, by age.
 #[derive(Debug)]
 pub(super) struct Parts {
     pub(super) revision: u64,

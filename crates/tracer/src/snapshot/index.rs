@@ -11,7 +11,7 @@ use crate::Pool;
 use crate::accel::{Box32, MeshTree, Preset, Tree};
 use crate::numeric::BOUNDS_ERROR;
 
-/// What follows from the shapes alone, wherever light is and whatever they wear.
+/// What depends on the shapes alone, not on lights or materials.
 #[derive(Debug)]
 pub(super) struct Index {
     /// Unbounded shapes.
@@ -37,7 +37,7 @@ impl Index {
     }
 }
 
-/// A box, relative to an origin, and wider by what rounding may make of its corners and of rays.
+/// A box, relative to an origin, and widened by the rounding of its corners and of rays.
 fn around(bounds: Aabb, origin: DVec3) -> Box32 {
     let largest = bounds.min.abs().max(bounds.max.abs()).max(origin.abs()).max_element();
     let slack = DVec3::splat(BOUNDS_ERROR * largest + f64::MIN_POSITIVE);

@@ -29,7 +29,7 @@ impl MaterialRow {
 pub(crate) struct LightRow {
     pub(crate) light: Light,
     /// Its position, or the unit vector towards it when `at_infinity`.
-    pub(crate) place: DVec3,
+    pub(crate) position: DVec3,
     /// The same in the snapshot's frame.
     pub(crate) in_frame: DVec3,
     pub(crate) at_infinity: bool,
@@ -43,17 +43,21 @@ pub(crate) struct LightRow {
 impl LightRow {
     pub(crate) fn new(light: &Light, origin: DVec3, planes: &[&Plane]) -> Self {
         let own = light.placed(&Placement::IDENTITY.moved(-origin).unwrap_or_default());
-        let place =
+        let position =
             |light: &Light| light.position().or_else(|| light.direction().map(|d| -d)).unwrap_or(DVec3::ZERO);
         let at_infinity = light.position().is_none();
         let behind = |plane: &&Plane| {
-            if at_infinity { plane.side_of_direction(place(light)) } else { plane.side_of(place(light)) }
+            if at_infinity {
+                plane.side_of_direction(position(light))
+            } else {
+                plane.side_of(position(light))
+            }
         };
         Self {
-            place: place(&own),
-            in_frame: place(light),
+            position: position(&own),
+            in_frame: position(light),
             at_infinity,
-            reach: if at_infinity { 0.0 } else { magnitude_of(place(&own)) },
+            reach: if at_infinity { 0.0 } else { magnitude_of(position(&own)) },
             behind: planes.iter().map(behind).map(|side| -f64::from(side as i8)).collect(),
             light: own,
         }
@@ -62,7 +66,7 @@ impl LightRow {
     /// Where it is, as the common end of shadow rays.
     #[inline(always)]
     pub(crate) fn end(&self) -> End {
-        if self.at_infinity { End::Towards(self.place) } else { End::At(self.place) }
+        if self.at_infinity { End::AtInfinity(self.position) } else { End::At(self.position) }
     }
 
     /// The segment from a point to the light, in the snapshot's frame.

@@ -1,4 +1,4 @@
-//! What is traced: a scene frozen into columns, relative to an origin of its own.
+//! Snapshots: a scene frozen into columns for tracing, relative to an origin of its own.
 
 mod columns;
 mod diff;

@@ -1,7 +1,8 @@
 //! Chooses the origin of a snapshot's coordinates.
 //!
-//! `f32` shall be spent on detail and not on distance. What is seen sharply is what is near the eye, so the origin
-//! follows the eye. It stays at the world's where that is near enough, which leaves every coordinate as it was given.
+//! The precision of `f32` is to be spent on detail and not on distance. What is seen sharply is what is near the eye,
+//! so the origin follows the eye. It stays at the world's where that is near enough, which leaves every coordinate as
+//! it was given.
 
 use std::borrow::Cow;
 
@@ -33,7 +34,8 @@ fn detail(bounds: Aabb, eye: DVec3) -> f64 {
     eye.distance(eye.clamp(bounds.min, bounds.max)) + bounds.size().length()
 }
 
-/// In steps of an eighth of the detail or less, a power of two: numbers so short that a difference to them is mostly exact.
+/// In steps of an eighth of the detail or less, a power of two: numbers so short that a difference to them is mostly
+/// exact.
 fn rounded(place: DVec3, detail: f64) -> DVec3 {
     let step = (detail / 8.0).log2().floor().exp2();
     let short = (place / step).round() * step;
@@ -44,7 +46,7 @@ fn rounded(place: DVec3, detail: f64) -> DVec3 {
 /// shape, so that points near the eye are known the better; else the world's own zero, so that every shape stays what it
 /// is.
 pub(super) fn frame_for<'a>(mut shapes: impl Iterator<Item = &'a Shape>, origin: DVec3) -> DVec3 {
-    // Where the origin is the world's own zero, so is the frame, whatever the shapes.
+    // Where the origin is the world's own zero, the frame is the world, whatever the shapes.
     if origin != DVec3::ZERO && shapes.all(|shape| moves_exactly(shape, origin)) {
         origin
     } else {

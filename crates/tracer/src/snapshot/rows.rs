@@ -5,7 +5,7 @@ use crate::kernel::{CuboidRow, Faces, FlatRow, Kernel, PlaneRow, SphereRow, Tria
 
 /// Work that is compiled once per kernel; called with the kernel of one shape.
 pub(crate) trait KernelVisitor: Sized {
-    /// What the work comes to.
+    /// The result of the work.
     type Output;
 
     /// Works with a kernel.

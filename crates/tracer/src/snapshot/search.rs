@@ -114,8 +114,8 @@ impl Snapshot {
         }
     }
 
-    /// Whether a ray meets one hit before another: exactly, and of hits in one place that with the lower shape, then the
-    /// lower facet.
+    /// Whether a ray meets one hit before another: exactly, and of hits at the same `t` that with the lower shape, then
+    /// the lower facet.
     pub(crate) fn precedes(&self, segment: &RaySegment<'_>, a: &Hit, b: &Hit) -> bool {
         let order = a.crossing.order(
             &b.crossing,
@@ -194,19 +194,20 @@ impl<'a> RaySegment<'a> {
         Self { ray, span, leaving, in_world: false }
     }
 
-    /// Up to the latest place at which what has been found may lie.
+    /// The same segment, up to the latest `t` of the hit so far.
     fn until(&self, best: Option<Hit>) -> Self {
         let max = best.map_or(self.span.max, |hit| hit.crossing.latest().min(self.span.max));
         Self { span: Span { max, ..self.span }, ..*self }
     }
 }
 
-/// Whether one place comes before another on a ray, by their order there, and of places in one by their numbers.
+/// Whether one surface comes before another on a ray: by the order of their roots, or by their numbers if that is equal.
 fn comes_first(order: Ordering, a: SurfaceId, b: SurfaceId) -> bool {
     order.then((a.prim, a.facet).cmp(&(b.prim, b.facet))).is_lt()
 }
 
-/// The nearest crossing of a ray in a mesh's own space with its triangles; of crossings in one place, that of the lowest.
+/// The nearest crossing of a ray in a mesh's own space with its triangles; of crossings at the same `t`, that of the
+/// lowest.
 fn cross_mesh(mesh: &Mesh, tree: &WideTree, own: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
     let mut best: Option<Crossing> = None;
     tree.walk(own, span, |triangle| {

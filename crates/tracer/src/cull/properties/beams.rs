@@ -12,7 +12,7 @@ use crate::film::NOTHING;
 use crate::random::Random;
 use crate::{Frame, Snapshot, SurfaceId};
 
-/// What was met, and how often that which is rare.
+/// Counts of what was tested, so that rare cases are known to occur.
 #[derive(Debug, Default)]
 struct Tally {
     crossings: u32,
@@ -215,21 +215,21 @@ fn mirrored_beams_hold_their_rays() {
         let random = &mut random;
         let size = random.power(-6, 6);
         let center = random.point() * random.power(-6, 6);
-        let place = PointBounds::new(3, some_box(random, center, size));
+        let points = PointBounds::new(3, some_box(random, center, size));
         let normal = if one_in(random, 4) { random.axis() } else { random.point().normalize() };
         let axis = if one_in(random, 2) { normal } else { random.point().normalize() };
         let (spread, tilt) = (random.power(-12, -1), random.power(-12, -1));
         let units = some_box(random, axis, spread);
         let normals = some_box(random, normal, tilt);
         let beam = Beam::new(NOTHING, Aabb::of([DVec3::ZERO]), units);
-        let sent = beam.sent_on(&place, normal, normals.size() / 2.0);
+        let sent = beam.mirrored(&points, normal, normals.size() / 2.0);
         assert_eq!(sent.prim, 3);
         for _ in 0..4 {
             let [along, tilted] =
                 [axis, normal].map(|v| if one_in(random, 3) { signs(random) } else { v.signum() });
             let (d, n) = (corner(units, along), corner(normals, tilted));
             let (from, to) =
-                (place.center + place.half * signs(random) * (1.0 - 1e-9), d - n * (2.0 * d.dot(n)));
+                (points.center + points.half * signs(random) * (1.0 - 1e-9), d - n * (2.0 * d.dot(n)));
             let off = |v: DVec3, middle: DVec3, half: DVec3| ((v - middle) / half).abs().max_element();
             assert!(off(from, sent.center, sent.half) <= 1.0, "{sent:?} {from}");
             let share = off(to, sent.axis, sent.half_spread);

@@ -13,7 +13,7 @@ use crate::film::NOTHING;
 use crate::random::Random;
 use crate::{Frame, Hit, Region, Skip, Snapshot, SurfaceId};
 
-/// What was met, and how often that which is rare.
+/// Counts of what was tested, so that rare cases are known to occur.
 #[derive(Debug, Default)]
 struct Tally {
     /// Rays that are sent on by mirrors that are dark.
@@ -170,11 +170,11 @@ fn small_parts_of_spheres_are_dark_only_if_they_show_nothing() {
         // All in one box each, or one by one.
         let (beams, places): (Vec<Beam>, Vec<PointBounds>) = if one_in(random, 2) {
             let points = starts.into_iter().chain([center + pole * radius]).map(own);
-            let place = PointBounds::new(0, narrow_box(points));
-            (vec![Beam::new(NOTHING, from, narrow_box(units))], vec![place])
+            let bounds = PointBounds::new(0, narrow_box(points));
+            (vec![Beam::new(NOTHING, from, narrow_box(units))], vec![bounds])
         } else {
-            let place = |start: DVec3| PointBounds::new(0, narrow_box([own(start)]));
-            (units.map(|unit| Beam::new(NOTHING, from, narrow_box([unit]))).into(), starts.map(place).into())
+            let bounds = |start: DVec3| PointBounds::new(0, narrow_box([own(start)]));
+            (units.map(|unit| Beam::new(NOTHING, from, narrow_box([unit]))).into(), starts.map(bounds).into())
         };
         let mut plan = TilePlan::default();
         let planner = Planner { snapshot: &snapshot, skip: Skip::ALL, outside: true };

@@ -101,12 +101,12 @@ pub(super) fn some_plane(random: &mut Random, through: DVec3, normal: DVec3, siz
 }
 
 /// A light of any kind that shines from somewhere.
-pub(super) fn some_light(random: &mut Random, place: DVec3, size: f64) -> Light {
+pub(super) fn some_light(random: &mut Random, position: DVec3, size: f64) -> Light {
     loop {
         let kind = one_of(random, Light::KINDS);
         let light = some_part(random, kind, size);
         if light.position().is_some() || light.direction().is_some() {
-            return light.placed(&Placement::IDENTITY.moved(place).unwrap());
+            return light.placed(&Placement::IDENTITY.moved(position).unwrap());
         }
     }
 }

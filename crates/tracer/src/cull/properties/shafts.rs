@@ -17,7 +17,7 @@ use crate::lanes::F;
 use crate::random::Random;
 use crate::{Frame, Skip, Snapshot, SurfaceId};
 
-/// What was met, and how often that which is rare.
+/// Counts of what was tested, so that rare cases are known to occur.
 #[derive(Debug, Default)]
 struct Tally {
     blocked: u32,
@@ -154,11 +154,11 @@ pub(super) fn bounds_of(snapshot: &Snapshot, seen: &[Seen]) -> Vec<PointBounds> 
 }
 
 /// A light of any kind at a point, shining along `way`.
-fn light_at(random: &mut Random, place: DVec3, way: DVec3) -> Light {
+fn light_at(random: &mut Random, position: DVec3, way: DVec3) -> Light {
     let mut light = some_light(random, DVec3::ZERO, 1.0);
     for field in light.kind().fields {
         light = match field.kind {
-            FieldKind::Point => light.with(field.name, Value::Vector(place)).unwrap(),
+            FieldKind::Point => light.with(field.name, Value::Vector(position)).unwrap(),
             FieldKind::Direction => light.with(field.name, Value::Vector(way)).unwrap(),
             _ => light,
         };
@@ -221,7 +221,7 @@ fn what_stands_between_a_box_and_a_light_is_among_its_occluders() {
         let far = unit * random.power(-6, 8);
         let from_center = if one_in(random, 2) { points.centre() } else { point };
         let light = light_at(random, from_center + way * far, -way);
-        let ray = light.position().map_or(Ray::new(point, way), |place| Ray::new(point, place - point));
+        let ray = light.position().map_or(Ray::new(point, way), |position| Ray::new(point, position - point));
         let reach = if light.position().is_some() { 1.0 } else { far };
         let shapes = just_between(random, &ray, reach, outwards, unit);
         let snapshot = snapshot_of(&shapes, &[light], false, None);
@@ -250,10 +250,10 @@ fn what_the_rim_of_a_cone_lights_is_reached() {
         let outwards = signs(random);
         let point = corner(points, outwards);
         // The axis lies outwards of the point, the point on the rim.
-        let place = point + random.point() * random.power(-3, 10);
-        let light = light_at(random, place, DVec3::X);
+        let position = point + random.point() * random.power(-3, 10);
+        let light = light_at(random, position, DVec3::X);
         let Some(Value::Number(outer)) = light.values().get("outer").cloned() else { continue };
-        let to_point = (point - place).normalize();
+        let to_point = (point - position).normalize();
         let aside = outwards.reject_from(to_point).normalize_or(DVec3::X);
         // Some shine into all but a full turn.
         let (outer, angle) = if one_in(random, 3) {

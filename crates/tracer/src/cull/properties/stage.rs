@@ -276,7 +276,7 @@ impl<'a> Stage<'a> {
         self.places(frame, region).into_iter().map(|[x, y]| frame.raster.ray(x, y)).collect()
     }
 
-    /// What is traced: shapes wear a mirror, or none does.
+    /// What is traced: all shapes are mirrors, or none is.
     pub(super) fn snapshot(&self, lights: &[Light], mirrors: bool) -> Snapshot {
         snapshot_of(&self.shapes, lights, mirrors, Some(&self.stand.view.camera))
     }

@@ -10,7 +10,7 @@ use super::{depth_in, holds, narrowed};
 use crate::random::Random;
 use crate::{Frame, Hit, Region, Size, Snapshot};
 
-/// What was met, and how often that which is rare.
+/// Counts of what was tested, so that rare cases are known to occur.
 #[derive(Debug, Default)]
 struct Tally {
     hits: u32,

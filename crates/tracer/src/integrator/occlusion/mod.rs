@@ -1,8 +1,8 @@
 //! Ambient occlusion: what share of the sky does a surface see, weighted by the cosine?
 //!
 //! Zhukov, Iones and Kronin, "An ambient light illumination model", EGWR 1998, with nothing between seen and hidden: one
-//! direction a camera sample, 1 where nothing is met within the view's distance and 0 where something is. Where the camera
-//! sees no surface, nothing hides the sky: 1. Materials do not matter.
+//! direction a camera sample, 1 where nothing is met within the view's distance and 0 where something is. Where the
+//! camera sees no surface, nothing hides the sky: 1. Materials do not matter.
 
 mod packets;
 mod paths;
@@ -26,5 +26,5 @@ impl Integrate for Occlusion {
     }
 }
 
-/// The pair of dimensions that the direction goes by.
+/// The pair of sample dimensions that the direction is drawn from.
 const DIRECTION: u32 = 0;

@@ -7,7 +7,7 @@ use catoptra_core::{Arrival, Light, Lobes, Ray, Rgb, Span, Triple};
 use crate::Hit;
 use crate::integrator::Search;
 use crate::integrator::walker::{SurfaceHit, Walker};
-use crate::shade::{MirrorNormals, goes_on, mirror_direction};
+use crate::shade::{MirrorNormals, continues, mirror_direction};
 
 impl<S: Search> Walker<'_, S> {
     /// The light that arrives along a ray from the camera, and what the ray meets first.
@@ -35,7 +35,7 @@ impl<S: Search> Walker<'_, S> {
                 break;
             };
             weight = weight.times(mirror.tint);
-            if !goes_on(true, weight, depth, self.frame.view, skipped) {
+            if !continues(true, weight, depth, self.frame.view, skipped) {
                 break;
             }
             self.stats.rays.reflection += 1;

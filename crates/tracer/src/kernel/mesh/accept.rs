@@ -41,6 +41,15 @@ struct OpenLanes {
     inside: u64,
 }
 
+/// An open lane.
+#[derive(Clone, Copy)]
+struct OpenLane {
+    lane: usize,
+    /// Its number among the lanes of all packets of the group.
+    in_group: usize,
+    edges: Edges,
+}
+
 impl<S: Simd> BundledRays<S> {
     /// Takes over a triangle in some lanes.
     #[inline(always)]
@@ -101,20 +110,20 @@ impl CommonOrigin {
         packet: PacketRays<'_, S>,
         exact: &mut dyn ExactResolver,
     ) {
+        let PacketRays { rays, packet } = packet;
         let OpenLanes { open, inside } = lanes;
         // Where only edges are open, depths have already been compared.
-        let open =
-            if open & inside == 0 { open } else { self.decide_by_depths(triangle, lanes, packet.rays) };
+        let open = if open & inside == 0 { open } else { self.decide_by_depths(triangle, lanes, rays) };
         for lane in Bits(open) {
-            let other = packet.rays.slot.lane(lane);
+            let other = rays.slot.lane(lane);
             let held = (other != u32::MAX).then(|| triangle.tree.facet(other));
             if held == Some(triangle.facet) {
                 continue;
             }
-            packet.rays.decided += 1;
+            rays.decided += 1;
             let edges = if inside >> lane & 1 == 1 { Edges::Inside } else { Edges::Open };
-            let Some(t) = self.nearer(triangle, lane, edges, &packet, exact) else { continue };
-            let rays = &mut *packet.rays;
+            let undecided = OpenLane { lane, in_group: packet * F::<S>::LANES + lane, edges };
+            let Some(t) = self.nearer(triangle, rays, undecided, exact) else { continue };
             let z = t as f32 * rays.scale.lane(lane);
             let error = z.abs() * (BUNDLE_SLOPE + BUNDLE_SLOPE);
             rays.end[0].set(lane, z - error);
@@ -126,7 +135,7 @@ impl CommonOrigin {
         }
     }
 
-    /// Decides by depths from `f64` planes; the lanes that those leave open.
+    /// Decides by depths from `f64` planes; returns the lanes that those leave open.
     fn decide_by_depths<S: Simd>(
         &self,
         triangle: TreeTriangle<'_>,
@@ -162,18 +171,16 @@ impl CommonOrigin {
         )
     }
 
-    /// At which `t` the ray of a lane meets a triangle in front of all that it has met, if it does.
+    /// The `t` at which the ray of a lane meets a triangle, if that is before its nearest hit so far.
     fn nearer<S: Simd>(
         &self,
         triangle: TreeTriangle<'_>,
-        lane: usize,
-        edges: Edges,
-        packet: &PacketRays<'_, S>,
+        rays: &BundledRays<S>,
+        open: OpenLane,
         exact: &mut dyn ExactResolver,
     ) -> Option<f64> {
-        let rays = &*packet.rays;
-        let of_all = packet.packet * F::<S>::LANES + lane;
-        let (ray, span) = exact.ray(of_all)?;
+        let OpenLane { lane, in_group, edges } = open;
+        let (ray, span) = exact.ray(in_group)?;
         let other = Some(rays.slot.lane(lane)).filter(|&slot| slot != u32::MAX);
         // Two roundings of a sum and a quotient, towards smaller numbers.
         let least = rays.end[0].lane(lane) * (1.0 - 4.0 * BUNDLE_SLOPE);
@@ -184,7 +191,7 @@ impl CommonOrigin {
             Decision::NotNearer => None,
             Decision::Nearer(t) => Some(t),
             Decision::Open => {
-                exact.decide(of_all, triangle.facet, other.map(|slot| triangle.tree.facet(slot)))
+                exact.decide(in_group, triangle.facet, other.map(|slot| triangle.tree.facet(slot)))
             }
         }
     }

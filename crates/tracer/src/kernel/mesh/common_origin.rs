@@ -14,6 +14,7 @@ use fearless_simd::{Simd, f32x8};
 use super::accept::{PacketRays, TreeTriangle};
 use super::edges::{Prepared, Slopes};
 use super::packets::{Packets, SeenBox};
+use super::ray_bundle::Aim;
 use super::{ExactResolver, GROUP, LeafBlock, Visit, Visits, Waiting};
 use crate::accel::{Node8, WIDTH, WideTree};
 use crate::lanes::{Bits, F, M, U, outlined};
@@ -43,7 +44,7 @@ pub(crate) struct CommonOrigin {
     pub(super) any: bool,
 }
 
-/// One packet of a bundle: the slopes of its rays, and what they have met.
+/// One packet of a bundle: the slopes of its rays, and their nearest hits.
 #[derive(Clone, Copy)]
 pub(crate) struct BundledRays<S: Simd> {
     pub(crate) u: F<S>,
@@ -98,30 +99,6 @@ impl<'a> SeenBlock<'a> {
     fn triangle(&self, at: usize) -> TreeTriangle<'a> {
         let LeafBlock { tree, block, .. } = self.leaf;
         TreeTriangle { tree, slot: self.leaf.slot(at), facet: tree.blocks[block].facet[at] }
-    }
-}
-
-/// Where rays go: slopes and the sign along the main axis.
-pub(crate) struct Aim {
-    pub(crate) axes: [usize; 3],
-    pub(crate) sign: f32,
-}
-
-impl Aim {
-    /// The axis along which a direction is longest, and its sign there.
-    pub(crate) fn of(direction: DVec3) -> Self {
-        let size = direction.abs();
-        let last = if size.x > size.y.max(size.z) {
-            0
-        } else if size.y > size.z {
-            1
-        } else {
-            2
-        };
-        Self {
-            axes: [(last + 1) % 3, (last + 2) % 3, last],
-            sign: if direction[last] < 0.0 { -1.0 } else { 1.0 },
-        }
     }
 }
 

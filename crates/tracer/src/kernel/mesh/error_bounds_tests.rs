@@ -157,7 +157,8 @@ fn single_rays_whose_origins_are_off_are_certain_only_of_what_is_so() {
     record.assert_attacked(0.02);
 }
 
-/// Aims rays at rims, each followed as the ray beside it that `known` makes of it for a mesh of that reach, off by so much.
+/// Aims rays at rims. Each is traced as the nearby ray that `known` returns for it, with how far that is off; `known`
+/// gets the reach of the mesh.
 fn attack_single(
     random: &mut Random,
     record: &mut Record,

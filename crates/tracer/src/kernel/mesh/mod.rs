@@ -42,8 +42,8 @@ pub(crate) trait ExactResolver {
     /// The ray of a lane in the mesh's own space, and the span of it that is searched.
     fn ray(&mut self, lane: usize) -> Option<(Ray, Span)>;
 
-    /// The `t` at which the ray of a lane meets a triangle, if that lies before its nearest hit so far: the triangle `held`,
-    /// or else the hit it came with.
+    /// The `t` at which the ray of a lane meets a triangle, if that lies before its nearest hit so far: the triangle
+    /// `held`, or else the hit it came with.
     fn decide(&mut self, lane: usize, facet: u32, held: Option<u32>) -> Option<f64>;
 }
 

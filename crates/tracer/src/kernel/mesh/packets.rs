@@ -33,8 +33,8 @@ impl Packets {
         self.far[at] = far;
     }
 
-    /// Which of them have a box round their slopes that is larger than half of a seen one: where these touch, that need not
-    /// hold a ray.
+    /// Which of them have a box round their slopes that is larger than half of a seen one: where these touch, that need
+    /// not hold a ray.
     #[inline(always)]
     pub(super) fn larger_than_half<S: Simd>(&self, s: S, seen: &SeenBox) -> u32 {
         let size = |axis: usize| {

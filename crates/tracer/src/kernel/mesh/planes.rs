@@ -27,13 +27,13 @@ pub(super) struct Plane {
     errors: [f32; 2],
 }
 
-/// What is certain of where rays cross a plane on a triangle.
+/// Bounds on where rays cross the plane of a triangle.
 pub(super) struct Crossing<S: Simd> {
-    /// Depths between which they do.
+    /// Depths between which the crossings lie.
     pub(super) depth: [F<S>; 2],
-    /// In front of all that they have met, and within their stretch.
+    /// Lanes that cross for certain before their nearest hit so far and within their span.
     pub(super) nearer: M<S>,
-    /// Behind that, or before their stretch.
+    /// Lanes that cross for certain behind that hit or before their span.
     pub(super) beside: M<S>,
 }
 
@@ -128,8 +128,8 @@ impl CommonOrigin {
     /// lie in either plane.
     ///
     /// Where both tops are positive, z₁ < z₂ means top₁ s₂ < top₂ s₁: m = top₁ n₂ − top₂ n₁, whose terms all but cancel
-    /// where the planes all but coincide: in `f64`, before anything is rounded to `f32`. A ray that passes the origin by δ
-    /// changes the product by δ·(d × (n₁ × n₂)).
+    /// where the planes all but coincide: in `f64`, before anything is rounded to `f32`. A ray that passes the origin
+    /// by δ changes the product by δ·(d × (n₁ × n₂)).
     pub(super) fn order(&self, [first, second]: [&PrecisePlane; 2]) -> Option<([f32; 3], f32)> {
         if [first, second].iter().any(|plane| plane.top.abs() <= 2.0 * self.top_error(plane)) {
             return None;

@@ -9,12 +9,12 @@ use fearless_simd::Simd;
 use crate::lanes::{D, D3, F3, M, U, cross, splat3, widen3};
 use crate::numeric::{DEPTH_ERROR, PRECISE_EDGE_ERROR, PRECISE_SLOPE_ERROR, PRECISE_TOP_ERROR};
 
-/// What is certain about a ray and a triangle.
+/// Whether a ray hits a triangle, as far as `f64` is certain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Verdict {
-    /// They do not meet.
+    /// The ray misses the triangle.
     Miss,
-    /// They meet at a `t` that is known within a bound.
+    /// The ray hits it at a `t` that is known within a bound.
     Hit(f64, f64),
     /// Bounds do not decide.
     Open,

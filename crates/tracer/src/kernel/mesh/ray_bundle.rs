@@ -6,7 +6,7 @@ use catoptra_core::{Lane, LaneMask, Ray};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::common_origin::{Aim, BundledRays, CommonOrigin};
+use super::common_origin::{BundledRays, CommonOrigin};
 use crate::lanes::{D, D3, F, LaneVectors, M, U, outlined, splat_wide, vector_of};
 use crate::numeric::{BUNDLE_SLOPE, BUNDLE_SPREAD, BUNDLE_STEEP};
 
@@ -95,7 +95,29 @@ impl RayBundle {
     }
 }
 
+/// The main axis of rays: the one that they mostly run along, and their sign there.
+pub(crate) struct Aim {
+    pub(crate) axes: [usize; 3],
+    pub(crate) sign: f32,
+}
+
 impl Aim {
+    /// The axis along which a direction is longest, and its sign there.
+    pub(crate) fn of(direction: DVec3) -> Self {
+        let size = direction.abs();
+        let last = if size.x > size.y.max(size.z) {
+            0
+        } else if size.y > size.z {
+            1
+        } else {
+            2
+        };
+        Self {
+            axes: [(last + 1) % 3, (last + 2) % 3, last],
+            sign: if direction[last] < 0.0 { -1.0 } else { 1.0 },
+        }
+    }
+
     /// Slopes and depth per length of one direction, in every lane.
     #[inline(always)]
     fn slopes_of<S: Simd>(&self, s: S, direction: DVec3) -> [F<S>; 3] {

@@ -13,7 +13,8 @@ type Row = [f32; MOST_LANES];
 
 /// Rays of a packet in a mesh's own space, each to be traced as a single ray.
 pub(crate) struct RaySetup {
-    /// Where slabs begin and how their `t` grow, axis by axis: at the ends of boxes that are met first, then at the others.
+    /// Where slabs begin and how their `t` grow, axis by axis: at the ends of boxes that are met first, then at the
+    /// others.
     starts: [[Row; 3]; 2],
     inverses: [[Row; 3]; 2],
     /// Which rays run backwards along each axis, bit by bit.
@@ -105,7 +106,8 @@ impl RaySetup {
         self.mostly = [(!not_x).bits(), (!not_y).bits()];
     }
 
-    /// Finds the nearest triangle for rays, or any, one after another; `begun` gives what is known of a ray before. Returns slots of the tree's blocks; [`u32::MAX`] for none.
+    /// Finds the nearest triangle for rays, or any, one after another; `begun` gives what is known of a ray before.
+    /// Returns slots of the tree's blocks; [`u32::MAX`] for none.
     #[inline(always)]
     pub(crate) fn search<S: Simd>(
         &self,

@@ -44,7 +44,7 @@ pub(crate) struct ClosestHit {
     pub(super) error: f32,
     /// Which triangle of the tree's blocks, if it is one of this mesh.
     pub(crate) slot: Option<u32>,
-    /// Whether any crossing will do.
+    /// Whether any crossing will do (occlusion).
     any: bool,
     /// The span that is searched, and bounds in `f32` on where it begins.
     span: Span,

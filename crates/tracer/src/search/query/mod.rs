@@ -274,11 +274,11 @@ impl Work for Answer<'_, '_, '_> {
     }
 }
 
-/// Where answers go.
+/// Where results are stored.
 pub(crate) enum Answers<'a, 'b> {
-    /// What is met first.
+    /// Closest hits.
     Nearest(&'a mut HitSlice<'b>),
-    /// Whether anything is met.
+    /// Whether each ray is occluded.
     Occluded(&'a mut [bool]),
 }
 
@@ -353,7 +353,7 @@ impl<S: Simd> Searcher<'_, S> {
         }
     }
 
-    /// The `t` of what lanes have found, from `f64`.
+    /// The `t` of hits in `f64`.
     #[inline(always)]
     fn refined_hits<P: PreciseRays<S>>(&mut self, packet: &Packet<'_, S, P>, best: &Hits<S>) -> D<S> {
         let snapshot = self.snapshot;
@@ -384,7 +384,7 @@ impl<S: Simd> Searcher<'_, S> {
         all
     }
 
-    /// What a ray meets that `f32` cannot hold.
+    /// The closest hit of a ray whose numbers `f32` cannot hold.
     #[cold]
     fn scalar_answer(&self, query: &RayQuery<'_>, at: usize) -> Option<(SurfaceId, f64)> {
         let hit = query.rays.follow(self.snapshot, at, |segment| self.snapshot.nearest_on(segment))?;

@@ -224,7 +224,7 @@ impl<S: Simd> Searcher<'_, S> {
         slots
     }
 
-    /// Keeps what a packet has found.
+    /// Stores the results of a packet.
     #[inline(always)]
     fn store_packet(
         &mut self,
