@@ -5,7 +5,7 @@
 //! across it follows from the distance to its middle. Line and casing are blended in one go, and a line's pieces
 //! meet without a gap or an overlap, because each row or column belongs to the piece that holds its middle.
 
-use crate::canvas::{CASING, Ink};
+use crate::ink::{CASING, Ink};
 use crate::pixel::{opaque, times, update, whole};
 use crate::projection::Spot;
 use crate::tint::Tint;

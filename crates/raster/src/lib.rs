@@ -15,6 +15,7 @@ mod glow;
 mod grip;
 mod hair;
 mod hull;
+mod ink;
 mod layer;
 mod overlay;
 mod pixel;

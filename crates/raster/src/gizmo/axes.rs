@@ -1,7 +1,8 @@
 //! Where is the origin of the world, and which way do x, y and z point? Three lettered lines of constant size.
 
 use super::{Gizmo, no_marks};
-use crate::canvas::{Canvas, Ink};
+use crate::canvas::Canvas;
+use crate::ink::Ink;
 use crate::stage::Stage;
 use crate::tint::Tint;
 use catoptra_core::glam::DVec3;

@@ -1,7 +1,8 @@
 //! How far does the selected thing reach? Brackets at the corners of its bounds.
 
 use super::{Gizmo, no_marks};
-use crate::canvas::{Canvas, Ink};
+use crate::canvas::Canvas;
+use crate::ink::Ink;
 use crate::stage::Stage;
 use crate::tint::Tint;
 use catoptra_core::glam::DVec3;

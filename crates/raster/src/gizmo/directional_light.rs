@@ -3,7 +3,8 @@
 
 use super::Gizmo;
 use super::mark::{Rim, lamp};
-use crate::canvas::{Canvas, Ink};
+use crate::canvas::Canvas;
+use crate::ink::Ink;
 use crate::stage::{PlacedLight, Stage};
 use crate::tint::Tint;
 use catoptra_core::Light;

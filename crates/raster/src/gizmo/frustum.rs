@@ -1,7 +1,8 @@
 //! Where does a camera of the scene stand, and what does it look at? Its frustum, with a mark over its upper edge.
 
 use super::Gizmo;
-use crate::canvas::{Canvas, Ink};
+use crate::canvas::Canvas;
+use crate::ink::Ink;
 use crate::stage::Stage;
 use crate::tint::Tint;
 use catoptra_core::Camera;

@@ -2,7 +2,8 @@
 //! coarser): lines fade where they come too close to each other in the picture, so the next coarser ones remain.
 
 use super::{Gizmo, no_marks};
-use crate::canvas::{Canvas, Ink};
+use crate::canvas::Canvas;
+use crate::ink::Ink;
 use crate::stage::Stage;
 use crate::tint::Tint;
 use catoptra_core::glam::DVec3;

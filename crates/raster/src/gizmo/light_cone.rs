@@ -6,10 +6,11 @@
 
 use super::Gizmo;
 use super::mark::{Rim, knob, lamp};
-use crate::canvas::{Canvas, Ink};
+use crate::canvas::Canvas;
 use crate::cone::Cone;
 use crate::glow::Ramp;
 use crate::hull::hull;
+use crate::ink::Ink;
 use crate::projection::Spot;
 use crate::stage::{PlacedLight, Stage};
 use crate::tint::Tint;

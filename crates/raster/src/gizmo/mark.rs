@@ -1,6 +1,7 @@
 //! The sign of a lamp: a disc of constant size in the picture, in the light's colour, with a rim of rays or without.
 
-use crate::canvas::{Canvas, Ink};
+use crate::canvas::Canvas;
+use crate::ink::Ink;
 use crate::tint::Tint;
 use catoptra_core::glam::DVec3;
 use std::f32::consts::TAU;

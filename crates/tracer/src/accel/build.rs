@@ -14,14 +14,17 @@ const VISIT: f32 = 1.0;
 /// Stretches longer than this are built by two threads.
 const PARALLEL: usize = 4096;
 
-pub(super) fn build(boxes: &[Box32], pool: &Pool) -> Tree {
-    let mut items: Vec<Item> = boxes.iter().zip(0..).map(|(b, id)| Item { bounds: *b, id }).collect();
-    if items.is_empty() {
-        return Tree::default();
+impl Tree {
+    /// Over items with the given boxes, on the threads of `pool`.
+    pub(crate) fn build(boxes: &[Box32], pool: &Pool) -> Self {
+        let mut items: Vec<Item> = boxes.iter().zip(0..).map(|(b, id)| Item { bounds: *b, id }).collect();
+        if items.is_empty() {
+            return Self::default();
+        }
+        let mut nodes = Vec::new();
+        pool.run(|| grow(&mut items, 0, 0, &mut nodes));
+        Self { nodes, order: items.iter().map(|item| item.id).collect() }
     }
-    let mut nodes = Vec::new();
-    pool.run(|| grow(&mut items, 0, 0, &mut nodes));
-    Tree { nodes, order: items.iter().map(|item| item.id).collect() }
 }
 
 #[derive(Clone, Copy)]
@@ -180,7 +183,7 @@ mod tests {
     #[test]
     fn every_item_stands_in_one_leaf_within_its_ancestors() {
         let boxes = grid(20);
-        let tree = build(&boxes, one_thread());
+        let tree = Tree::build(&boxes, one_thread());
         let mut seen = vec![0; boxes.len()];
         let mut stack = vec![(0_usize, tree.nodes[0].bounds)];
         while let Some((at, around)) = stack.pop() {
@@ -201,14 +204,14 @@ mod tests {
     #[test]
     fn boxes_in_one_place_still_make_a_tree() {
         let same = vec![Box32 { min: [1.0; 3], max: [2.0; 3] }; 10_000];
-        assert_eq!(build(&same, one_thread()).order.len(), 10_000);
+        assert_eq!(Tree::build(&same, one_thread()).order.len(), 10_000);
     }
 
     #[test]
     fn wild_extents_stay_within_the_deepest_tree() {
         let boxes: Vec<Box32> =
             (0..2000).map(|i| [2.0_f32.powi(i / 10 - 100); 3]).map(|p| Box32 { min: p, max: p }).collect();
-        let tree = build(&boxes, one_thread());
+        let tree = Tree::build(&boxes, one_thread());
         let mut stack = vec![(0_usize, 0)];
         while let Some((at, depth)) = stack.pop() {
             assert!(depth < MAX_DEPTH);

@@ -3,8 +3,6 @@
 use catoptra_core::numeric::gamma_f64;
 use catoptra_core::{Aabb, Ray, Span};
 
-use super::build;
-use crate::Pool;
 use crate::numeric::BOUNDS_ERROR;
 
 /// An axis-aligned box in `f32`, rounded outwards: never smaller than the `f64` box it was made from.
@@ -106,11 +104,6 @@ pub(crate) struct Tree {
 pub(crate) const MAX_DEPTH: usize = 64;
 
 impl Tree {
-    /// Over items with the given boxes, on the threads of `pool`.
-    pub(crate) fn build(boxes: &[Box32], pool: &Pool) -> Self {
-        build::build(boxes, pool)
-    }
-
     /// Calls `visit` with the items whose boxes the ray may meet on the stretch that is left; `visit` answers how
     /// far it is still worth looking.
     pub(crate) fn walk(&self, ray: &Ray, span: Span, mut visit: impl FnMut(u32) -> f64) {

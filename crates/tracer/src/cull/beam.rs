@@ -132,7 +132,7 @@ impl Beam {
         let behind = row.distance - row.normal.dot(self.center);
         let slope = row.normal.dot(self.axis);
         let margin = PLAN_MARGIN * (row.distance.abs() + self.center.abs().element_sum());
-        let margin = margin + row.distance_error();
+        let margin = margin + row.distance_error;
         let (off, lean) = (size.dot(self.half) + margin, size.dot(self.half_spread));
         if (behind > off && slope < -lean) || (behind < -off && slope > lean) {
             return Crosses::Never;

@@ -76,7 +76,7 @@ impl Frustum {
     /// `None` where that is not known so well.
     fn behind(&self, row: &PlaneRow) -> Option<f64> {
         let behind = row.distance - row.normal.dot(self.eye);
-        let error = row.distance_error() + PLAN_MARGIN * PLAN_MARGIN * self.eye.abs().element_sum();
+        let error = row.distance_error + PLAN_MARGIN * PLAN_MARGIN * self.eye.abs().element_sum();
         (behind.abs() * PLAN_MARGIN > error).then_some(behind)
     }
 

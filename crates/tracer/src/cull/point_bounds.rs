@@ -33,7 +33,7 @@ impl PointBounds {
         let spread = row.normal.abs().dot(self.half);
         let least = if behind > 0.0 { middle - spread } else { -middle - spread };
         let margin = PLAN_MARGIN * (row.distance.abs() + self.center.abs().element_sum());
-        !(least > margin + row.distance_error())
+        !(least > margin + row.distance_error)
     }
 
     /// Whether anything may arrive from a light.

@@ -17,6 +17,8 @@ pub(crate) struct PlaneRow {
     pub(crate) prim: u32,
     pub(crate) normal32: [f32; 3],
     distance32: f32,
+    /// How far `distance` may be off, as `f64` loses digits where the sum that makes it cancels.
+    pub(crate) distance_error: f64,
     /// What rounding errors of `normal · p - distance` grow with, beside the point's own magnitude.
     pub(super) reach: f32,
 }
@@ -32,20 +34,16 @@ impl PlaneRow {
         let distance = normal.dot(point);
         // Where the sum that makes the distance cancels, f64 itself rounds more than f32 shows.
         let cancelled = magnitude_of(point) * WIDE_SHARE;
+        let reach = magnitude_of(normal * distance) + cancelled;
         Self {
             normal,
             distance,
             prim,
             normal32: rounded(normal),
             distance32: distance as f32,
-            reach: magnitude_of(normal * distance) + cancelled,
+            distance_error: f64::from((cancelled + 2.0 * reach * f32::EPSILON) * POINT_ERROR),
+            reach,
         }
-    }
-
-    /// How far `distance` may be off, as `f64` loses digits where the sum that makes it cancels.
-    pub(crate) fn distance_error(&self) -> f64 {
-        let cancelled = self.reach - magnitude_of(self.normal * self.distance) + self.reach * f32::EPSILON;
-        f64::from(cancelled.max(0.0) * POINT_ERROR)
     }
 
     /// Signed distances of the origins from the plane, positive on the side the normal does not point to, and the

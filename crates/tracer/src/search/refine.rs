@@ -74,9 +74,11 @@ impl<S: Simd> Searcher<'_, S> {
         mask: M<S>,
         prim: u32,
     ) -> Refined<S> {
-        let (s, columns) = (self.s, self.snapshot.columns());
-        let (packet, best) = (*packet, *best);
-        columns.visit(s, prim, Refine { search: self, packet, best, mask, prim })
+        let columns = self.snapshot.columns();
+        match columns.visit_common(prim, Refine { search: self, packet, best, mask, prim }) {
+            Ok(refined) => refined,
+            Err(_) => self.refine_apart(packet, best, mask, prim),
+        }
     }
 
     /// As [`refine`](Self::refine), [`outlined`].
@@ -88,11 +90,12 @@ impl<S: Simd> Searcher<'_, S> {
         mask: M<S>,
         prim: u32,
     ) -> Refined<S> {
+        let columns = self.snapshot.columns();
         let (packet, best) = (*packet, *best);
         outlined(
             self.s,
             #[inline(always)]
-            || self.refine(&packet, &best, mask, prim),
+            || columns.visit_here(prim, Refine { search: self, packet: &packet, best: &best, mask, prim }),
         )
     }
 
@@ -230,8 +233,8 @@ impl<S: Simd, P: PreciseRays<S>> NearHit<S> for PacketHit<'_, '_, S, P> {
 
 struct Refine<'t, 'a, 'b, S: Simd, P> {
     search: &'t mut Searcher<'a, S>,
-    packet: Packet<'b, S, P>,
-    best: Hits<S>,
+    packet: &'t Packet<'b, S, P>,
+    best: &'t Hits<S>,
     mask: M<S>,
     prim: u32,
 }
@@ -243,20 +246,20 @@ impl<S: Simd, P: PreciseRays<S>> KernelVisitor for Refine<'_, '_, '_, S, P> {
     fn visit(self, kernel: &impl Kernel) -> Refined<S> {
         let Self { search, packet, best, mask, .. } = self;
         let s = search.s;
-        let hit = PacketHit { s, packet: &packet, best: &best, mask };
+        let hit = PacketHit { s, packet, best, mask };
         let (off, slope) = kernel.off(s, &hit);
-        let point = search.step(&packet, hit.near(), off, slope);
+        let point = search.step(packet, hit.near(), off, slope);
         let normal = kernel.normal(s, &hit, point);
         Refined { point, normal, shading: normal }
     }
 
     #[inline(always)]
     fn visit_mesh(self, instance: &Instance) -> Refined<S> {
-        self.search.refine_on_mesh(&self.packet, &self.best, self.mask, instance)
+        self.search.refine_on_mesh(self.packet, self.best, self.mask, instance)
     }
 
     #[inline(always)]
     fn visit_none(self) -> Refined<S> {
-        self.search.refine_general(&self.packet, self.mask, self.prim)
+        self.search.refine_general(self.packet, self.mask, self.prim)
     }
 }

@@ -145,6 +145,12 @@ impl Columns {
         }
     }
 
+    /// Shows a visitor the kernel of a shape if that is a common one; gives the visitor back if it is not.
+    #[inline(always)]
+    pub(crate) fn visit_common<V: KernelVisitor>(&self, prim: u32, visitor: V) -> Result<V::Output, V> {
+        self.kernels.visit_common(self.rows[prim as usize], visitor)
+    }
+
     /// As [`visit`](Self::visit), with all kernels compiled into the caller.
     #[inline(always)]
     pub(crate) fn visit_here<V: KernelVisitor>(&self, prim: u32, visitor: V) -> V::Output {
