@@ -60,12 +60,41 @@ impl<S: Simd> Tried<S> {
     }
 }
 
+/// The facet of a shape that the rays of a packet cross.
+#[derive(Clone, Copy)]
+pub(crate) enum Facet<S: Simd> {
+    /// The same one in all lanes.
+    Same(u32),
+    /// One for each lane.
+    ByLane(U<S>),
+}
+
+impl<S: Simd> Facet<S> {
+    /// The facet of each lane.
+    #[inline(always)]
+    pub(crate) fn in_lanes(self, s: S) -> U<S> {
+        match self {
+            Self::Same(facet) => U::splat(s, facet),
+            Self::ByLane(facets) => facets,
+        }
+    }
+
+    /// The facet of all lanes, if it is the same.
+    #[inline(always)]
+    fn same(self) -> Option<u32> {
+        match self {
+            Self::Same(facet) => Some(facet),
+            Self::ByLane(_) => None,
+        }
+    }
+}
+
 /// A crossing that a kernel proposes.
 #[derive(Clone, Copy)]
 pub(crate) struct Crossing<S: Simd> {
     pub(crate) proposal: Proposal<S>,
     /// The facet that it lies on.
-    pub(crate) facet: U<S>,
+    pub(crate) facet: Facet<S>,
     /// Lanes that it is proposed for.
     pub(crate) lanes: M<S>,
 }
@@ -111,14 +140,25 @@ pub(crate) trait Kernel {
     fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, tried: &Tried<S>, found: impl FnMut(Crossing<S>));
 
     /// Passes on what blocks the segments from the rays' origins to a target.
+    #[inline(always)]
     fn block<S: Simd>(
         &self,
         s: S,
         rays: &Rays<S>,
         target: &Target<S>,
         tried: &Tried<S>,
-        found: impl FnMut(Obstacle<S>),
-    );
+        mut found: impl FnMut(Obstacle<S>),
+    ) {
+        self.propose(
+            s,
+            rays,
+            tried,
+            #[inline(always)]
+            |Crossing { proposal, facet, lanes }| {
+                found(Obstacle { blocking: proposal.blocking(target), facet: facet.same(), lanes });
+            },
+        );
+    }
 
     /// Points and outer unit normals to shade with, in `f32`.
     fn surface<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F3<S>, F3<S>);

@@ -9,7 +9,7 @@ use fearless_simd::Simd;
 
 use super::contract::{off_planes, surface_on_planes};
 use super::faces::planes_met;
-use super::{Crossing, Kernel, NearHit, Obstacle, PlaneRow, Proposal, Rays, Target, Tried, bound};
+use super::{Crossing, Facet, Kernel, NearHit, PlaneRow, Proposal, Rays, Tried, bound};
 use crate::film::NOTHING;
 use crate::lanes::{D3, F, F3, M, U, splat3};
 use crate::numeric::{DIRECTION_ERROR, POINT_ERROR, WORLD_DRIFT, magnitude_of};
@@ -108,20 +108,7 @@ impl Kernel for CuboidRow {
     #[inline(always)]
     fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, tried: &Tried<S>, mut found: impl FnMut(Crossing<S>)) {
         let (proposal, facet) = self.propose(s, rays, tried.entered);
-        found(Crossing { proposal, facet, lanes: tried.lanes });
-    }
-
-    #[inline(always)]
-    fn block<S: Simd>(
-        &self,
-        s: S,
-        rays: &Rays<S>,
-        target: &Target<S>,
-        tried: &Tried<S>,
-        mut found: impl FnMut(Obstacle<S>),
-    ) {
-        let blocking = self.propose(s, rays, tried.entered).0.blocking(target);
-        found(Obstacle { blocking, facet: None, lanes: tried.lanes });
+        found(Crossing { proposal, facet: Facet::ByLane(facet), lanes: tried.lanes });
     }
 
     #[inline(always)]

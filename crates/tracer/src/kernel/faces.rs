@@ -4,8 +4,8 @@ use catoptra_core::glam::DVec3;
 use fearless_simd::Simd;
 
 use super::contract::off_planes;
-use super::{Crossing, Kernel, NearHit, Obstacle, PlaneRow, Rays, Target, TriangleRow, Tried};
-use crate::lanes::{D, D3, F, F3, U, pick3, splat_wide, splat3};
+use super::{Crossing, Facet, Kernel, NearHit, PlaneRow, Rays, TriangleRow, Tried};
+use crate::lanes::{D, D3, F, F3, pick3, splat_wide, splat3};
 
 /// The triangles of one shape, in order of their facets.
 #[derive(Debug, Clone, Copy)]
@@ -23,22 +23,7 @@ impl Kernel for Faces<'_> {
     fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, tried: &Tried<S>, mut found: impl FnMut(Crossing<S>)) {
         for face in self.0 {
             let (proposal, lanes) = (face.propose(s, rays), tried.but_leaving(s, face.facet));
-            found(Crossing { proposal, facet: U::splat(s, face.facet), lanes });
-        }
-    }
-
-    #[inline(always)]
-    fn block<S: Simd>(
-        &self,
-        s: S,
-        rays: &Rays<S>,
-        target: &Target<S>,
-        tried: &Tried<S>,
-        mut found: impl FnMut(Obstacle<S>),
-    ) {
-        for face in self.0 {
-            let blocking = face.propose(s, rays).blocking(target);
-            found(Obstacle { blocking, facet: Some(face.facet), lanes: tried.but_leaving(s, face.facet) });
+            found(Crossing { proposal, facet: Facet::Same(face.facet), lanes });
         }
     }
 

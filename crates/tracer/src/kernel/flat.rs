@@ -6,10 +6,9 @@ use fearless_simd::Simd;
 
 use super::contract::surface_on_planes;
 use super::{
-    Crossing, DiskOutline, Kernel, NearHit, Obstacle, PlaneRow, Proposal, Rays, RectangleOutline, Target,
-    Tried, bound,
+    Crossing, DiskOutline, Facet, Kernel, NearHit, PlaneRow, Proposal, Rays, RectangleOutline, Tried, bound,
 };
-use crate::lanes::{D, D3, F, F3, M, U, splat_wide, splat3};
+use crate::lanes::{D, D3, F, F3, M, splat_wide, splat3};
 use crate::numeric::{POINT_ERROR, rounded};
 
 /// A bounded flat shape.
@@ -74,21 +73,8 @@ impl Kernel for FlatRow {
 
     #[inline(always)]
     fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, tried: &Tried<S>, mut found: impl FnMut(Crossing<S>)) {
-        let (proposal, facet) = (self.propose(s, rays), U::splat(s, 0));
-        found(Crossing { proposal, facet, lanes: tried.but_leaving(s, 0) });
-    }
-
-    #[inline(always)]
-    fn block<S: Simd>(
-        &self,
-        s: S,
-        rays: &Rays<S>,
-        target: &Target<S>,
-        tried: &Tried<S>,
-        mut found: impl FnMut(Obstacle<S>),
-    ) {
-        let blocking = self.propose(s, rays).blocking(target);
-        found(Obstacle { blocking, facet: Some(0), lanes: tried.but_leaving(s, 0) });
+        let (proposal, lanes) = (self.propose(s, rays), tried.but_leaving(s, 0));
+        found(Crossing { proposal, facet: Facet::Same(0), lanes });
     }
 
     #[inline(always)]

@@ -23,7 +23,7 @@ use fearless_simd::Simd;
 use crate::lanes::{F, F3, M};
 use crate::numeric::CERTAIN;
 
-pub(crate) use contract::{Crossing, Kernel, Leaving, NearHit, Obstacle, Tried};
+pub(crate) use contract::{Crossing, Facet, Kernel, Leaving, NearHit, Obstacle, Tried};
 pub(crate) use cuboid::CuboidRow;
 use disk::DiskOutline;
 pub(crate) use faces::Faces;

@@ -5,8 +5,8 @@ use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::Simd;
 
 use super::contract::off_planes;
-use super::{Blocking, Crossing, Kernel, NearHit, Obstacle, Proposal, Rays, Target, Tried, bound};
-use crate::lanes::{D, D3, F, F3, U, splat_wide, splat3};
+use super::{Blocking, Crossing, Facet, Kernel, NearHit, Proposal, Rays, Tried, bound};
+use crate::lanes::{D, D3, F, F3, splat_wide, splat3};
 use crate::numeric::{DIRECTION_ERROR, PLAN_MARGIN, POINT_ERROR, WIDE_SHARE, magnitude_of, rounded};
 
 /// A plane `normal · p = distance`.
@@ -99,21 +99,8 @@ impl Kernel for PlaneRow {
 
     #[inline(always)]
     fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, tried: &Tried<S>, mut found: impl FnMut(Crossing<S>)) {
-        let (proposal, facet) = (self.propose(s, rays), U::splat(s, 0));
-        found(Crossing { proposal, facet, lanes: tried.but_leaving(s, 0) });
-    }
-
-    #[inline(always)]
-    fn block<S: Simd>(
-        &self,
-        s: S,
-        rays: &Rays<S>,
-        target: &Target<S>,
-        tried: &Tried<S>,
-        mut found: impl FnMut(Obstacle<S>),
-    ) {
-        let blocking = self.propose(s, rays).blocking(target);
-        found(Obstacle { blocking, facet: Some(0), lanes: tried.but_leaving(s, 0) });
+        let (proposal, lanes) = (self.propose(s, rays), tried.but_leaving(s, 0));
+        found(Crossing { proposal, facet: Facet::Same(0), lanes });
     }
 
     #[inline(always)]

@@ -5,9 +5,9 @@ use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
 
 use super::{
-    Blocking, Crossing, End, Kernel, NearHit, Obstacle, PlaneRow, Proposal, Rays, Target, Tried, bound,
+    Blocking, Crossing, End, Facet, Kernel, NearHit, Obstacle, PlaneRow, Proposal, Rays, Target, Tried, bound,
 };
-use crate::lanes::{D, D3, F, F3, M, U, narrow3, splat_wide, splat3};
+use crate::lanes::{D, D3, F, F3, M, narrow3, splat_wide, splat3};
 use crate::numeric::{PLAN_MARGIN, POINT_ERROR, magnitude_of, rounded};
 
 /// A sphere.
@@ -140,7 +140,7 @@ impl Kernel for SphereRow {
     fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, tried: &Tried<S>, mut found: impl FnMut(Crossing<S>)) {
         let leaving = tried.leaving.from(s, tried.prim, 0);
         let proposal = self.propose(s, rays, leaving);
-        found(Crossing { proposal, facet: U::splat(s, 0), lanes: tried.lanes });
+        found(Crossing { proposal, facet: Facet::Same(0), lanes: tried.lanes });
     }
 
     #[inline(always)]

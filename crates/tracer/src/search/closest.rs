@@ -9,7 +9,7 @@ use super::packet::{Packet, PreciseRays};
 use crate::SurfaceId;
 use crate::cull::Candidates;
 use crate::film::NOTHING;
-use crate::kernel::{Crossing, Kernel, Proposal, Tried};
+use crate::kernel::{Crossing, Facet, Kernel, Proposal, Tried};
 use crate::lanes::{Bits, F, M, U, outlined};
 use crate::numeric::{CERTAIN, SETTLED_ERROR};
 use crate::snapshot::{Instance, KernelVisitor, RaySegment};
@@ -118,7 +118,7 @@ impl<S: Simd> Searcher<'_, S> {
         } else {
             live
         };
-        let facet = U::splat(self.s, surface.facet);
+        let facet = Facet::Same(surface.facet);
         self.accept(packet, best, surface.prim, Crossing { proposal, facet, lanes: allowed });
     }
 
@@ -132,6 +132,7 @@ impl<S: Simd> Searcher<'_, S> {
         crossing: Crossing<S>,
     ) {
         let Crossing { proposal, facet, lanes: allowed } = crossing;
+        let facet = facet.in_lanes(self.s);
         self.stats.tests.shapes += F::<S>::LANES as u64;
         let doubt = proposal.error + best.error;
         let hit = allowed & proposal.hit;
