@@ -4,7 +4,10 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arrival, Light, Material, Placement, Rgb, ShadingPoint, Triple, Value, Values};
+use catoptra_core::material::{Emissive, Matte};
+use catoptra_core::{
+    Arrival, Emission, Kind, Light, Material, Placement, Rgb, ShadingPoint, Surface, Triple, Value, Values,
+};
 
 fn light(kind: &str, values: &Values) -> Light {
     (Light::kind_named(kind).unwrap().make)(values).unwrap()
@@ -177,7 +180,9 @@ fn the_shadow_switch_is_kept() {
         let one = || Value::Color(Rgb::WHITE);
         let values = Values::new().with("direction", direction).with("irradiance", one());
         let values = values.with("intensity", one()).with("inner", Value::Number(0.1));
-        let values = values.with("outer", Value::Number(0.2));
+        let values = values.with("outer", Value::Number(0.2)).with("radiance", one());
+        let values = values.with("edge-u", Value::Vector(DVec3::X)).with("edge-v", Value::Vector(DVec3::Y));
+        let values = values.with("corner", Value::Vector(DVec3::ZERO)).with("radius", Value::Number(1.0));
         assert!((kind.make)(&values).unwrap().shadow(), "on unless switched off: {}", kind.name);
         assert!(!(kind.make)(&values.with("shadow", Value::Flag(false))).unwrap().shadow(), "{}", kind.name);
     }
@@ -194,6 +199,7 @@ fn seen_from(degrees: f64) -> ShadingPoint<f64> {
         normal: Triple::from(DVec3::Y),
         to_viewer: Triple::from(off_normal(degrees)),
         distance: 1.0,
+        front: true,
     }
 }
 
@@ -390,7 +396,8 @@ fn a_mirror_reflects_all_in_its_colour_and_others_nothing_unless_told() {
     assert_eq!(share_and_tint(&half), (0.5, Some(DVec3::new(0.5, 0.25, 0.0))));
     let black = mirror.with("color", Value::Color(Rgb::BLACK)).unwrap();
     assert_eq!(share_and_tint(&black), (0.0, None));
-    for kind in Material::KINDS.iter().filter(|kind| kind.name != "mirror") {
+    let told = |kind: &&Kind<Material>| kind.name != "mirror" && kind.field("reflectiveness").is_some();
+    for kind in Material::KINDS.iter().filter(told) {
         let color = || Value::Color(Rgb::WHITE);
         let values = Values::new().with("color", color()).with("diffuse", color());
         assert_eq!(share_and_tint(&(kind.make)(&values).unwrap()), (1.0, None), "{}", kind.name);
@@ -403,7 +410,7 @@ fn a_mirror_reflects_all_in_its_colour_and_others_nothing_unless_told() {
 fn which_lobes_there_are_does_not_depend_on_the_point() {
     for kind in Material::KINDS {
         let color = || Value::Color(Rgb::new(0.5, 0.25, 0.0));
-        let values = Values::new().with("color", color()).with("diffuse", color());
+        let values = Values::new().with("color", color()).with("diffuse", color()).with("radiance", color());
         for reflectiveness in [0.0, 0.5, 1.0] {
             let material =
                 (kind.make)(&values.clone().with("reflectiveness", Value::Number(reflectiveness))).unwrap();
@@ -414,4 +421,70 @@ fn which_lobes_there_are_does_not_depend_on_the_point() {
             }
         }
     }
+}
+
+#[test]
+fn what_shines_to_one_side_is_black_from_the_other() {
+    let radiance = Rgb::new(3.0, 2.0, 0.5);
+    let seen = |material: &Emissive, front| {
+        let at = ShadingPoint { front, ..seen_from(30.0) };
+        vector(material.lobes(&at).unlit(Triple::splat(1.0)))
+    };
+    let one_sided = Emissive::new(radiance).unwrap();
+    assert_eq!(seen(&one_sided, true), DVec3::new(3.0, 2.0, 0.5));
+    assert_eq!(seen(&one_sided, false), DVec3::ZERO);
+    let two_sided = Emissive::from(Emission { radiance, two_sided: true });
+    assert_eq!(seen(&two_sided, false), DVec3::new(3.0, 2.0, 0.5));
+    assert_eq!(Material::from(one_sided).emission(), Some(Emission { radiance, two_sided: false }));
+    assert_eq!(Material::from(Matte::new(Rgb::WHITE).unwrap()).emission(), None);
+}
+
+fn surface_lights(power: f64) -> [(Light, f64); 3] {
+    let vector = |v: DVec3| Value::Vector(v);
+    let values = || Values::new().with("power", Value::Color(Rgb::grey(power)));
+    let rectangle = values()
+        .with("corner", vector(DVec3::ONE))
+        .with("edge-u", vector(DVec3::X * 2.0))
+        .with("edge-v", vector(DVec3::Z * 3.0));
+    let round = values().with("radius", Value::Number(0.5));
+    [
+        (light("rectangle-light", &rectangle), PI * 6.0),
+        (light("disk-light", &round), PI * PI * 0.25),
+        (light("sphere-light", &round), PI * PI),
+    ]
+}
+
+#[test]
+fn power_is_spread_over_the_surface_and_all_directions() {
+    for (light, flux_of_one) in surface_lights(12.0) {
+        let lamp = light.lamp().unwrap();
+        assert!((lamp.emission.radiance.g * flux_of_one - 12.0).abs() < 1e-12, "{}", light.kind_name());
+        // A scaled light sends out the same power; one of a given radiance keeps that.
+        let scaled = light.placed(&Placement::IDENTITY.scaled(2.0).unwrap()).lamp().unwrap();
+        assert!((scaled.emission.radiance.g * 4.0 / lamp.emission.radiance.g - 1.0).abs() < 1e-14);
+        let both = light.with("radiance", Value::Color(Rgb::WHITE)).unwrap_err();
+        assert_eq!(both.to_string(), "power must not be given beside radiance, not given");
+    }
+    let [(rectangle, flux_of_one), (disk, _), (sphere, _)] = surface_lights(12.0);
+    let two_sided = rectangle.with("two-sided", Value::Flag(true)).unwrap().lamp().unwrap();
+    assert!((two_sided.emission.radiance.r * flux_of_one * 2.0 - 12.0).abs() < 1e-12);
+    assert!(two_sided.emission.two_sided && !disk.lamp().unwrap().emission.two_sided);
+    assert_eq!(sphere.with("two-sided", Value::Flag(true)).unwrap_err().field(), "two-sided");
+    let point = light("point-light", &Values::new().with("intensity", Value::Color(Rgb::WHITE)));
+    assert_eq!(point.lamp(), None);
+}
+
+#[test]
+fn surface_lights_that_are_none_are_refused() {
+    let kind = Light::kind_named("sphere-light").unwrap();
+    let sphere = |values: Values| (kind.make)(&values).unwrap_err().to_string();
+    let radius = |radius: f64| Values::new().with("radius", Value::Number(radius));
+    let power = |power: f64| Value::Color(Rgb::grey(power));
+    assert_eq!(sphere(radius(1.0)), "radiance must be given, or power, not missing");
+    assert!(sphere(radius(0.0).with("power", power(1.0))).starts_with("radius must be greater than 0"));
+    assert!(sphere(radius(1.0).with("power", power(-1.0))).starts_with("power must be light"));
+    assert!(sphere(radius(1.0).with("radiance", power(f64::NAN))).starts_with("radiance must be light"));
+    assert!(
+        sphere(radius(1e-30).with("power", power(1.0))).starts_with("power must give a radiance of at most")
+    );
 }

@@ -36,9 +36,17 @@ fn good<T>(kind: &Kind<T>) -> Values {
     if let Some(sample) = samples_of(kind.name).into_iter().next_back() {
         return sample.shape.values();
     }
-    let fields =
-        kind.fields.iter().enumerate().filter(|(_, field)| field.default.is_some() || !field.may_be_missing);
-    fields.fold(Values::new(), |values, (i, field)| values.with(field.name, plain(field.kind, i)))
+    // Of radiance and power a light takes one.
+    let taken = |field: &Field| field.default.is_some() || !field.may_be_missing || field.name == "radiance";
+    let fields = kind.fields.iter().enumerate().filter(|(_, field)| taken(field));
+    // A surface light has the fields of its shape.
+    let surface =
+        kind.name.strip_suffix("-light").map(samples_of).and_then(|samples| samples.into_iter().next_back());
+    let of_surface = surface.map(|sample| sample.shape.values()).unwrap_or_default();
+    fields.fold(Values::new(), |values, (i, field)| {
+        let value = of_surface.get(field.name).cloned().unwrap_or_else(|| plain(field.kind, i));
+        values.with(field.name, value)
+    })
 }
 
 fn camera() -> Values {

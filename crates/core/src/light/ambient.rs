@@ -1,6 +1,6 @@
 //! Light that arrives from everywhere alike.
 
-use super::{Arrival, Emitter};
+use super::{Arrival, Emitter, nothing_arrives};
 use crate::part::Given;
 use crate::{Constant3, Field, FieldKind, InvalidPart, Lane, Part, Placement, Rgb, Triple, Value, Values};
 
@@ -43,15 +43,7 @@ impl Emitter for AmbientLight {
     /// Nothing arrives from any one direction.
     #[inline(always)]
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
-        let zero = Triple::splat(point.x.number(0.0));
-        Arrival {
-            direction: zero,
-            to_light: zero,
-            inverse_distance: zero.x,
-            distance: zero.x,
-            strength: zero.x,
-            lit: zero.x.less(zero.x),
-        }
+        nothing_arrives(point)
     }
 
     fn color(&self) -> &Constant3 {

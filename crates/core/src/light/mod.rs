@@ -5,12 +5,20 @@
 
 mod ambient;
 mod directional;
+mod disk;
 mod point;
+mod rectangle;
+mod shining;
+mod sphere;
 mod spot;
 
 pub use ambient::AmbientLight;
 pub use directional::DirectionalLight;
+pub use disk::DiskLight;
 pub use point::PointLight;
+pub use rectangle::RectangleLight;
+pub use shining::Lamp;
+pub use sphere::SphereLight;
 pub use spot::SpotLight;
 
 use glam::DVec3;
@@ -64,7 +72,12 @@ pub trait Emitter {
         Rgb::BLACK
     }
 
-    /// Its position, if it has one.
+    /// The surface that shines, of a light that is one; it [arrives](Self::arriving) from nowhere else.
+    fn lamp(&self) -> Option<Lamp> {
+        None
+    }
+
+    /// Its position, if it is a point.
     fn position(&self) -> Option<DVec3> {
         None
     }
@@ -101,6 +114,12 @@ crate::part::parts! {
         SpotLight,
         /// Light from everywhere.
         AmbientLight,
+        /// Light from a rectangle.
+        RectangleLight,
+        /// Light from a disk.
+        DiskLight,
+        /// Light from a sphere.
+        SphereLight,
     }
 }
 
@@ -140,6 +159,12 @@ impl Light {
     #[must_use]
     pub fn ambient(&self) -> Rgb {
         each_light!(self, light => light.ambient())
+    }
+
+    /// See [`Emitter::lamp`].
+    #[must_use]
+    pub fn lamp(&self) -> Option<Lamp> {
+        each_light!(self, light => light.lamp())
     }
 
     /// See [`Emitter::position`].
@@ -182,6 +207,20 @@ impl Light {
 const SHADOW: Field =
     Field::required("shadow", FieldKind::Flag, "", "Whether things throw shadows in this light.")
         .or(|| Value::Flag(true));
+
+/// What arrives from any one direction where light comes from many at once: nothing.
+#[inline(always)]
+fn nothing_arrives<L: Lane>(point: Triple<L>) -> Arrival<L> {
+    let zero = Triple::splat(point.x.number(0.0));
+    Arrival {
+        direction: zero,
+        to_light: zero,
+        inverse_distance: zero.x,
+        distance: zero.x,
+        strength: zero.x,
+        lit: zero.x.less(zero.x),
+    }
+}
 
 /// What arrives from a point that shines alike in all directions: the inverse square law.
 #[inline(always)]

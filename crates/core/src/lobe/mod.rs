@@ -29,6 +29,8 @@ pub struct ShadingPoint<L: Lane> {
     pub to_viewer: Triple<L>,
     /// Metres to the viewer.
     pub distance: L,
+    /// Whether the viewer is on the side that the shape's own normal points to; of a closed shape the outside.
+    pub front: L::Mask,
 }
 
 impl ShadingPoint<f64> {
@@ -38,6 +40,7 @@ impl ShadingPoint<f64> {
         normal: Triple::new(0.0, 0.0, 1.0),
         to_viewer: Triple::new(0.0, 0.0, 1.0),
         distance: 1.0,
+        front: true,
     };
 }
 

@@ -5,6 +5,7 @@
 
 mod checker;
 mod depth;
+mod emissive;
 mod matte;
 mod mirror;
 mod mirror_share;
@@ -12,14 +13,24 @@ mod phong;
 
 pub use checker::Checker;
 pub use depth::Depth;
+pub use emissive::Emissive;
 pub use matte::Matte;
 pub use mirror::Mirror;
 pub use phong::Phong;
 
 use glam::DVec3;
 
-use crate::{Lane, LobeKinds, Lobes, ShadingPoint};
+use crate::{Lane, LobeKinds, Lobes, Rgb, ShadingPoint};
 use mirror_share::MirrorShare;
+
+/// Light that a surface sends out by itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Emission {
+    /// W/(m²·sr) per channel, the same in all directions.
+    pub radiance: Rgb,
+    /// Whether to both sides.
+    pub two_sided: bool,
+}
 
 /// What a material provides to integrators.
 pub trait Surface {
@@ -34,6 +45,11 @@ pub trait Surface {
         Self: Clone,
     {
         self.clone()
+    }
+
+    /// The light of its own with which it lights others, if there is any.
+    fn emission(&self) -> Option<Emission> {
+        None
     }
 
     /// Whether its look jumps from one position to the next; only then are positions
@@ -70,6 +86,8 @@ crate::part::parts! {
         Depth,
         /// Perfect reflection.
         Mirror,
+        /// Light of its own.
+        Emissive,
     }
 }
 
@@ -89,6 +107,12 @@ impl Material {
         work: impl FnOnce(Lobes<L>) -> T,
     ) -> T {
         each_material!(self, material => work(material.lobes(&at())))
+    }
+
+    /// See [`Surface::emission`].
+    #[must_use]
+    pub fn emission(&self) -> Option<Emission> {
+        each_material!(self, material => material.emission())
     }
 
     /// Which lobes it has, anywhere.

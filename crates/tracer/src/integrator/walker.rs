@@ -41,7 +41,8 @@ impl<'a, S: Search> Walker<'a, S> {
         let snapshot = self.frame.snapshot;
         let prim = &snapshot.prims()[hit.surface.prim as usize];
         let point = ray.at(hit.crossing.t);
-        let side = if hit.crossing.normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 };
+        let front = !(hit.crossing.normal.dot(ray.direction) > 0.0);
+        let side = if front { 1.0 } else { -1.0 };
         let length = ray.direction.length();
         SurfaceHit {
             hit,
@@ -54,6 +55,7 @@ impl<'a, S: Search> Walker<'a, S> {
                 normal: (hit.crossing.shading_normal * side).into(),
                 to_viewer: (ray.direction / -length).into(),
                 distance: hit.crossing.t * length,
+                front,
             },
         }
     }

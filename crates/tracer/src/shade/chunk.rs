@@ -22,6 +22,8 @@ pub(crate) struct Chunk<S: Simd> {
     pub(crate) point: [F3<S>; CHUNK],
     /// Geometric unit normals on the viewer's side.
     pub(crate) normal: [F3<S>; CHUNK],
+    /// Lanes that are seen from the side that the shapes' own normals point to.
+    pub(crate) front: [M<S>; CHUNK],
     /// Unit normals to shade with, on the viewer's side, where any shape has others.
     pub(crate) smooth: [F3<S>; CHUNK],
     /// Unit vectors to the viewer, where a material has glossy lobes.
@@ -49,6 +51,7 @@ impl<S: Simd> Chunk<S> {
             best: [Hits { t: zero, error: zero, prim: nothing, facet: nothing }; CHUNK],
             point: [dark; CHUNK],
             normal: [dark; CHUNK],
+            front: [none; CHUNK],
             smooth: [dark; CHUNK],
             to_viewer: [dark; CHUNK],
             groups: [const { Groups::NONE }; CHUNK],

@@ -146,6 +146,7 @@ impl<S: Simd> Shader<'_, S> {
         let away = F::splat(self.s, 0.0).less(surface.normal.dot(d));
         self.chunk.point[slot] = surface.point;
         self.chunk.normal[slot] = face_forward(away, surface.normal);
+        self.chunk.front[slot] = !away;
         if self.search.snapshot.columns().smooth {
             self.chunk.smooth[slot] = face_forward(away, surface.shading);
         }
@@ -164,6 +165,7 @@ impl<S: Simd> Shader<'_, S> {
             normal: if smooth { chunk.smooth[slot] } else { chunk.normal[slot] },
             to_viewer: chunk.to_viewer[slot],
             distance: chunk.best[slot].t,
+            front: chunk.front[slot],
         }
     }
 }

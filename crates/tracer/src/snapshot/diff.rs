@@ -179,8 +179,13 @@ impl<'a> Standing<'a> {
         self.shape().bounds()
     }
 
-    fn material(&self) -> &'a (MaterialId, Material) {
-        &self.snapshot.parts.materials[self.snapshot.prims[self.prim].material as usize]
+    /// Its material, and what that is called; the body of a light has one without a name.
+    fn material(&self) -> (Option<MaterialId>, &'a Material) {
+        let (parts, at) = (&self.snapshot.parts, self.snapshot.prims[self.prim].material as usize);
+        match parts.materials.get(at) {
+            Some((id, material)) => (Some(*id), material),
+            None => (None, &parts.looks[at - parts.materials.len()]),
+        }
     }
 
     fn alone(&self, presence: Presence) -> ShapeDiff {
@@ -192,7 +197,10 @@ impl<'a> Standing<'a> {
         let touched = |standing: &Self| standing.snapshot.touched[standing.prim];
         let shape = touched(self) != touched(later) && self.shape() != later.shape();
         let [(old, was), (new, is)] = [self.material(), later.material()];
-        let material = if old == new { changed.contains(old) } else { was != is };
+        let material = match (old, new) {
+            (Some(old), Some(new)) if old == new => changed.contains(&old),
+            _ => was != is,
+        };
         (shape || material).then(|| ShapeDiff {
             shape,
             material,

@@ -1,11 +1,10 @@
 //! Builds a snapshot from what was taken out of a scene, and takes over what is unchanged from an earlier one.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use catoptra_core::geometry::Plane;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Light, Material, MaterialId, Placement, Rgb, Scene, Shape};
+use catoptra_core::{Light, Material, Placement, Rgb, Scene, Shape};
 
 use super::index::{Index, MeshTrees};
 use super::origin::{frame_for, origin_for, relative};
@@ -71,7 +70,7 @@ impl Extraction {
         let planes: Vec<&Plane> =
             index.columns.planes.iter().filter_map(|row| plane_of(&prims[row.prim as usize])).collect();
         let materials: Vec<Material> =
-            self.parts.materials.iter().map(|(_, material)| material.relative_to(origin)).collect();
+            self.materials().map(|material| material.relative_to(origin)).collect();
         let material_rows: Vec<_> = materials.iter().map(MaterialRow::new).collect();
         let background = self.parts.settings.background();
         Snapshot {
@@ -96,13 +95,11 @@ impl Extraction {
     }
 
     fn prims(&self, frame: DVec3, trees: &mut MeshTrees<'_>) -> Vec<Prim> {
-        let rows: HashMap<MaterialId, u32> =
-            self.parts.materials.iter().map(|(id, _)| *id).zip(0..).collect();
         self.shapes
             .iter()
             .map(|(shape, material)| Prim {
                 shape: relative(&shape.part, frame).into_owned(),
-                material: rows[material],
+                material: *material,
                 mesh: trees.of(&shape.part),
             })
             .collect()

@@ -1,0 +1,82 @@
+//! Light from a flat disk.
+
+use std::f64::consts::PI;
+
+use super::shining::{Lamp, Shining};
+use super::{Arrival, Emitter, nothing_arrives};
+use crate::geometry::{Disk, Geometry};
+use crate::lane::Constant3;
+use crate::part::Given;
+use crate::{Field, InvalidPart, Lane, Part, Placement, Triple, Values};
+
+/// A disk that shines along its normal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DiskLight {
+    surface: Disk,
+    shining: Shining,
+}
+
+impl DiskLight {
+    /// Its surface.
+    #[must_use]
+    pub fn surface(&self) -> &Disk {
+        &self.surface
+    }
+}
+
+impl Part for DiskLight {
+    const NAME: &'static str = "disk-light";
+    const DOC: &'static str = "A disk that shines along its normal.";
+    const FIELDS: &'static [Field] = &[
+        Disk::FIELDS[0],
+        Disk::FIELDS[1],
+        Disk::FIELDS[2],
+        Shining::RADIANCE,
+        Shining::POWER,
+        Shining::TWO_SIDED,
+        Shining::VISIBLE,
+        Shining::SHADOW,
+    ];
+
+    fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
+        let surface = Disk::make(given)?;
+        let shining = Shining::given(given, area(&surface), false)?;
+        Ok(Self { surface, shining })
+    }
+
+    fn values(&self) -> Values {
+        self.shining.add_to(self.surface.values())
+    }
+}
+
+/// Square metres on each side.
+fn area(surface: &Disk) -> f64 {
+    PI * surface.radius() * surface.radius()
+}
+
+impl Emitter for DiskLight {
+    /// Nothing arrives from one direction alone.
+    #[inline(always)]
+    fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
+        nothing_arrives(point)
+    }
+
+    fn color(&self) -> &Constant3 {
+        self.shining.radiance()
+    }
+
+    fn placed(&self, placement: &Placement) -> Self {
+        let surface = self.surface.placed(placement);
+        // A power that cannot be spread over what is left of the surface stays at the radiance it had.
+        let shining = self.shining.clone().with_area(area(&surface)).unwrap_or_else(|_| self.shining.clone());
+        Self { surface, shining }
+    }
+
+    fn lamp(&self) -> Option<Lamp> {
+        Some(self.shining.on(self.surface.clone()))
+    }
+
+    fn shadow(&self) -> bool {
+        self.shining.shadow
+    }
+}

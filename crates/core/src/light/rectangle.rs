@@ -1,0 +1,81 @@
+//! Light from a flat rectangle.
+
+use super::shining::{Lamp, Shining};
+use super::{Arrival, Emitter, nothing_arrives};
+use crate::geometry::{Geometry, Rectangle};
+use crate::lane::Constant3;
+use crate::part::Given;
+use crate::{Field, InvalidPart, Lane, Part, Placement, Triple, Values};
+
+/// A rectangle that shines along edge-u × edge-v.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RectangleLight {
+    surface: Rectangle,
+    shining: Shining,
+}
+
+impl RectangleLight {
+    /// Its surface.
+    #[must_use]
+    pub fn surface(&self) -> &Rectangle {
+        &self.surface
+    }
+}
+
+impl Part for RectangleLight {
+    const NAME: &'static str = "rectangle-light";
+    const DOC: &'static str = "A rectangle that shines along edge-u × edge-v.";
+    const FIELDS: &'static [Field] = &[
+        Rectangle::FIELDS[0],
+        Rectangle::FIELDS[1],
+        Rectangle::FIELDS[2],
+        Shining::RADIANCE,
+        Shining::POWER,
+        Shining::TWO_SIDED,
+        Shining::VISIBLE,
+        Shining::SHADOW,
+    ];
+
+    fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
+        let surface = Rectangle::make(given)?;
+        let shining = Shining::given(given, area(&surface), false)?;
+        Ok(Self { surface, shining })
+    }
+
+    fn values(&self) -> Values {
+        self.shining.add_to(self.surface.values())
+    }
+}
+
+/// Square metres on each side.
+fn area(surface: &Rectangle) -> f64 {
+    let [u, v] = surface.edges();
+    u.length() * v.length()
+}
+
+impl Emitter for RectangleLight {
+    /// Nothing arrives from one direction alone.
+    #[inline(always)]
+    fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
+        nothing_arrives(point)
+    }
+
+    fn color(&self) -> &Constant3 {
+        self.shining.radiance()
+    }
+
+    fn placed(&self, placement: &Placement) -> Self {
+        let surface = self.surface.placed(placement);
+        // A power that cannot be spread over what is left of the surface stays at the radiance it had.
+        let shining = self.shining.clone().with_area(area(&surface)).unwrap_or_else(|_| self.shining.clone());
+        Self { surface, shining }
+    }
+
+    fn lamp(&self) -> Option<Lamp> {
+        Some(self.shining.on(self.surface.clone()))
+    }
+
+    fn shadow(&self) -> bool {
+        self.shining.shadow
+    }
+}
