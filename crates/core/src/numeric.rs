@@ -51,6 +51,20 @@ pub const PATTERN_SHIFT: f64 = 1.0 / (1_u64 << 14) as f64;
 /// rounded up.
 pub const PATTERN_ERROR: f64 = 4.0 * UNIT_ROUNDOFF_F32;
 
+/// How far a point that was put on a lamp may be off its surface, relative to the sum of the largest coordinates.
+///
+/// The difference to the shaded point, the products with two shares, their sum, and turning it into a direction and
+/// back: 8 roundings of at most that size.
+pub const LAMP_POINT_ROUNDING: f64 = 8.0 * UNIT_ROUNDOFF_F64;
+
+/// How densely points of a lamp are drawn at least, as a share of the largest density: so that none is drawn so rarely that
+/// it stands for much more than its share.
+pub const LEAST_DENSITY: f64 = 1.0 / 8.0;
+
+/// Solid angles under this, sr, are lost to rounding where angles near π are subtracted: 2⁻²⁰, of which 10 roundings of
+/// 2π take less than a hundred-millionth.
+pub const SMALLEST_SOLID_ANGLE: f64 = 1.0 / (1_u64 << 20) as f64;
+
 /// γₙ = n·u / (1 − n·u): the relative error bound of `n` accumulated roundings in `f32`
 /// (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., lemma 3.1).
 #[must_use]
