@@ -34,6 +34,7 @@ mod frame;
 mod instructions;
 mod integrator;
 mod kernel;
+mod lamps;
 mod lanes;
 mod numeric;
 mod pattern;
@@ -66,5 +67,5 @@ pub use render::{Cancelled, render};
 pub use snapshot::{
     Changed, Extraction, Hit, Needs, PartDiff, Presence, Prim, ShapeDiff, Snapshot, SnapshotDiff, SurfaceId,
 };
-pub use stats::{Rays, Skipped, Stats, Tests};
+pub use stats::{LampStats, Rays, Skipped, Stats, Tests};
 pub use view::{Region, Size, Skip, View};

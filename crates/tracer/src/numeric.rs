@@ -8,6 +8,10 @@ use catoptra_core::numeric::UNIT_ROUNDOFF_F64;
 /// A quarter of the step between two levels of an 8-bit display, 1/255, for light that would show as white.
 pub(crate) const WEIGHT_CUTOFF: f32 = 0.25 / 255.0;
 
+/// Rays to a lamp for each camera ray, unless said otherwise: of 16 evenly spread ones an edge of a shadow through a lamp is
+/// found within 6 % of the lamp.
+pub(crate) const LAMP_RAYS: u32 = 16;
+
 /// How many times as far from zero as the smallest thing seen sharply is large the eye may stand before a snapshot gets
 /// an origin of its own: up to there `f32` has coordinates right to 2³ · 2⁻²⁴, two millionths, of that thing.
 pub(crate) const FAR: f64 = 8.0;
@@ -219,3 +223,10 @@ pub(crate) fn magnitude_of(v: DVec3) -> f32 {
 pub(crate) fn rounded(v: DVec3) -> [f32; 3] {
     v.to_array().map(|c| c as f32)
 }
+
+/// Lamps whose ball is smaller than this share of its distance are worked out in `f64`: unit vectors to their corners are off
+/// by 2 roundings each, which differ by 2⁻¹⁸ of an edge of this size.
+pub(crate) const SMALL_LAMP: f32 = 1.0 / 32.0;
+
+/// By what share of its radius a ball stands clear of a plane, or a point of the ball, so that `f32` knows: 2⁻¹².
+pub(crate) const CUT_MARGIN: f32 = 1.0 / 4096.0;

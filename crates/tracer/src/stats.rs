@@ -10,6 +10,8 @@ pub struct Rays {
     pub primary: u64,
     /// From a surface to a light.
     pub shadow: u64,
+    /// From a surface to a point of a lamp.
+    pub lamp: u64,
     /// From a mirroring surface.
     pub reflection: u64,
     /// From a surface to the sky.
@@ -56,6 +58,23 @@ pub struct Skipped {
     pub below_surface: u64,
 }
 
+/// Points on which a lamp shines, by how its light was found; each lamp is counted for itself.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct LampStats {
+    /// None of it is above the surface, or the lamp shines the other way.
+    pub facing_away: u64,
+    /// All of it is seen: closed form.
+    pub open: u64,
+    /// None of it is seen past what stands between: closed form.
+    pub dark: u64,
+    /// Some of it is seen past one ball, found in vector lanes: closed form.
+    pub past_a_ball: u64,
+    /// Some of it is seen past other shapes, or several: closed form.
+    pub partly: u64,
+    /// By rays.
+    pub sampled: u64,
+}
+
 /// Counts of one render, or of a part of it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Stats {
@@ -63,6 +82,8 @@ pub struct Stats {
     pub rays: Rays,
     /// Tests made.
     pub tests: Tests,
+    /// Light of lamps.
+    pub lamps: LampStats,
     /// Rays not traced.
     pub skipped: Skipped,
     /// Answers that `f32` could not decide and `f64` did.
@@ -83,12 +104,13 @@ macro_rules! add_fields {
     };
 }
 
-add_fields!(Rays: primary, shadow, reflection, occlusion);
+add_fields!(Rays: primary, shadow, lamp, reflection, occlusion);
 add_fields!(Tests: shapes, boxes);
 add_fields!(Skipped:
     nothing_seen, blank_before, unreached, facing_away, out_of_cone, shadow_off, unlit_material, nothing_between, nothing_ahead, not_reflective,
     depth_limit, weight_cutoff, below_surface);
-add_fields!(Stats: rays, tests, skipped, settled, exact, not_finite);
+add_fields!(LampStats: facing_away, open, dark, past_a_ball, partly, sampled);
+add_fields!(Stats: rays, tests, lamps, skipped, settled, exact, not_finite);
 
 impl Stats {
     /// The counts of some work on this thread, and how many of its questions exact arithmetic has answered.
@@ -103,6 +125,6 @@ impl Rays {
     /// All rays traced.
     #[must_use]
     pub const fn total(&self) -> u64 {
-        self.primary + self.shadow + self.reflection + self.occlusion
+        self.primary + self.shadow + self.lamp + self.reflection + self.occlusion
     }
 }

@@ -2,7 +2,7 @@
 
 use catoptra_core::{Camera, Integrator, Scene};
 
-use crate::numeric::WEIGHT_CUTOFF;
+use crate::numeric::{LAMP_RAYS, WEIGHT_CUTOFF};
 use crate::{Instructions, Pattern};
 
 /// Picture size in pixels; either may be zero.
@@ -86,6 +86,8 @@ pub struct View {
     pub seed: u32,
     /// Samples per pixel along each axis: n x n of them; 1 is the pixel's centre.
     pub grid: u32,
+    /// Rays to a lamp for each camera ray that leads to a point where it has no closed form.
+    pub lamp_rays: u32,
     /// Where in a pixel they lie.
     pub pattern: Pattern,
     /// Whether the film is to tell [standard errors](crate::Film::standard_error); the picture's bits do not depend on it.
@@ -134,6 +136,7 @@ impl View {
             occlusion_distance: f64::INFINITY,
             seed: 0,
             grid: 1,
+            lamp_rays: LAMP_RAYS,
             pattern: Pattern::Grid,
             moments: false,
             skip: Skip::ALL,

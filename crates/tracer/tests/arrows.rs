@@ -12,6 +12,7 @@ const LAYERS: &[&[&str]] = &[
     &["shade"],
     &["stream"],
     &["search"],
+    &["lamps"],
     &["cull"],
     &["rays", "frame"],
     &["snapshot"],

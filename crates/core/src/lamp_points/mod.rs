@@ -13,6 +13,7 @@ mod warp;
 
 use glam::DVec3;
 
+use crate::contour::{Lamp, Outline};
 use crate::numeric::{LAMP_POINT_ROUNDING, SMALLEST_SOLID_ANGLE};
 use quad::Quad;
 use round::{Cap, Disk};
@@ -61,46 +62,34 @@ pub struct LampPoints {
     size: f64,
 }
 
-/// What shines, all of it relative to the same origin.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum LampShape {
-    /// A corner and the edges to its neighbours, at a right angle.
-    Rectangle([DVec3; 3]),
-    /// Three corners.
-    Triangle([DVec3; 3]),
-    /// Middle, unit normal and radius.
-    Disk(DVec3, DVec3, f64),
-    /// Middle and radius.
-    Sphere(DVec3, f64),
-}
-
 impl LampPoints {
     /// As seen from a point with a unit normal; `None` from inside a sphere.
     #[must_use]
-    pub fn new(shape: &LampShape, point: DVec3, normal: DVec3) -> Option<Self> {
-        let (spread, own_normal, largest) = match *shape {
-            LampShape::Rectangle([corner, u, v]) => {
-                let (from, lamp_normal) = (corner - point, u.cross(v).normalize_or_zero());
-                let even = || Spread::Parallelogram([from, u, v, lamp_normal]);
-                let spread = Quad::new(from, [u, v], SMALLEST_SOLID_ANGLE).map_or_else(even, Spread::Quad);
-                (spread, Some(lamp_normal), corner.abs() + u.abs() + v.abs())
-            }
-            LampShape::Triangle(corners) => {
-                let [a, b, c] = corners.map(|corner| corner - point);
-                let (u, v) = (b - a, c - a);
-                let lamp_normal = u.cross(v).normalize_or_zero();
-                let even = || Spread::Flat([a, u, v, lamp_normal]);
-                let seen = Triangle::new([a, b, c], SMALLEST_SOLID_ANGLE);
+    pub fn new(lamp: &Lamp, point: DVec3, normal: DVec3) -> Option<Self> {
+        let (spread, own_normal, largest) = match &lamp.outline {
+            Outline::Polygon(flat) => {
+                let corners = flat.corners();
+                let from = corners[0] - point;
+                let (next, last) = (corners[1] - corners[0], corners[corners.len() - 1] - corners[0]);
+                let even = [from, next, last, flat.normal];
+                let spread = if corners.len() == 4 {
+                    let even = || Spread::Parallelogram(even);
+                    Quad::new(from, [next, last], SMALLEST_SOLID_ANGLE).map_or_else(even, Spread::Quad)
+                } else {
+                    let seen = [from, corners[1] - point, corners[2] - point];
+                    let even = || Spread::Flat(even);
+                    Triangle::new(seen, SMALLEST_SOLID_ANGLE).map_or_else(even, Spread::Triangle)
+                };
                 let largest = corners.iter().fold(DVec3::ZERO, |most, corner| most.max(corner.abs()));
-                (seen.map_or_else(even, Spread::Triangle), Some(lamp_normal), largest)
+                (spread, Some(flat.normal), largest)
             }
-            LampShape::Disk(center, lamp_normal, radius) => {
-                let disk = Disk::new(center - point, lamp_normal, radius);
-                (Spread::Disk(disk), Some(lamp_normal), center.abs() + DVec3::splat(radius))
+            Outline::Disk(disk) => {
+                let spread = Disk::new(disk.center - point, disk.normal, disk.radius);
+                (Spread::Disk(spread), Some(disk.normal), disk.center.abs() + DVec3::splat(disk.radius))
             }
-            LampShape::Sphere(center, radius) => {
-                let cap = Cap::new(center - point, radius)?;
-                (Spread::Cap(cap), None, center.abs() + DVec3::splat(radius))
+            Outline::Sphere { center, radius } => {
+                let cap = Cap::new(*center - point, *radius)?;
+                (Spread::Cap(cap), None, center.abs() + DVec3::splat(*radius))
             }
         };
         let size = largest.max(point.abs()).element_sum();
@@ -174,19 +163,41 @@ fn solid_of(area: f64, normal: DVec3, to: DVec3) -> f64 {
 mod tests {
     use super::*;
 
-    fn shapes() -> [LampShape; 6] {
+    /// What a lamp is made from.
+    #[derive(Debug)]
+    enum Form {
+        /// A corner and two edges.
+        Rectangle([DVec3; 3]),
+        Triangle([DVec3; 3]),
+        Disk(DVec3, DVec3, f64),
+        Sphere(DVec3, f64),
+    }
+
+    impl Form {
+        fn points(&self, from: DVec3, normal: DVec3) -> Option<LampPoints> {
+            let lamp = match *self {
+                Self::Rectangle([at, u, v]) => Lamp::polygon(&[at, at + u, at + u + v, at + v]),
+                Self::Triangle(corners) => Lamp::polygon(&corners),
+                Self::Disk(center, normal, radius) => Lamp::disk(center, normal, radius),
+                Self::Sphere(center, radius) => Lamp::sphere(center, radius),
+            };
+            LampPoints::new(&lamp?, from, normal)
+        }
+    }
+
+    fn shapes() -> [Form; 6] {
         let (x, z) = (DVec3::X, DVec3::Z);
         [
-            LampShape::Rectangle([DVec3::new(-1.0, 3.0, 0.5), x * 2.0, z * 0.5]),
-            LampShape::Rectangle([DVec3::new(0.1, 0.2, -0.5), x * 5.0, DVec3::new(0.0, 3.0, 4.0)]),
-            LampShape::Rectangle([DVec3::new(0.0, 300.0, 0.0), x * 0.2, z * 0.1]),
-            LampShape::Triangle([
+            Form::Rectangle([DVec3::new(-1.0, 3.0, 0.5), x * 2.0, z * 0.5]),
+            Form::Rectangle([DVec3::new(0.1, 0.2, -0.5), x * 5.0, DVec3::new(0.0, 3.0, 4.0)]),
+            Form::Rectangle([DVec3::new(0.0, 300.0, 0.0), x * 0.2, z * 0.1]),
+            Form::Triangle([
                 DVec3::new(-1.0, 3.0, 0.5),
                 DVec3::new(2.0, 2.0, 0.0),
                 DVec3::new(0.0, 1.0, 4.0),
             ]),
-            LampShape::Disk(DVec3::new(1.0, 2.0, 0.3), DVec3::new(0.0, -0.6, 0.8), 0.7),
-            LampShape::Sphere(DVec3::new(0.4, 1.5, -0.6), 0.9),
+            Form::Disk(DVec3::new(1.0, 2.0, 0.3), DVec3::new(0.0, -0.6, 0.8), 0.7),
+            Form::Sphere(DVec3::new(0.4, 1.5, -0.6), 0.9),
         ]
     }
 
@@ -197,7 +208,7 @@ mod tests {
     }
 
     /// The projected solid angle, by an even grid over the area.
-    fn by_area(shape: &LampShape, normal: DVec3) -> f64 {
+    fn by_area(shape: &Form, normal: DVec3) -> f64 {
         let facing = |to: DVec3, area: DVec3| {
             let distance = to.length();
             (to.dot(normal) / distance).max(0.0) * to.dot(area).abs() / distance.powi(3)
@@ -205,18 +216,18 @@ mod tests {
         let steps = 700;
         let sum: f64 = grid(steps)
             .map(|[u, v]| match *shape {
-                LampShape::Rectangle([corner, a, b]) => facing(corner + a * u + b * v, a.cross(b)),
-                LampShape::Triangle([a, b, c]) => {
+                Form::Rectangle([corner, a, b]) => facing(corner + a * u + b * v, a.cross(b)),
+                Form::Triangle([a, b, c]) => {
                     let (first, second) = if u + v < 1.0 { (u, v) } else { (1.0 - u, 1.0 - v) };
                     facing(a + (b - a) * first + (c - a) * second, (b - a).cross(c - a) / 2.0)
                 }
-                LampShape::Disk(center, axis, radius) => {
+                Form::Disk(center, axis, radius) => {
                     let (right, up) = axis.any_orthonormal_pair();
                     let (sin, cos) = (v * std::f64::consts::TAU).sin_cos();
                     let to = center + (right * cos + up * sin) * (radius * u.sqrt());
                     facing(to, axis * (std::f64::consts::PI * radius * radius))
                 }
-                LampShape::Sphere(center, radius) => {
+                Form::Sphere(center, radius) => {
                     let (height, (sin, cos)) = (2.0 * u - 1.0, (v * std::f64::consts::TAU).sin_cos());
                     let round = (1.0 - height * height).sqrt();
                     let out = DVec3::new(round * cos, height, round * sin);
@@ -236,7 +247,7 @@ mod tests {
     fn points_stand_for_the_projected_solid_angle() {
         for shape in shapes() {
             for normal in [DVec3::Y, DVec3::new(0.6, 0.0, 0.8), DVec3::new(0.0, 0.6, -0.8)] {
-                let points = LampPoints::new(&shape, DVec3::ZERO, normal).unwrap();
+                let points = shape.points(DVec3::ZERO, normal).unwrap();
                 let weight = |shares| {
                     let LampPoint { to, solid, end } = points.point(shares);
                     assert!(end > 1.0 - 1e-6 && end < 1.0, "{shape:?} {end}");
@@ -256,11 +267,11 @@ mod tests {
     fn points_lie_on_the_lamp() {
         let from = DVec3::new(0.3, -0.2, 0.1);
         for shape in shapes() {
-            let points = LampPoints::new(&shape, from, DVec3::Y).unwrap();
+            let points = shape.points(from, DVec3::Y).unwrap();
             for shares in grid(9) {
                 let at = from + points.point(shares).to;
                 let off = match shape {
-                    LampShape::Rectangle([corner, u, v]) => {
+                    Form::Rectangle([corner, u, v]) => {
                         let (a, b) = (
                             (at - corner).dot(u) / u.length_squared(),
                             (at - corner).dot(v) / v.length_squared(),
@@ -271,16 +282,16 @@ mod tests {
                         );
                         (at - corner).dot(u.cross(v).normalize())
                     }
-                    LampShape::Triangle([a, b, c]) => {
+                    Form::Triangle([a, b, c]) => {
                         let inward = |p: DVec3, q: DVec3| (q - p).cross(at - p).dot((b - a).cross(c - a));
                         assert!([inward(a, b), inward(b, c), inward(c, a)].iter().all(|side| *side > -1e-9));
                         (at - a).dot((b - a).cross(c - a).normalize())
                     }
-                    LampShape::Disk(center, normal, radius) => {
+                    Form::Disk(center, normal, radius) => {
                         assert!(at.distance(center) < radius + 1e-9);
                         (at - center).dot(normal)
                     }
-                    LampShape::Sphere(center, radius) => at.distance(center) - radius,
+                    Form::Sphere(center, radius) => at.distance(center) - radius,
                 };
                 assert!(off.abs() < 1e-12, "{shape:?} {off:e}");
             }
@@ -289,8 +300,8 @@ mod tests {
 
     #[test]
     fn the_warp_makes_points_stand_for_nearly_the_same_irradiance() {
-        let shape = LampShape::Rectangle([DVec3::new(0.5, 0.0, -1.0), DVec3::Y * 2.0, DVec3::Z * 2.0]);
-        let points = LampPoints::new(&shape, DVec3::ZERO, DVec3::Y).unwrap();
+        let shape = Form::Rectangle([DVec3::new(0.5, 0.0, -1.0), DVec3::Y * 2.0, DVec3::Z * 2.0]);
+        let points = shape.points(DVec3::ZERO, DVec3::Y).unwrap();
         let plain = LampPoints { warp: None, ..points };
         let spread = |points: &LampPoints| {
             let weights: Vec<f64> = grid(32)
@@ -307,17 +318,17 @@ mod tests {
 
     #[test]
     fn inside_a_sphere_there_are_no_points_and_odd_lamps_give_finite_ones() {
-        assert!(LampPoints::new(&LampShape::Sphere(DVec3::X, 2.0), DVec3::ZERO, DVec3::Y).is_none());
+        assert!(Form::Sphere(DVec3::X, 2.0).points(DVec3::ZERO, DVec3::Y).is_none());
         let odd = [
-            LampShape::Rectangle([DVec3::ZERO, DVec3::X, DVec3::Y]),
-            LampShape::Rectangle([DVec3::new(1.0, 0.0, 0.0), DVec3::X, DVec3::Y]),
-            LampShape::Triangle([DVec3::ZERO, DVec3::X, DVec3::Y]),
-            LampShape::Triangle([DVec3::X, DVec3::X * 2.0, DVec3::Y]),
-            LampShape::Disk(DVec3::ZERO, DVec3::Y, 1.0),
-            LampShape::Rectangle([DVec3::splat(1e12), DVec3::X, DVec3::Y]),
+            Form::Rectangle([DVec3::ZERO, DVec3::X, DVec3::Y]),
+            Form::Rectangle([DVec3::new(1.0, 0.0, 0.0), DVec3::X, DVec3::Y]),
+            Form::Triangle([DVec3::ZERO, DVec3::X, DVec3::Y]),
+            Form::Triangle([DVec3::X, DVec3::X * 2.0, DVec3::Y]),
+            Form::Disk(DVec3::ZERO, DVec3::Y, 1.0),
+            Form::Rectangle([DVec3::splat(1e12), DVec3::X, DVec3::Y]),
         ];
         for shape in odd {
-            let Some(points) = LampPoints::new(&shape, DVec3::ZERO, DVec3::Y) else { continue };
+            let Some(points) = shape.points(DVec3::ZERO, DVec3::Y) else { continue };
             for shares in grid(7) {
                 let LampPoint { to, end, solid } = points.point(shares);
                 assert!(

@@ -16,6 +16,8 @@ pub struct Lamp {
     pub emission: Emission,
     /// Whether it is a body: seen, and in the way of other lights.
     pub visible: bool,
+    /// Whether things throw shadows in its light.
+    pub shadow: bool,
 }
 
 /// How much a light shines, as it was given.
@@ -125,6 +127,7 @@ impl Shining {
             shape: shape.into(),
             emission: Emission { radiance: self.radiance.rgb(), two_sided: self.two_sided == Some(true) },
             visible: self.visible,
+            shadow: self.shadow,
         }
     }
 }

@@ -5,13 +5,19 @@ mod beam;
 mod candidates;
 mod darkness;
 mod frustum;
+mod lamps;
 mod plan;
+mod planner;
 mod point_bounds;
 #[cfg(test)]
 mod properties;
+mod shaft;
 
 pub(crate) use beam::Beam;
 pub(crate) use candidates::Candidates;
 pub(crate) use frustum::{Frustum, quarters};
-pub(crate) use plan::{Planner, TilePlan};
+pub(crate) use lamps::{all_blockers, blockers_between};
+pub(crate) use plan::TilePlan;
+pub(crate) use planner::Planner;
 pub(crate) use point_bounds::PointBounds;
+pub(crate) use shaft::Shaft;

@@ -6,18 +6,11 @@ use catoptra_core::Rgb;
 use super::beam::Beam;
 use super::candidates::{Candidates, FEW};
 use super::darkness::goes_dark;
+use super::lamps::LampPlan;
+use super::planner::Planner;
 use super::point_bounds::PointBounds;
+use crate::Snapshot;
 use crate::snapshot::LightRow;
-use crate::{Skip, Snapshot};
-
-/// The snapshot that is planned for, and which work may be left out.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Planner<'a> {
-    pub(crate) snapshot: &'a Snapshot,
-    pub(crate) skip: Skip,
-    /// Whether every ray stays outside all convex solids.
-    pub(crate) outside: bool,
-}
 
 /// A plan for a part of a picture, or for a stream of reflected rays.
 #[derive(Debug, Default)]
@@ -26,6 +19,8 @@ pub(crate) struct TilePlan {
     pub(crate) reached: Vec<usize>,
     /// For every light, what may stand between it and what is seen.
     pub(crate) occluders: Vec<Candidates>,
+    /// For every lamp, whether it is seen and past what.
+    pub(crate) lamps: Vec<LampPlan>,
     /// Shapes whose reflections all go into darkness.
     pub(crate) dark: Vec<u32>,
 }
@@ -36,6 +31,7 @@ impl TilePlan {
     pub(crate) fn start(&mut self, snapshot: &Snapshot) {
         let lights = snapshot.light_rows().len();
         self.occluders.resize_with(lights, Candidates::default);
+        self.lamps.resize_with(snapshot.lamps().rows.len(), LampPlan::default);
         self.reached.clear();
         self.reached.extend(0..lights);
         self.dark.clear();
@@ -56,6 +52,9 @@ impl TilePlan {
             } else {
                 occluders.all(snapshot.columns());
             }
+        }
+        for (plan, lamp) in self.lamps.iter_mut().zip(&snapshot.lamps().rows) {
+            plan.plan(planner, lamp, points);
         }
     }
 

@@ -24,6 +24,21 @@ impl PointBounds {
         Self { prim, center, half, radius: half.length() }
     }
 
+    /// Round one point of a shape.
+    pub(crate) fn at(prim: u32, point: DVec3) -> Self {
+        Self::new(prim, Aabb { min: point, max: point })
+    }
+
+    /// Radius of the ball round the middle that holds all points.
+    pub(super) fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// What rounding may make of distances to a plane.
+    pub(super) fn margin(&self, row: &PlaneRow) -> f64 {
+        PLAN_MARGIN * (row.distance.abs() + self.center.abs().element_sum())
+    }
+
     /// Whether a point may lie on the other side of a plane than a light that is `behind` metres behind it.
     pub(crate) fn may_lie_beyond(&self, row: &PlaneRow, behind: f64) -> bool {
         if self.prim == row.prim {
@@ -32,8 +47,7 @@ impl PointBounds {
         let middle = row.distance - row.normal.dot(self.center);
         let spread = row.normal.abs().dot(self.half);
         let least = if behind > 0.0 { middle - spread } else { -middle - spread };
-        let margin = PLAN_MARGIN * (row.distance.abs() + self.center.abs().element_sum());
-        !(least > margin + row.distance_error)
+        !(least > self.margin(row) + row.distance_error)
     }
 
     /// Whether anything may arrive from a light.

@@ -90,6 +90,13 @@ impl Tile {
         block as usize * BLOCK_PIXELS + ((y % BLOCK) * BLOCK + x % BLOCK) as usize
     }
 
+    /// Column and row in the whole picture of the pixel at an index of the columns.
+    pub(crate) fn place_of(&self, i: usize) -> [u32; 2] {
+        let (block, within) = ((i / BLOCK_PIXELS) as u32, (i % BLOCK_PIXELS) as u32);
+        let (across, down) = (block % self.blocks_across(), block / self.blocks_across());
+        [self.x + across * BLOCK + within % BLOCK, self.y + down * BLOCK + within / BLOCK]
+    }
+
     /// The mean of a pixel's samples.
     #[inline]
     pub(crate) fn radiance(&self, i: usize) -> [f32; 3] {

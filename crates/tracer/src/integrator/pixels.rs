@@ -24,7 +24,7 @@ impl<S: Search> IntegratorVisitor for Pixels<'_, S> {
 
     fn visit<I: Integrate>(self) -> Stats {
         let Self { search, frame, tile } = self;
-        let mut walker = Walker { search, frame, stats: Stats::default() };
+        let mut walker = Walker::new(search, frame);
         let (width, height) = (tile.width, tile.height);
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
             trace_pixel::<I, S>(&mut walker, tile, x, y);

@@ -2,6 +2,8 @@
 
 use catoptra_core::{Ray, Span};
 
+use crate::cull::{PointBounds, all_blockers, blockers_between};
+use crate::snapshot::LampRow;
 use crate::{Hit, Snapshot, SurfaceId};
 
 /// Ray queries on a snapshot, one ray at a time.
@@ -11,6 +13,15 @@ pub(crate) trait Search {
 
     /// Whether a ray meets anything.
     fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool;
+
+    /// Adds the shapes that may stand between a point, relative to the snapshot's origin, and a lamp.
+    fn find_blockers(
+        &self,
+        snapshot: &Snapshot,
+        lamp: &LampRow,
+        point: &PointBounds,
+        blockers: &mut Vec<u32>,
+    );
 }
 
 /// Walks the trees.
@@ -24,6 +35,16 @@ impl Search for Trees {
     fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool {
         snapshot.occluded(ray, span, leaving)
     }
+
+    fn find_blockers(
+        &self,
+        snapshot: &Snapshot,
+        lamp: &LampRow,
+        point: &PointBounds,
+        blockers: &mut Vec<u32>,
+    ) {
+        blockers_between(snapshot, lamp, point, false, blockers);
+    }
 }
 
 /// Tries every shape and triangle.
@@ -36,5 +57,9 @@ impl Search for Exhaustive {
 
     fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool {
         snapshot.nearest_of_all(ray, span, leaving).is_some()
+    }
+
+    fn find_blockers(&self, snapshot: &Snapshot, lamp: &LampRow, _: &PointBounds, blockers: &mut Vec<u32>) {
+        all_blockers(snapshot, lamp, blockers);
     }
 }

@@ -1,5 +1,6 @@
 //! The state of an integrator that follows one path at a time in `f64`, and the surfaces that its rays hit.
 
+use catoptra_core::contour::Scratch;
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Material, Ray, ShadingPoint};
 
@@ -21,6 +22,10 @@ pub(crate) struct Walker<'a, S> {
     pub(super) search: &'a S,
     pub(super) frame: &'a Frame<'a>,
     pub(super) stats: Stats,
+    /// Room for light from surfaces.
+    pub(super) scratch: Scratch,
+    /// Room for the shapes that may stand in its way.
+    pub(super) blockers: Vec<u32>,
 }
 
 /// A hit of a ray, with what shading needs of the surface.
@@ -36,6 +41,12 @@ pub(super) struct SurfaceHit<'a> {
 }
 
 impl<'a, S: Search> Walker<'a, S> {
+    /// Of a frame, with nothing counted yet.
+    pub(super) fn new(search: &'a S, frame: &'a Frame<'a>) -> Self {
+        let (stats, scratch) = (Stats::default(), Scratch::default());
+        Self { search, frame, stats, scratch, blockers: Vec::new() }
+    }
+
     /// The surface at a hit of a ray.
     pub(super) fn surface_at(&self, hit: Hit, ray: Ray) -> SurfaceHit<'a> {
         let snapshot = self.frame.snapshot;

@@ -24,6 +24,7 @@ pub(crate) use hits::{HitColumns, Hits};
 pub(crate) use occluded::ShadowRays;
 pub(crate) use own_segments::OwnSegments;
 pub(crate) use packet::{Packet, PreciseRays, drift, kernel_rays, nearly_unit_rays};
+pub(crate) use refine::Refined;
 pub(crate) use surface::Surface;
 pub(crate) use to_light::ToLight;
 

@@ -71,6 +71,7 @@ impl<S: Simd> Shader<'_, S> {
             #[inline(always)]
             || {
                 self.add_lights(batch, count);
+                self.add_lamps(batch, count, tile, depth);
                 for packet in 0..count {
                     self.show(batch, packet, tile, depth);
                 }

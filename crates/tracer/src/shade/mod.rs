@@ -5,6 +5,7 @@ mod direct_light;
 mod filled;
 mod groups;
 mod hits;
+mod lamps;
 #[cfg(test)]
 mod lobe_tests;
 mod look;
@@ -20,6 +21,7 @@ use crate::search::Searcher;
 use crate::stream::{LaneBounds, Queue};
 
 pub(crate) use chunk::Chunk;
+pub(crate) use lamps::LampRoom;
 pub(crate) use rules::{MirrorNormals, continues, mirror_direction};
 
 /// Gathers the light of packets, a chunk of them at a time.
@@ -30,6 +32,9 @@ pub(crate) struct Shader<'a, S: Simd> {
     /// What culling knows about the current batch.
     pub(crate) plan: &'a mut TilePlan,
     pub(crate) chunk: &'a mut Chunk<S>,
+    pub(crate) lamp_room: &'a mut LampRoom,
+    /// Which of the pixels' samples is under way.
+    pub(crate) sample: u32,
     /// Rays that surfaces send on.
     pub(crate) next: &'a mut Queue,
     /// Where those start, and the unit vectors along which they run.

@@ -184,7 +184,7 @@ impl<'a> Standing<'a> {
         let (parts, at) = (&self.snapshot.parts, self.snapshot.prims[self.prim].material as usize);
         match parts.materials.get(at) {
             Some((id, material)) => (Some(*id), material),
-            None => (None, &parts.looks[at - parts.materials.len()]),
+            None => (None, &parts.bodies[at - parts.materials.len()].material),
         }
     }
 

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use catoptra_core::geometry::Plane;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Light, Material, Placement, Rgb, Scene, Shape};
+use catoptra_core::{Lamp, Light, Material, Placement, Rgb, Scene, Shape};
 
 use super::index::{Index, MeshTrees};
+use super::lamps::Shining;
 use super::origin::{frame_for, origin_for, relative};
-use super::{Extraction, LightRow, MaterialRow, Prim, Snapshot, SnapshotDiff};
+use super::{Extraction, Lamps, LightRow, MaterialRow, Prim, Snapshot, SnapshotDiff};
 use crate::Pool;
 use crate::accel::Preset;
 
@@ -73,7 +74,9 @@ impl Extraction {
             self.materials().map(|material| material.relative_to(origin)).collect();
         let material_rows: Vec<_> = materials.iter().map(MaterialRow::new).collect();
         let background = self.parts.settings.background();
+        let lamps = self.lamps(&prims, frame, origin);
         Snapshot {
+            lamps,
             origin,
             frame,
             preset,
@@ -103,6 +106,21 @@ impl Extraction {
                 mesh: trees.of(&shape.part),
             })
             .collect()
+    }
+
+    fn lamps(&self, prims: &[Prim], frame: DVec3, origin: DVec3) -> Lamps {
+        let named = self.parts.materials.iter().map(|(_, material)| (material, true));
+        let bodies = self.parts.bodies.iter().map(|body| (&body.material, body.shadow));
+        let shining = |(material, shadow): (&Material, bool)| {
+            material.emission().map(|emission| Shining { emission, shadow })
+        };
+        let shining: Vec<_> = named.chain(bodies).map(shining).collect();
+        let unseen: Vec<_> = self
+            .unseen
+            .iter()
+            .map(|lamp| Lamp { shape: relative(&lamp.shape, frame).into_owned(), ..lamp.clone() })
+            .collect();
+        Lamps::new(prims, |material| shining[material as usize], &unseen, origin - frame)
     }
 
     /// Whether the shapes are those of a snapshot, bit for bit, for no edit has touched any.

@@ -29,9 +29,18 @@ pub(super) struct Parts {
     pub(super) lights: Vec<Placed<Light>>,
     pub(super) cameras: Vec<Placed<Camera>>,
     pub(super) materials: Vec<(MaterialId, Material)>,
-    /// How the bodies of lights look; as materials of shapes they follow the scene's.
-    pub(super) looks: Vec<Material>,
+    /// The bodies of lights; as materials of shapes they follow the scene's.
+    pub(super) bodies: Vec<Body>,
     pub(super) settings: Settings,
+}
+
+/// What is particular about the body of a light.
+#[derive(Debug)]
+pub(super) struct Body {
+    /// How it looks.
+    pub(super) material: Material,
+    /// Whether things throw shadows in its light.
+    pub(super) shadow: bool,
 }
 
 impl Extraction {
@@ -46,26 +55,30 @@ impl Extraction {
         let mut shapes: Vec<_> =
             scene.world_shapes().into_iter().map(|(shape, material)| (shape, rows[&material])).collect();
         let (lights, settings) = (scene.world_lights(), *scene.settings());
-        let (mut looks, mut unseen) = (Vec::new(), Vec::new());
+        let (mut bodies, mut unseen) = (Vec::new(), Vec::new());
         for light in &lights {
             match light.part.lamp() {
-                Some(Lamp { shape, emission, visible: true }) => {
-                    let body = Placed { id: light.id, touched: light.touched, part: shape };
-                    shapes.push((body, (materials.len() + looks.len()) as u32));
-                    looks.push(Emissive::from(emission).into());
+                Some(Lamp { shape, emission, visible: true, shadow }) => {
+                    let placed = Placed { id: light.id, touched: light.touched, part: shape };
+                    shapes.push((placed, (materials.len() + bodies.len()) as u32));
+                    bodies.push(Body { material: Emissive::from(emission).into(), shadow });
                 }
                 Some(lamp) => unseen.push(lamp),
                 None => {}
             }
         }
         shapes.sort_by_key(|(shape, _)| shape.id);
-        let parts = Parts { revision: scene.revision(), lights, cameras, materials, looks, settings };
+        let parts = Parts { revision: scene.revision(), lights, cameras, materials, bodies, settings };
         Self { shapes, unseen, parts: Arc::new(parts), eye }
     }
 
     /// The materials of shapes, by their index.
     pub(super) fn materials(&self) -> impl Iterator<Item = &Material> {
-        self.parts.materials.iter().map(|(_, material)| material).chain(&self.parts.looks)
+        self.parts
+            .materials
+            .iter()
+            .map(|(_, material)| material)
+            .chain(self.parts.bodies.iter().map(|body| &body.material))
     }
 
     /// The scene's [revision](Scene::revision) when it was copied.

@@ -5,6 +5,7 @@ mod diff;
 mod extract;
 mod extraction;
 mod index;
+mod lamps;
 mod lighting;
 mod needs;
 mod origin;
@@ -19,6 +20,7 @@ use catoptra_core::{Constant3, EntityId, Light, Material, Ray, Rgb, Shape};
 pub(crate) use columns::{Affine, Ball, Columns, Instance};
 pub use diff::{Changed, PartDiff, Presence, ShapeDiff, SnapshotDiff};
 pub use extraction::Extraction;
+pub(crate) use lamps::{FlatLamp, LampRow, Lamps};
 pub(crate) use lighting::{LightRow, MaterialRow};
 pub use needs::Needs;
 pub(crate) use rows::{KernelVisitor, Row};
@@ -63,6 +65,7 @@ pub struct Snapshot {
     constants: [Constant3; 2],
     material_rows: Vec<MaterialRow>,
     light_rows: Vec<LightRow>,
+    lamps: Lamps,
     has_cones: bool,
     has_mirrors: bool,
 }
@@ -171,6 +174,12 @@ impl Snapshot {
     #[inline]
     pub(crate) fn light_rows(&self) -> &[LightRow] {
         &self.light_rows
+    }
+
+    /// The surfaces that light others.
+    #[inline]
+    pub(crate) fn lamps(&self) -> &Lamps {
+        &self.lamps
     }
 
     /// Whether there are lights that do not shine everywhere.

@@ -6,13 +6,14 @@ use catoptra_core::{Arrival, Light, Lobes, Ray, Rgb, Span, Triple};
 
 use crate::Hit;
 use crate::integrator::Search;
-use crate::integrator::walker::{SurfaceHit, Walker};
+use crate::integrator::walker::{CameraRay, SurfaceHit, Walker};
+use crate::lamps::Drawn;
 use crate::shade::{MirrorNormals, continues, mirror_direction};
 
 impl<S: Search> Walker<'_, S> {
     /// The light that arrives along a ray from the camera, and what the ray meets first.
-    pub(super) fn follow(&mut self, mut ray: Ray) -> (Rgb, Option<Hit>) {
-        let snapshot = self.frame.snapshot;
+    pub(super) fn follow(&mut self, camera: &CameraRay) -> (Rgb, Option<Hit>) {
+        let (snapshot, mut ray) = (self.frame.snapshot, camera.ray);
         let (mut light, mut weight) = (Rgb::BLACK, Triple::splat(1.0));
         let (mut first, mut leaving) = (None, None);
         self.stats.rays.primary += 1;
@@ -27,7 +28,8 @@ impl<S: Search> Walker<'_, S> {
             let surface = self.surface_at(hit, ray);
             let lobes = surface.material.lobes(&surface.shading);
             if lobes.share > 0.0 {
-                light += rgb(weight) * lobes.share * self.local(&surface, &lobes);
+                let drawn = Drawn { sampler: camera.sampler, sample: camera.sample, depth };
+                light += rgb(weight) * lobes.share * self.local(&surface, &lobes, &drawn);
             }
             let skipped = &mut self.stats.skipped;
             let Some(mirror) = lobes.mirror else {
@@ -46,7 +48,7 @@ impl<S: Search> Walker<'_, S> {
     }
 
     /// What the base shows of itself, of ambient light, and of each light that reaches it.
-    fn local(&mut self, surface: &SurfaceHit<'_>, lobes: &Lobes<f64>) -> Rgb {
+    fn local(&mut self, surface: &SurfaceHit<'_>, lobes: &Lobes<f64>, drawn: &Drawn) -> Rgb {
         let snapshot = self.frame.snapshot;
         let mut light = rgb(lobes.unlit(Triple::of(lobes.share, snapshot.ambient_light())));
         if !lobes.is_lit() {
@@ -60,7 +62,7 @@ impl<S: Search> Walker<'_, S> {
                 light += rgb(shown.times(lamp.irradiance(&arrival)));
             }
         }
-        light
+        light + self.lamplight(surface, lobes, drawn)
     }
 
     /// The cosine under which a light reaches the surface, if it does.
@@ -100,6 +102,6 @@ fn mirrored(surface: &SurfaceHit<'_>) -> Ray {
     Ray::new(surface.point, direction.into())
 }
 
-fn rgb(light: Triple<f64>) -> Rgb {
+pub(super) fn rgb(light: Triple<f64>) -> Rgb {
     Rgb::new(light.x, light.y, light.z)
 }

@@ -17,7 +17,7 @@ use crate::film::EarlierSums;
 use crate::kernel::mesh::Visits;
 use crate::lanes::{F, Work, at_level, outlined};
 use crate::search::{HitColumns, Searcher};
-use crate::shade::{Chunk, Shader};
+use crate::shade::{Chunk, LampRoom, Shader};
 use crate::stream::{Batch, CameraPackets, CameraRays, LaneBounds, Part, Queue};
 use crate::{Frame, Instructions, Region, Size, Stats, Tile};
 
@@ -46,6 +46,7 @@ struct Room {
     visits: Visits,
     rays: CameraRays,
     earlier: EarlierSums,
+    lamps: LampRoom,
     /// [`Registers`] of the kind of instructions that were used last.
     registers: Option<Box<dyn Any>>,
 }
@@ -96,7 +97,7 @@ impl Work for TraceTile<'_> {
 #[inline(always)]
 fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
     let (snapshot, view, grid) = (frame.snapshot, frame.view, frame.view.grid);
-    let Room { next, bounce, found, visible, plan, points, visits, rays, earlier, registers } = room;
+    let Room { next, bounce, found, visible, plan, points, visits, rays, earlier, lamps, registers } = room;
     let mut own = Registers::take(s, registers.take());
     let Registers { chunk, seen, sent } = &mut *own;
     for queue in [&mut *next, &mut bounce.stream] {
@@ -105,11 +106,12 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
     plan.start(snapshot);
     let outside = frame.outside_solids;
     let search = Searcher { s, snapshot, stats: Stats::default(), visits, outside };
-    let shader = Shader { s, search, view, plan, chunk, next, sent };
+    let shader = Shader { s, search, view, plan, chunk, lamp_room: lamps, sample: 0, next, sent };
     let planner = Planner { snapshot, skip: view.skip, outside };
     let mut tracer = TileTracer { s, frame, planner, shader, found, seen, points };
     visible[0].all(snapshot.columns());
     for sample in 0..grid * grid {
+        tracer.shader.sample = sample;
         let mut camera = CameraPackets::new(s, frame, tile, (sample % grid, sample / grid), rays);
         let region = Region::from(Size::new(tile.width, tile.height));
         if view.skip.hidden {

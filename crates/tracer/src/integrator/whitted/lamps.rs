@@ -1,0 +1,65 @@
+//! Light from surfaces at one point, in `f64`: in closed form, or by rays.
+
+use catoptra_core::{Lobes, Rgb};
+
+use super::paths::rgb;
+use crate::cull::PointBounds;
+use crate::integrator::Search;
+use crate::integrator::walker::{SurfaceHit, Walker};
+use crate::lamps::{Drawn, Gathered, LampRay, LampRays, LitPoint, follow, gather};
+use crate::snapshot::LampRow;
+
+impl<S: Search> Walker<'_, S> {
+    /// What a surface shows of the light of all lamps, before the base's share.
+    pub(super) fn lamplight(&mut self, surface: &SurfaceHit<'_>, lobes: &Lobes<f64>, drawn: &Drawn) -> Rgb {
+        let snapshot = self.frame.snapshot;
+        let at = LitPoint {
+            point: surface.point,
+            normal: surface.shading.normal.into(),
+            surface: Some(surface.hit.surface),
+        };
+        let mut light = Rgb::BLACK;
+        for (number, lamp) in snapshot.lamps().rows.iter().enumerate() {
+            let seen = self.gather(lamp, &at);
+            if seen == Gathered::Exactly(0.0) {
+                continue;
+            }
+            let brdf = match lobes.diffuse {
+                Some(diffuse) => rgb(diffuse.brdf()),
+                None => Rgb::BLACK,
+            };
+            let glossy = lobes.is_glossy();
+            let shown = match seen {
+                Gathered::Exactly(irradiance) if !glossy => brdf * irradiance,
+                _ => {
+                    let rays = LampRays::new(lamp, number, &at, drawn, self.frame.view.lamp_rays);
+                    let (found, shown) =
+                        follow(&rays, &surface.shading, lobes, |ray| self.is_blocked(ray, lamp, surface));
+                    shown + brdf * found.of(seen)
+                }
+            };
+            light += shown * lamp.radiance.rgb();
+        }
+        light
+    }
+
+    fn gather(&mut self, lamp: &LampRow, at: &LitPoint) -> Gathered {
+        let snapshot = self.frame.snapshot;
+        self.blockers.clear();
+        if lamp.shadow {
+            let prim = at.surface.map_or(0, |surface| surface.prim);
+            let here = PointBounds::at(prim, at.point - snapshot.origin_in_frame());
+            self.search.find_blockers(snapshot, lamp, &here, &mut self.blockers);
+            self.blockers.sort_unstable();
+        }
+        let blockers = self.blockers.iter().copied();
+        gather(snapshot, lamp, blockers, at, &mut self.scratch, &mut self.stats.lamps)
+    }
+
+    fn is_blocked(&mut self, ray: &LampRay, lamp: &LampRow, surface: &SurfaceHit<'_>) -> bool {
+        lamp.shadow && {
+            self.stats.rays.lamp += 1;
+            self.search.occluded(self.frame.snapshot, &ray.ray, ray.span, Some(surface.hit.surface))
+        }
+    }
+}

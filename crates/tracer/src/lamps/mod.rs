@@ -1,0 +1,10 @@
+//! Light from surfaces: what a point sees of a lamp, in closed form where there is one and by rays elsewhere. Nothing here
+//! casts a ray: it says which, and what they tell.
+
+mod gather;
+mod lanes;
+mod rays;
+
+pub(crate) use gather::{Gathered, LitPoint, gather};
+pub(crate) use lanes::{BallOutline, Outline};
+pub(crate) use rays::{Drawn, LampRay, LampRays, follow};

@@ -1,0 +1,114 @@
+//! Which surfaces light others, and the outlines of all that may stand in their way.
+
+use catoptra_core::contour::{self, Blocker};
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Constant3, Emission, Lamp, Shape};
+
+use super::{Ball, Prim};
+
+/// A surface of one outline that shines: a light, or a piece of one.
+#[derive(Debug, Clone)]
+pub(crate) struct LampRow {
+    /// In the snapshot's frame.
+    pub(crate) outline: contour::Lamp,
+    /// W/(m²·sr) per channel.
+    pub(crate) radiance: Constant3,
+    /// The shape that it is a piece of; none for a light that is not seen.
+    pub(crate) prim: Option<u32>,
+    /// Whether things throw shadows in its light.
+    pub(crate) shadow: bool,
+    /// A ball round it, relative to the snapshot's origin.
+    pub(crate) ball: Ball,
+    /// What it is like if it is flat and has straight edges.
+    pub(crate) flat: Option<FlatLamp>,
+}
+
+/// A flat lamp with straight edges, relative to the snapshot's origin.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FlatLamp {
+    corners: [DVec3; 4],
+    count: usize,
+    /// Unit normal on its lit side, from where the corners run counter-clockwise.
+    pub(crate) normal: DVec3,
+    pub(crate) two_sided: bool,
+}
+
+impl FlatLamp {
+    /// Three or four.
+    #[inline(always)]
+    pub(crate) fn corners(&self) -> &[DVec3] {
+        &self.corners[..self.count]
+    }
+}
+
+/// How a material shines.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shining {
+    pub(super) emission: Emission,
+    /// Whether things throw shadows in its light.
+    pub(super) shadow: bool,
+}
+
+/// All lamps of a snapshot.
+#[derive(Debug, Default)]
+pub(crate) struct Lamps {
+    pub(crate) rows: Vec<LampRow>,
+    /// The outlines of all shapes that may block their light, in the snapshot's frame; none of a mesh, or where there is
+    /// no lamp.
+    pub(crate) blockers: Vec<Option<Blocker>>,
+    /// Shapes that shine but light nothing, as they have no end.
+    pub(crate) endless: Vec<u32>,
+}
+
+impl Lamps {
+    /// Of shapes whose materials have lights of their own, and of lights that are no bodies; `origin` is the snapshot's, in its frame.
+    pub(super) fn new(
+        prims: &[Prim],
+        shining: impl Fn(u32) -> Option<Shining>,
+        unseen: &[Lamp],
+        origin: DVec3,
+    ) -> Self {
+        let mut lamps = Self::default();
+        for (prim, id) in prims.iter().zip(0..) {
+            if let Some(shining) = shining(prim.material) {
+                lamps.add(&prim.shape, shining, Some(id), origin);
+            }
+        }
+        for lamp in unseen {
+            lamps.add(&lamp.shape, Shining { emission: lamp.emission, shadow: lamp.shadow }, None, origin);
+        }
+        if !lamps.rows.is_empty() {
+            lamps.blockers = prims.iter().map(|prim| Blocker::of(&prim.shape)).collect();
+        }
+        lamps
+    }
+
+    fn add(
+        &mut self,
+        shape: &Shape,
+        Shining { emission, shadow }: Shining,
+        prim: Option<u32>,
+        origin: DVec3,
+    ) {
+        if !(emission.radiance.max_channel() > 0.0) {
+            return;
+        }
+        let radiance = emission.radiance.into();
+        let before = self.rows.len();
+        for facet in 0..contour::Lamp::facets(shape) {
+            let Some(outline) = contour::Lamp::of(shape, facet) else { continue };
+            let outline = outline.with_two_sides(emission.two_sided);
+            let (center, radius) = outline.ball();
+            let ball = Ball { center: center - origin, radius };
+            let flat = outline.corners().map(|(corners, normal)| {
+                let mut placed = [corners[0] - origin; 4];
+                placed.iter_mut().zip(corners).for_each(|(placed, corner)| *placed = *corner - origin);
+                FlatLamp { corners: placed, count: corners.len(), normal, two_sided: emission.two_sided }
+            });
+            self.rows.push(LampRow { outline, radiance, prim, shadow, ball, flat });
+        }
+        if let (true, Some(prim)) = (self.rows.len() == before, prim) {
+            self.endless.push(prim);
+        }
+    }
+}
