@@ -13,6 +13,7 @@
 pub mod bounds;
 pub mod camera;
 pub mod color;
+pub mod contour;
 pub mod error;
 pub mod exact;
 pub mod geometry;

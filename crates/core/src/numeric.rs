@@ -30,6 +30,13 @@ pub const EDGE_VALUE_ERROR: f64 = 16.0 * UNIT_ROUNDOFF_F64;
 /// two `f32`, so that rounding it to `f32` gives the right number or the one beside it.
 pub const ROOT_PRECISION: f64 = 1.0 / (1_u64 << 36) as f64;
 
+/// Two conics seen from a point are the same where what tells them apart, (r N·x)² − |N × (x × P)|², stays below this times
+/// r (|x| |P|)² over the whole of a curve.
+///
+/// Each factor r N·x and |N × (x × P)| is at most r |x| and known to 8 roundings of |x| |P| (one in each of x and P, three in
+/// each of two products); of two squares it is twice that, and the sum of six coefficients doubles it again.
+pub const CONIC_ROUNDING: f64 = 32.0 * UNIT_ROUNDOFF_F64;
+
 /// Products of two `f64` from here on lose nothing of `f64`'s range to rounding: their last digit is worth at least
 /// 2⁻¹⁰⁶ of them, and this is 2¹⁰⁶ of the smallest number, 2⁻¹⁰⁷⁴.
 pub const WHOLE_PRODUCT: f64 = f64::from_bits((1023 - 968) << 52);

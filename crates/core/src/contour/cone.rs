@@ -1,0 +1,127 @@
+//! Which cone of directions does a flat-faced blocker hide, as seen past a lamp's plane?
+
+use glam::DVec3;
+
+use super::blocker::Solid;
+use super::lamp::{Flat, unit};
+use super::place::rounding;
+use super::view::View;
+use crate::numeric::UNIT_ROUNDOFF_F64;
+
+/// The directions on the side of every plane.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cone {
+    planes: [DVec3; 8],
+    count: usize,
+}
+
+impl Cone {
+    pub(super) const EVERYTHING: Self = Self { planes: [DVec3::ZERO; 8], count: 0 };
+
+    /// Unit normals of planes through the eye.
+    pub(super) fn planes(&self) -> &[DVec3] {
+        &self.planes[..self.count]
+    }
+
+    fn push(&mut self, plane: DVec3) {
+        self.planes[self.count] = plane;
+        self.count += 1;
+    }
+
+    /// Adds a plane with a normal of any length but zero.
+    pub(super) fn push_any(&mut self, normal: DVec3) {
+        if let Some(plane) = unit(normal) {
+            self.push(plane);
+        }
+    }
+
+    /// Adds the plane through an edge as seen from the eye, the cone to the left of it; none where the eye looks along the edge.
+    fn push_edge(&mut self, from: DVec3, to: DVec3) {
+        let plane = from.cross(to - from);
+        // Three roundings in each coordinate of the product.
+        let certain = 3.0 * UNIT_ROUNDOFF_F64 * from.length() * (to - from).length();
+        if plane.length() > certain
+            && let Some(plane) = unit(plane)
+        {
+            self.push(plane);
+        }
+    }
+
+    /// The cone of a flat polygon in front of the eye; `None` where it is seen edge-on.
+    pub(super) fn of_polygon(eye: DVec3, flat: &Flat) -> Option<Self> {
+        let corners = flat.corners();
+        let towards = flat.normal.dot(corners[0] - eye);
+        if !(towards.abs() > rounding(corners[0], eye)) {
+            return None;
+        }
+        let mut cone = Self::EVERYTHING;
+        for (i, corner) in corners.iter().enumerate() {
+            let [a, b] = [*corner - eye, corners[(i + 1) % corners.len()] - eye];
+            if towards > 0.0 { cone.push_edge(a, b) } else { cone.push_edge(b, a) }
+        }
+        Some(cone)
+    }
+
+    /// That part of it that a flat lamp does not lie in front of; `None` where nothing is left.
+    pub(super) fn before_lamp(mut self, eye: DVec3, flat: &Flat, view: &View) -> Option<Self> {
+        let heights = Heights::of(eye, flat.corners(), view);
+        if heights.are_beyond() {
+            return None;
+        }
+        if !heights.are_in_front() {
+            // Where N·x = h and the lamp's plane L·x = H: on the near side of their common line.
+            let own = flat.normal.dot(flat.corners()[0] - eye);
+            let plane = (flat.normal * view.height - view.away * own) * own.signum();
+            self.push(unit(plane)?);
+        }
+        Some(self)
+    }
+
+    /// The cone of a convex solid that does not hold the eye: between faces that look at it and faces that look away.
+    pub(super) fn of_solid(eye: DVec3, solid: &Solid) -> Self {
+        let mut cone = Self::EVERYTHING;
+        let looks = |face: usize| looks_at(eye, &solid.faces[face]);
+        for edge in &solid.edges {
+            let [first, second] = edge.faces.map(looks);
+            if first != second {
+                let [a, b] = [edge.from - eye, edge.to - eye];
+                if second { cone.push_edge(a, b) } else { cone.push_edge(b, a) }
+            }
+        }
+        cone
+    }
+}
+
+/// Whether the outer side of a face is seen from the eye, beyond rounding.
+pub(super) fn looks_at(eye: DVec3, face: &Flat) -> bool {
+    let corner = face.corners()[0];
+    face.normal.dot(eye - corner) > rounding(corner, eye)
+}
+
+/// How corners lie to a lamp's plane; within rounding they lie in it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Heights {
+    least: f64,
+    most: f64,
+}
+
+impl Heights {
+    pub(super) fn of(eye: DVec3, corners: &[DVec3], view: &View) -> Self {
+        let mut heights = Self { least: 0.0, most: 0.0 };
+        for corner in corners {
+            let height = view.height - view.away.dot(*corner - eye);
+            if height.abs() > rounding(*corner, eye) {
+                heights = Self { least: heights.least.min(height), most: heights.most.max(height) };
+            }
+        }
+        heights
+    }
+
+    pub(super) fn are_in_front(self) -> bool {
+        self.least >= 0.0
+    }
+
+    pub(super) fn are_beyond(self) -> bool {
+        self.most <= 0.0
+    }
+}

@@ -1,0 +1,153 @@
+//! What shines: the outlines of constant radiance that have a contour.
+
+use glam::DVec3;
+
+use crate::{Shape, TriangleMesh};
+
+/// A surface that shines alike everywhere and in all directions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lamp {
+    pub(super) outline: Outline,
+    pub(super) two_sided: bool,
+}
+
+/// The outline of a lamp.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Outline {
+    /// Convex and flat.
+    Polygon(Flat),
+    /// Flat and round.
+    Disk(Round),
+    /// Shines outwards.
+    Sphere { center: DVec3, radius: f64 },
+}
+
+/// A flat convex polygon with three or four corners.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Flat {
+    corners: [DVec3; 4],
+    count: usize,
+    /// Unit normal; the corners run counter-clockwise as seen from where it points to.
+    pub normal: DVec3,
+}
+
+impl Flat {
+    /// `None` for a polygon without area.
+    pub(super) fn new(corners: &[DVec3]) -> Option<Self> {
+        let (&[a, b, c], rest) = corners.split_first_chunk()?;
+        let last = *rest.first().unwrap_or(&c);
+        // Of a quadrilateral the diagonals, so that each corner has its say.
+        let area = if rest.is_empty() { (b - a).cross(c - a) } else { (c - a).cross(last - b) };
+        Some(Self { corners: [a, b, c, last], count: 3 + rest.len().min(1), normal: unit(area)? })
+    }
+
+    #[inline]
+    pub(super) fn corners(&self) -> &[DVec3] {
+        &self.corners[..self.count]
+    }
+}
+
+/// The direction of a vector of almost any length; `None` for zero and what is not finite.
+pub(super) fn unit(v: DVec3) -> Option<DVec3> {
+    let largest = v.abs().max_element();
+    if largest > 0.0 && largest.is_finite() { Some((v / largest).normalize()) } else { None }
+}
+
+/// A flat disk.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Round {
+    pub center: DVec3,
+    /// Unit normal.
+    pub normal: DVec3,
+    pub radius: f64,
+}
+
+impl Lamp {
+    fn one_sided(outline: Outline) -> Self {
+        Self { outline, two_sided: false }
+    }
+
+    /// A flat convex polygon with three or four corners, counter-clockwise as seen from the lit side. `None` for another
+    /// number of corners or no area.
+    #[must_use]
+    pub fn polygon(corners: &[DVec3]) -> Option<Self> {
+        if corners.len() > 4 {
+            return None;
+        }
+        Flat::new(corners).map(|flat| Self::one_sided(Outline::Polygon(flat)))
+    }
+
+    /// A disk that is lit on the side its normal (of any length) points to. `None` without a normal or a positive radius.
+    #[must_use]
+    pub fn disk(center: DVec3, normal: DVec3, radius: f64) -> Option<Self> {
+        let normal = unit(normal)?;
+        (radius > 0.0).then(|| Self::one_sided(Outline::Disk(Round { center, normal, radius })))
+    }
+
+    /// A sphere that shines outwards. `None` without a positive radius.
+    #[must_use]
+    pub fn sphere(center: DVec3, radius: f64) -> Option<Self> {
+        (radius > 0.0).then(|| Self::one_sided(Outline::Sphere { center, radius }))
+    }
+
+    /// The same lamp, lit on both sides or on one. Makes no difference to a sphere.
+    #[must_use]
+    pub fn with_two_sides(self, two_sided: bool) -> Self {
+        Self { two_sided, ..self }
+    }
+
+    /// A facet of a shape as a lamp: a face of a box or tetrahedron, lit outwards, a triangle of a mesh, or the whole of any
+    /// other shape as facet 0, lit where its normal points to. `None` for a plane, a facet that the shape does not have and
+    /// one without area.
+    #[must_use]
+    pub fn of(shape: &Shape, facet: u32) -> Option<Self> {
+        match shape {
+            Shape::Mesh(mesh) if (facet as usize) < mesh.triangles().triangles().len() => {
+                Self::polygon(&triangle(mesh.triangles(), facet).map(|p| mesh.placement().point(p)))
+            }
+            Shape::Cuboid(_) => super::blocker::box_face(shape, facet).and_then(|face| Self::polygon(&face)),
+            Shape::Tetrahedron(solid) if facet < 4 => Self::polygon(&solid.face(facet)),
+            _ if facet > 0 => None,
+            Shape::Rectangle(flat) => {
+                let (corner, [u, v]) = (flat.corner(), flat.edges());
+                Self::polygon(&[corner, corner + u, corner + u + v, corner + v])
+            }
+            Shape::Triangle(flat) => Self::polygon(&flat.corners()),
+            Shape::Disk(disk) => Self::disk(disk.center(), disk.normal(), disk.radius()),
+            Shape::Sphere(ball) => Self::sphere(ball.center(), ball.radius()),
+            Shape::Plane(_) | Shape::Mesh(_) | Shape::Tetrahedron(_) => None,
+        }
+    }
+
+    /// How many facets of a shape [`of`](Self::of) knows: 6 of a box, 4 of a tetrahedron, one for each triangle of a mesh, none
+    /// of a plane, 1 of any other shape.
+    #[must_use]
+    pub fn facets(shape: &Shape) -> u32 {
+        match shape {
+            Shape::Plane(_) => 0,
+            Shape::Cuboid(_) => 6,
+            Shape::Tetrahedron(_) => 4,
+            Shape::Mesh(mesh) => u32::try_from(mesh.triangles().triangles().len()).unwrap_or(u32::MAX),
+            Shape::Rectangle(_) | Shape::Triangle(_) | Shape::Disk(_) | Shape::Sphere(_) => 1,
+        }
+    }
+
+    /// Area of the sides that shine, square metres.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        use std::f64::consts::PI;
+        let one_side = match &self.outline {
+            Outline::Polygon(flat) => {
+                let c = flat.corners();
+                (2..c.len()).map(|i| (c[i - 1] - c[0]).cross(c[i] - c[0]).length() / 2.0).sum()
+            }
+            Outline::Disk(disk) => PI * disk.radius * disk.radius,
+            Outline::Sphere { radius, .. } => return 4.0 * PI * radius * radius,
+        };
+        if self.two_sided { 2.0 * one_side } else { one_side }
+    }
+}
+
+fn triangle(mesh: &TriangleMesh, number: u32) -> [DVec3; 3] {
+    mesh.corners(number)
+}
