@@ -82,7 +82,7 @@ impl Kind {
 }
 
 /// A ball round corners, about the middle of their box. Its radius is rounded up.
-fn ball_round(corners: &[DVec3]) -> (DVec3, f64) {
+pub(super) fn ball_round(corners: &[DVec3]) -> (DVec3, f64) {
     let bounds = Aabb::of(corners.iter().copied());
     let middle = bounds.min + (bounds.max - bounds.min) / 2.0;
     let reach = corners.iter().map(|corner| corner.distance(middle)).fold(0.0, f64::max);

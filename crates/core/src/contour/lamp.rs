@@ -7,13 +7,13 @@ use crate::{Shape, TriangleMesh};
 /// A surface that shines alike everywhere and in all directions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lamp {
-    pub(super) outline: Outline,
+    pub(crate) outline: Outline,
     pub(super) two_sided: bool,
 }
 
 /// The outline of a lamp.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Outline {
+pub(crate) enum Outline {
     /// Convex and flat.
     Polygon(Flat),
     /// Flat and round.
@@ -24,7 +24,7 @@ pub(super) enum Outline {
 
 /// A flat convex polygon with three or four corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Flat {
+pub(crate) struct Flat {
     corners: [DVec3; 4],
     count: usize,
     /// Unit normal; the corners run counter-clockwise as seen from where it points to.
@@ -42,7 +42,7 @@ impl Flat {
     }
 
     #[inline]
-    pub(super) fn corners(&self) -> &[DVec3] {
+    pub(crate) fn corners(&self) -> &[DVec3] {
         &self.corners[..self.count]
     }
 }
@@ -55,7 +55,7 @@ pub(super) fn unit(v: DVec3) -> Option<DVec3> {
 
 /// A flat disk.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Round {
+pub(crate) struct Round {
     pub center: DVec3,
     /// Unit normal.
     pub normal: DVec3,
@@ -129,6 +129,36 @@ impl Lamp {
             Shape::Tetrahedron(_) => 4,
             Shape::Mesh(mesh) => u32::try_from(mesh.triangles().triangles().len()).unwrap_or(u32::MAX),
             Shape::Rectangle(_) | Shape::Triangle(_) | Shape::Disk(_) | Shape::Sphere(_) => 1,
+        }
+    }
+
+    /// Middle and radius of a ball round it.
+    #[must_use]
+    pub fn ball(&self) -> (DVec3, f64) {
+        match &self.outline {
+            Outline::Polygon(flat) => super::blocker::ball_round(flat.corners()),
+            Outline::Disk(disk) => (disk.center, disk.radius),
+            Outline::Sphere { center, radius } => (*center, *radius),
+        }
+    }
+
+    /// A point of a flat lamp that shines to one side, and its unit normal there.
+    #[must_use]
+    pub fn lit_side(&self) -> Option<(DVec3, DVec3)> {
+        match &self.outline {
+            _ if self.two_sided => None,
+            Outline::Polygon(flat) => Some((flat.corners()[0], flat.normal)),
+            Outline::Disk(disk) => Some((disk.center, disk.normal)),
+            Outline::Sphere { .. } => None,
+        }
+    }
+
+    /// The corners of a flat lamp with straight edges, counter-clockwise as seen from its lit side, and its unit normal there.
+    #[must_use]
+    pub fn corners(&self) -> Option<(&[DVec3], DVec3)> {
+        match &self.outline {
+            Outline::Polygon(flat) => Some((flat.corners(), flat.normal)),
+            _ => None,
         }
     }
 

@@ -29,6 +29,7 @@ use glam::DVec3;
 
 pub use blocker::Blocker;
 pub use lamp::Lamp;
+pub(crate) use lamp::Outline;
 
 use polygon::{Corner, Pieces};
 use round::Curves;
