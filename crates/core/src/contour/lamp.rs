@@ -153,6 +153,12 @@ impl Lamp {
         }
     }
 
+    /// Whether the side that a point is on is lit.
+    #[must_use]
+    pub fn is_lit_at(&self, point: DVec3) -> bool {
+        self.lit_side().is_none_or(|(on, normal)| normal.dot(point - on) > 0.0)
+    }
+
     /// The corners of a flat lamp with straight edges, counter-clockwise as seen from its lit side, and its unit normal there.
     #[must_use]
     pub fn corners(&self) -> Option<(&[DVec3], DVec3)> {

@@ -31,7 +31,7 @@ impl TilePlan {
     pub(crate) fn start(&mut self, snapshot: &Snapshot) {
         let lights = snapshot.light_rows().len();
         self.occluders.resize_with(lights, Candidates::default);
-        self.lamps.resize_with(snapshot.lamps().rows.len(), LampPlan::default);
+        self.lamps.resize_with(snapshot.lamps().asked().len(), LampPlan::default);
         self.reached.clear();
         self.reached.extend(0..lights);
         self.dark.clear();
@@ -53,7 +53,7 @@ impl TilePlan {
                 occluders.all(snapshot.columns());
             }
         }
-        for (plan, lamp) in self.lamps.iter_mut().zip(&snapshot.lamps().rows) {
+        for (plan, lamp) in self.lamps.iter_mut().zip(snapshot.lamps().asked()) {
             plan.plan(planner, lamp, points);
         }
     }

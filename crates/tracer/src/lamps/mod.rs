@@ -7,4 +7,4 @@ mod rays;
 
 pub(crate) use gather::{Gathered, LitPoint, gather};
 pub(crate) use lanes::{BallOutline, Outline};
-pub(crate) use rays::{Drawn, LampRay, LampRays, follow};
+pub(crate) use rays::{Drawn, LampRay, LampRays, follow, follow_picked, picked};

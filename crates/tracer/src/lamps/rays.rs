@@ -6,13 +6,12 @@ use catoptra_core::{Lobes, Ray, Rgb, ShadingPoint, Span, Triple};
 
 use super::{Gathered, LitPoint};
 use crate::sampler::{Sampler, share};
-use crate::snapshot::LampRow;
+use crate::snapshot::{LampRow, LampTree, Lamps};
 
 /// Rays from a point to a lamp.
 pub(crate) struct LampRays {
     points: Option<LampPoints>,
-    from: DVec3,
-    normal: DVec3,
+    at: LitPoint,
     sampler: Sampler<u32>,
     /// Number of the first in the point's sequence.
     first: u32,
@@ -55,14 +54,28 @@ const FIRST_PAIR: u32 = 64;
 /// How far apart the pairs of two depths lie: more lamps than this share some.
 const PAIRS_PER_DEPTH: u32 = 1 << 16;
 
+impl LampRay {
+    fn new(at: &LitPoint, LampPoint { to, end, solid }: LampPoint) -> Self {
+        let direction = to.normalize_or_zero();
+        let cosine = direction.dot(at.normal);
+        Self {
+            ray: Ray::new(at.point, to),
+            span: Span::until(end),
+            direction,
+            cosine,
+            share: cosine.max(0.0) * solid,
+            solid,
+        }
+    }
+}
+
 impl LampRays {
     /// As many as `count` from a point to the lamp of a number.
     pub(crate) fn new(lamp: &LampRow, number: usize, at: &LitPoint, drawn: &Drawn, count: u32) -> Self {
         let pair = (number as u32).wrapping_add(drawn.depth.wrapping_mul(PAIRS_PER_DEPTH));
         Self {
             points: LampPoints::new(&lamp.outline, at.point, at.normal),
-            from: at.point,
-            normal: at.normal,
+            at: *at,
             sampler: drawn.sampler,
             first: drawn.sample.wrapping_mul(count),
             pair: pair.wrapping_add(FIRST_PAIR),
@@ -75,23 +88,73 @@ impl LampRays {
         let all = (0..self.count).map(|k| {
             let shares = self.sampler.pair(self.first.wrapping_add(k), self.pair).map(share);
             let nothing = LampPoint { to: DVec3::ZERO, end: 0.0, solid: 0.0 };
-            let LampPoint { to, end, solid } = match &self.points {
-                Some(points) => points.point(shares),
-                None => nothing,
-            };
-            let direction = to.normalize_or_zero();
-            let cosine = direction.dot(self.normal);
-            LampRay {
-                ray: Ray::new(self.from, to),
-                span: Span::until(end),
-                direction,
-                cosine,
-                share: cosine.max(0.0) * solid,
-                solid,
-            }
+            LampRay::new(&self.at, self.points.as_ref().map_or(nothing, |points| points.point(shares)))
         });
         all.filter(|ray| ray.cosine > 0.0)
     }
+}
+
+/// A ray to a lamp that was picked from many.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PickedRay<'a> {
+    pub(crate) lamp: &'a LampRow,
+    /// What it brings is a share of what all lamps bring.
+    pub(crate) ray: LampRay,
+}
+
+/// Rays from a point to `count` lamps that a tree picks.
+pub(crate) fn picked<'a>(
+    lamps: &'a Lamps,
+    tree: &'a LampTree,
+    at: &LitPoint,
+    origin: DVec3,
+    drawn: &Drawn,
+    count: u32,
+) -> impl Iterator<Item = PickedRay<'a>> {
+    let (at, drawn) = (*at, *drawn);
+    let pair = drawn.depth.wrapping_mul(PAIRS_PER_DEPTH).wrapping_add(FIRST_PAIR);
+    (0..count).filter_map(move |k| {
+        let number = drawn.sample.wrapping_mul(count).wrapping_add(k);
+        let [pick, _] = drawn.sampler.pair(number, pair).map(share);
+        let (lamp, chance) = tree.pick(at.point - origin, pick)?;
+        let lamp = &lamps.rows[lamp as usize];
+        let shares = drawn.sampler.pair(number, pair.wrapping_add(1)).map(share);
+        let points = LampPoints::new(&lamp.outline, at.point, at.normal)?;
+        let ray = LampRay::new(&at, points.point(shares));
+        let times = 1.0 / (chance * f64::from(count));
+        let ray = LampRay { share: ray.share * times, solid: ray.solid * times, ..ray };
+        (lamp.outline.is_lit_at(at.point) && ray.cosine > 0.0).then_some(PickedRay { lamp, ray })
+    })
+}
+
+/// Light from many lamps at a point.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shone {
+    /// W/m².
+    pub(crate) irradiance: Rgb,
+    /// What glossy lobes show.
+    pub(crate) glossy: Rgb,
+}
+
+/// What picked rays bring.
+pub(crate) fn follow_picked<'a>(
+    rays: impl Iterator<Item = PickedRay<'a>>,
+    at: &ShadingPoint<f64>,
+    lobes: &Lobes<f64>,
+    mut is_blocked: impl FnMut(&PickedRay<'a>) -> bool,
+) -> Shone {
+    let mut shone = Shone { irradiance: Rgb::BLACK, glossy: Rgb::BLACK };
+    for picked in rays {
+        if is_blocked(&picked) {
+            continue;
+        }
+        let PickedRay { lamp, ray } = picked;
+        shone.irradiance += lamp.radiance.rgb() * ray.share;
+        if let Some(glossy) = lobes.glossy(at, ray.direction.into(), ray.cosine) {
+            shone.glossy += Rgb::new(glossy.x, glossy.y, glossy.z) * lamp.radiance.rgb() * ray.solid;
+        }
+    }
+    shone
 }
 
 /// What rays to a lamp of unit radiance find: how much of it is seen, and what glossy lobes show of that.

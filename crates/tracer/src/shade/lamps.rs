@@ -3,17 +3,19 @@
 
 use catoptra_core::contour::Scratch;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Lane, LaneMask, Rgb, ShadingPoint, Shape};
+use catoptra_core::{Lane, LaneMask, Material, Ray, Rgb, ShadingPoint, Shape};
 use fearless_simd::Simd;
 
 use super::Shader;
-use crate::lamps::{BallOutline, Drawn, Gathered, LampRays, LitPoint, Outline, follow, gather};
-use crate::lanes::{D3, F, F3, M, narrow3, outlined, splat_wide};
+use crate::lamps::{
+    BallOutline, Drawn, Gathered, LampRay, LampRays, LitPoint, Outline, follow, follow_picked, gather, picked,
+};
+use crate::lanes::{D3, F, F3, M, U, narrow3, outlined, splat_wide, widen3};
 use crate::numeric::{CUT_MARGIN, SMALL_LAMP};
 use crate::rays::RayList;
 use crate::sampler::Sampler;
 use crate::search::Refined;
-use crate::snapshot::{FlatLamp, LampRow};
+use crate::snapshot::{FlatLamp, LampRow, LampTree};
 use crate::stream::Batch;
 use crate::{SurfaceId, Tile};
 
@@ -21,7 +23,7 @@ use crate::{SurfaceId, Tile};
 #[derive(Default)]
 pub(crate) struct LampRoom {
     scratch: Scratch,
-    /// Rays to a lamp, whether each is blocked, and how many each point has.
+    /// Rays from a point to lamps, and whether each is blocked.
     rays: RayList,
     blocked: Vec<bool>,
 }
@@ -30,54 +32,71 @@ pub(crate) struct LampRoom {
 struct LitPacket<S: Simd> {
     slot: usize,
     depth: u32,
+    /// Places of its pixels in the tile's columns.
+    pixels: U<S>,
     /// In `f64`, relative to the snapshot's origin.
     refined: Refined<S>,
 }
 
-impl<S: Simd> Shader<'_, S> {
+impl<'a, S: Simd> Shader<'a, S> {
     /// Adds what lamps contribute to the first packets of the chunk.
     #[inline(always)]
     pub(crate) fn add_lamps(&mut self, batch: &impl Batch<S>, count: usize, tile: &Tile, depth: u32) {
-        if self.plan.lamps.is_empty() {
+        if self.search.snapshot.lamps().rows.is_empty() {
             return;
         }
         for slot in 0..count {
-            if self.chunk.lit[slot].any() {
-                outlined(
-                    self.s,
-                    #[inline(always)]
-                    || self.add_lamps_to(batch, slot, tile, depth),
-                );
+            let lit = self.chunk.lit[slot];
+            if !lit.any() {
+                continue;
             }
+            let (packet, best) = (self.packet_of(batch, slot), self.chunk.best[slot]);
+            let pixels = batch.pixels(self.s, packet.at);
+            let refined = self.search.refine_every(&packet, &best, lit);
+            let at = LitPacket { slot, depth, pixels, refined };
+            self.light_packet(&at, tile);
         }
     }
 
-    /// Adds what every lamp contributes to a packet.
+    /// Adds what every lamp contributes to a packet, wherever that comes from.
     #[inline(always)]
-    fn add_lamps_to(&mut self, batch: &impl Batch<S>, slot: usize, tile: &Tile, depth: u32) {
-        let (packet, best) = (self.packet_of(batch, slot), self.chunk.best[slot]);
-        let lit = self.chunk.lit[slot];
-        let at = LitPacket { slot, depth, refined: self.search.refine_every(&packet, &best, lit) };
-        for number in 0..self.plan.lamps.len() {
-            if !self.plan.lamps[number].reached {
-                self.search.stats.lamps.facing_away += lit.count();
-                continue;
-            }
-            let lamp = &self.search.snapshot.lamps().rows[number];
-            let (mut seen, mut answered) = (F::splat(self.s, 0.0), M::splat(self.s, false));
-            if let Some(flat) = &lamp.flat
-                && !self.chunk.glossy[slot]
-            {
-                (seen, answered) = self.seen_of_flat(&at, lamp, flat, number);
-            }
-            for lane in (lit & !answered).lanes() {
-                let pixel = batch.pixels(self.s, self.chunk.at[slot]).lane(lane);
-                let irradiance = self.seen_in_lane(&at, lane, lamp, number, tile.place_of(pixel as usize));
-                seen.set(lane, irradiance as f32);
-            }
-            let radiance = F3::of(seen, &lamp.radiance);
-            self.chunk.irradiance[slot] = radiance.scale_add(seen, self.chunk.irradiance[slot]);
+    fn light_packet(&mut self, at: &LitPacket<S>, tile: &Tile) {
+        outlined(
+            self.s,
+            #[inline(always)]
+            || {
+                if let Some(tree) = &self.search.snapshot.lamps().tree {
+                    for lane in self.chunk.lit[at.slot].lanes() {
+                        self.add_picked(at, lane, tree, tile);
+                    }
+                }
+                for number in 0..self.plan.lamps.len() {
+                    self.add_lamp(at, number, tile);
+                }
+            },
+        );
+    }
+
+    /// Adds what a lamp contributes to a packet.
+    #[inline(always)]
+    fn add_lamp(&mut self, at: &LitPacket<S>, number: usize, tile: &Tile) {
+        let lit = self.chunk.lit[at.slot];
+        if !self.plan.lamps[number].reached {
+            self.search.stats.lamps.facing_away += lit.count();
+            return;
         }
+        let lamp = &self.search.snapshot.lamps().rows[number];
+        let (mut seen, mut answered) = (F::splat(self.s, 0.0), M::splat(self.s, false));
+        if let Some(flat) = &lamp.flat
+            && !self.chunk.glossy[at.slot]
+        {
+            (seen, answered) = self.seen_of_flat(at, lamp, flat, number);
+        }
+        for lane in (lit & !answered).lanes() {
+            seen.set(lane, self.seen_in_lane(at, lane, lamp, number, tile) as f32);
+        }
+        let radiance = F3::of(seen, &lamp.radiance);
+        self.chunk.irradiance[at.slot] = radiance.scale_add(seen, self.chunk.irradiance[at.slot]);
     }
 
     /// What a packet sees of a flat lamp with straight edges under unit radiance, and the lanes for which that is known.
@@ -154,6 +173,35 @@ impl<S: Simd> Shader<'_, S> {
         (seen, answered)
     }
 
+    /// A point of a packet, in `f64`.
+    fn point_in_lane(&self, at: &LitPacket<S>, lane: usize, tile: &Tile) -> LanePoint<'a> {
+        let (snapshot, slot) = (self.search.snapshot, at.slot);
+        let vector = |v: D3<S>| DVec3::new(v.x.lane(lane), v.y.lane(lane), v.z.lane(lane));
+        let front = self.chunk.front[slot].bits() >> lane & 1 == 1;
+        let best = &self.chunk.best[slot];
+        let surface = SurfaceId { prim: best.prim.lane(lane), facet: best.facet.lane(lane) };
+        let position = vector(at.refined.point);
+        let normal = vector(at.refined.shading) * if front { 1.0 } else { -1.0 };
+        let to_viewer = vector(widen3(self.chunk.to_viewer[slot]));
+        let [x, y] = tile.place_of(at.pixels.lane(lane) as usize);
+        LanePoint {
+            lit: LitPoint { point: position + snapshot.origin_in_frame(), normal, surface: Some(surface) },
+            shading: ShadingPoint {
+                position: position.into(),
+                normal: normal.into(),
+                to_viewer: to_viewer.into(),
+                distance: f64::from(best.t.lane(lane)),
+                front,
+            },
+            material: &snapshot.materials()[snapshot.prims()[surface.prim as usize].material as usize],
+            drawn: Drawn {
+                sampler: Sampler::new(self.view.seed, x, y),
+                sample: self.sample,
+                depth: at.depth,
+            },
+        }
+    }
+
     /// What a point sees of a lamp under unit radiance; adds what its glossy lobes show to the packet's.
     fn seen_in_lane(
         &mut self,
@@ -161,90 +209,91 @@ impl<S: Simd> Shader<'_, S> {
         lane: usize,
         lamp: &LampRow,
         number: usize,
-        pixel: [u32; 2],
+        tile: &Tile,
     ) -> f64 {
         let snapshot = self.search.snapshot;
-        let slot = at.slot;
-        let vector = |v: D3<S>| DVec3::new(v.x.lane(lane), v.y.lane(lane), v.z.lane(lane));
-        let front = self.chunk.front[slot].bits() >> lane & 1 == 1;
-        let side = if front { 1.0 } else { -1.0 };
-        let best = self.chunk.best[slot];
-        let surface = SurfaceId { prim: best.prim.lane(lane), facet: best.facet.lane(lane) };
-        let position = vector(at.refined.point);
-        let lit = LitPoint {
-            point: position + snapshot.origin_in_frame(),
-            normal: vector(at.refined.shading) * side,
-            surface: Some(surface),
-        };
-        let blockers = self.plan.lamps[number].blockers.iter().copied();
-        let gathered =
-            gather(snapshot, lamp, blockers, &lit, &mut self.lamp_room.scratch, &mut self.search.stats.lamps);
-        let material = &snapshot.materials()[snapshot.prims()[surface.prim as usize].material as usize];
-        let glossy = self.chunk.glossy[slot] && gathered != Gathered::Exactly(0.0);
+        let here = self.point_in_lane(at, lane, tile);
+        let blockers = &self.plan.lamps[number].blockers;
+        let open = !lamp.shadow || blockers.is_empty();
+        let (scratch, stats) = (&mut self.lamp_room.scratch, &mut self.search.stats.lamps);
+        let gathered = gather(snapshot, lamp, blockers.iter().copied(), &here.lit, scratch, stats);
+        let glossy = self.chunk.glossy[at.slot] && gathered != Gathered::Exactly(0.0);
         if let (Gathered::Exactly(seen), false) = (gathered, glossy) {
             return seen;
         }
-        let drawn = Drawn {
-            sampler: Sampler::new(self.view.seed, pixel[0], pixel[1]),
-            sample: self.sample,
-            depth: at.depth,
-        };
-        let rays = LampRays::new(lamp, number, &lit, &drawn, self.view.lamp_rays);
-        let open = !lamp.shadow || self.plan.lamps[number].blockers.is_empty();
+        let rays = LampRays::new(lamp, number, &here.lit, &here.drawn, self.view.lamp_rays);
         if !open {
-            self.trace_to_lamp(&rays, surface);
+            self.trace_to_lamps(rays.above(), here.lit.surface);
         }
-        let to_viewer = self.chunk.to_viewer[slot];
-        let viewer = DVec3::new(
-            f64::from(to_viewer.x.lane(lane)),
-            f64::from(to_viewer.y.lane(lane)),
-            f64::from(to_viewer.z.lane(lane)),
-        );
-        let point = ShadingPoint {
-            position: position.into(),
-            normal: lit.normal.into(),
-            to_viewer: viewer.into(),
-            distance: f64::from(best.t.lane(lane)),
-            front,
-        };
-        let mut at_ray = 0;
-        let blocked = &self.lamp_room.blocked;
-        let (found, shown) = follow(&rays, &point, &material.lobes(&point), |_| {
-            at_ray += 1;
-            !open && blocked[at_ray - 1]
-        });
+        let mut blocked = self.lamp_room.blocked.iter();
+        let lobes = here.material.lobes(&here.shading);
+        let (found, shown) = follow(&rays, &here.shading, &lobes, |_| !open && blocked.next() == Some(&true));
         if glossy {
-            self.add_glossy(slot, lane, shown * lamp.radiance.rgb());
+            self.add_glossy(at.slot, lane, shown * lamp.radiance.rgb());
         }
         found.of(gathered)
     }
 
-    /// Finds out which rays to a lamp are blocked, of those above the surface.
-    fn trace_to_lamp(&mut self, rays: &LampRays, surface: SurfaceId) {
+    /// Adds what lamps that a tree picks contribute to a point.
+    fn add_picked(&mut self, at: &LitPacket<S>, lane: usize, tree: &LampTree, tile: &Tile) {
+        let snapshot = self.search.snapshot;
+        let here = self.point_in_lane(at, lane, tile);
+        self.search.stats.lamps.sampled += 1;
+        let (origin, count) = (snapshot.origin_in_frame(), self.view.lamp_rays);
+        let rays = || picked(snapshot.lamps(), tree, &here.lit, origin, &here.drawn, count);
+        self.trace_to_lamps(rays().filter(|ray| ray.lamp.shadow).map(|ray| ray.ray), here.lit.surface);
+        let mut blocked = self.lamp_room.blocked.iter();
+        let lobes = here.material.lobes(&here.shading);
+        let shone = follow_picked(rays(), &here.shading, &lobes, |ray| {
+            ray.lamp.shadow && blocked.next() == Some(&true)
+        });
+        let irradiance = &mut self.chunk.irradiance[at.slot];
+        add_in_lane(irradiance, lane, shone.irradiance);
+        if self.chunk.glossy[at.slot] {
+            self.add_glossy(at.slot, lane, shone.glossy);
+        }
+    }
+
+    /// Finds out which rays to lamps are blocked.
+    fn trace_to_lamps(&mut self, rays: impl Iterator<Item = LampRay>, surface: Option<SurfaceId>) {
         let frame = self.search.snapshot.frame();
         let room = &mut *self.lamp_room;
         room.rays.clear();
-        for lamp_ray in rays.above() {
-            let ray = catoptra_core::Ray::new(lamp_ray.ray.origin + frame, lamp_ray.ray.direction);
-            room.rays.push(&ray, [0.0, lamp_ray.span.max], Some(surface));
+        for LampRay { ray, span, .. } in rays {
+            room.rays.push(&Ray::new(ray.origin + frame, ray.direction), [0.0, span.max], surface);
         }
+        self.find_blocked();
+    }
+
+    /// Finds out which rays in the room are blocked.
+    fn find_blocked(&mut self) {
+        let room = &mut *self.lamp_room;
         room.blocked.clear();
         room.blocked.resize(room.rays.len().next_multiple_of(F::<S>::LANES), false);
         self.search.stats.rays.lamp += room.rays.len() as u64;
-        let (search, s) = (&mut self.search, self.s);
+        let search = &mut self.search;
         outlined(
-            s,
+            self.s,
             #[inline(always)]
             || search.occluded_rays(room.rays.as_slice(), &mut room.blocked),
         );
     }
 
     fn add_glossy(&mut self, slot: usize, lane: usize, light: Rgb) {
-        let specular = &mut self.chunk.specular[slot];
-        for (channel, light) in
-            [&mut specular.x, &mut specular.y, &mut specular.z].into_iter().zip(light.to_array())
-        {
-            channel.set(lane, channel.lane(lane) + light as f32);
-        }
+        add_in_lane(&mut self.chunk.specular[slot], lane, light);
+    }
+}
+
+/// A point of a packet, in `f64`.
+struct LanePoint<'a> {
+    lit: LitPoint,
+    shading: ShadingPoint<f64>,
+    material: &'a Material,
+    drawn: Drawn,
+}
+
+fn add_in_lane<S: Simd>(sum: &mut F3<S>, lane: usize, light: Rgb) {
+    for (channel, light) in [&mut sum.x, &mut sum.y, &mut sum.z].into_iter().zip(light.to_array()) {
+        channel.set(lane, channel.lane(lane) + light as f32);
     }
 }

@@ -4,6 +4,7 @@ use catoptra_core::contour::{self, Blocker};
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Constant3, Emission, Lamp, Shape};
 
+use super::lamp_tree::LampTree;
 use super::{Ball, Prim};
 
 /// A surface of one outline that shines: a light, or a piece of one.
@@ -41,6 +42,9 @@ impl FlatLamp {
     }
 }
 
+/// Up to so many lamps every point asks each of them; of more it asks some, picked at random.
+pub(crate) const MOST_LAMPS: usize = 1000;
+
 /// How a material shines.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shining {
@@ -56,6 +60,8 @@ pub(crate) struct Lamps {
     /// The outlines of all shapes that may block their light, in the snapshot's frame; none of a mesh, or where there is
     /// no lamp.
     pub(crate) blockers: Vec<Option<Blocker>>,
+    /// Picks some of them, where they are too many to ask each.
+    pub(crate) tree: Option<LampTree>,
     /// Shapes that shine but light nothing, as they have no end.
     pub(crate) endless: Vec<u32>,
 }
@@ -77,10 +83,18 @@ impl Lamps {
         for lamp in unseen {
             lamps.add(&lamp.shape, Shining { emission: lamp.emission, shadow: lamp.shadow }, None, origin);
         }
-        if !lamps.rows.is_empty() {
+        if lamps.rows.len() > MOST_LAMPS {
+            let power = |row: &LampRow| (row.ball, row.radiance.rgb().luminance() * row.outline.area());
+            lamps.tree = Some(LampTree::new(&lamps.rows.iter().map(power).collect::<Vec<_>>()));
+        } else if !lamps.rows.is_empty() {
             lamps.blockers = prims.iter().map(|prim| Blocker::of(&prim.shape)).collect();
         }
         lamps
+    }
+
+    /// Those that every point asks: all, or none where they are so many that some are picked.
+    pub(crate) fn asked(&self) -> &[LampRow] {
+        if self.tree.is_some() { &[] } else { &self.rows }
     }
 
     fn add(

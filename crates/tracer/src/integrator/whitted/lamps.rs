@@ -6,7 +6,7 @@ use super::paths::rgb;
 use crate::cull::PointBounds;
 use crate::integrator::Search;
 use crate::integrator::walker::{SurfaceHit, Walker};
-use crate::lamps::{Drawn, Gathered, LampRay, LampRays, LitPoint, follow, gather};
+use crate::lamps::{Drawn, Gathered, LampRay, LampRays, LitPoint, follow, follow_picked, gather, picked};
 use crate::snapshot::LampRow;
 
 impl<S: Search> Walker<'_, S> {
@@ -18,16 +18,25 @@ impl<S: Search> Walker<'_, S> {
             normal: surface.shading.normal.into(),
             surface: Some(surface.hit.surface),
         };
+        let brdf = match lobes.diffuse {
+            Some(diffuse) => rgb(diffuse.brdf()),
+            None => Rgb::BLACK,
+        };
         let mut light = Rgb::BLACK;
-        for (number, lamp) in snapshot.lamps().rows.iter().enumerate() {
+        if let Some(tree) = &snapshot.lamps().tree {
+            self.stats.lamps.sampled += 1;
+            let (origin, count) = (snapshot.origin_in_frame(), self.frame.view.lamp_rays);
+            let rays = picked(snapshot.lamps(), tree, &at, origin, drawn, count);
+            let shone = follow_picked(rays, &surface.shading, lobes, |ray| {
+                self.is_blocked(&ray.ray, ray.lamp, surface)
+            });
+            light += shone.glossy + brdf * shone.irradiance;
+        }
+        for (number, lamp) in snapshot.lamps().asked().iter().enumerate() {
             let seen = self.gather(lamp, &at);
             if seen == Gathered::Exactly(0.0) {
                 continue;
             }
-            let brdf = match lobes.diffuse {
-                Some(diffuse) => rgb(diffuse.brdf()),
-                None => Rgb::BLACK,
-            };
             let glossy = lobes.is_glossy();
             let shown = match seen {
                 Gathered::Exactly(irradiance) if !glossy => brdf * irradiance,
