@@ -63,14 +63,6 @@ impl RayList {
         self.length == 0
     }
 
-    /// Removes all rays and keeps the room.
-    pub fn clear(&mut self) {
-        self.length = 0;
-        self.blocks.clear();
-        self.prim.clear();
-        self.facet.clear();
-    }
-
     /// Appends a ray of the world to be searched on `min <= t <= max`. It may leave a surface, which it does not meet
     /// again at its origin.
     pub fn push(&mut self, ray: &Ray, [min, max]: [f64; 2], leaving: Option<SurfaceId>) {

@@ -98,6 +98,11 @@ impl Candidates {
         self.keep(columns, |_, _| true, |_, _| true);
     }
 
+    /// Those of the given shapes.
+    pub(crate) fn among(&mut self, columns: &Columns, prims: &[u32]) {
+        self.keep(columns, |_, row| prims.contains(&row.prim), |prim, _| prims.contains(&prim));
+    }
+
     /// Keeps the shapes that a ray of some beams may meet. Where all rays stay outside all convex solids, those that
     /// leave one do not meet it again.
     pub(crate) fn reachable(&mut self, columns: &Columns, beams: &[Beam], outside: bool) {

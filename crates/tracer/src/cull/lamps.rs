@@ -1,5 +1,6 @@
 //! What a part of a picture needs to know of a lamp: whether any of it is lit by it, and what may stand between.
 
+use super::candidates::Candidates;
 use super::planner::Planner;
 use super::point_bounds::PointBounds;
 use super::shaft::Shaft;
@@ -17,6 +18,8 @@ pub(crate) struct LampPlan {
     pub(crate) reached: bool,
     /// Shapes that may stand between, by number, each once.
     pub(crate) blockers: Vec<u32>,
+    /// The same, as rays are traced among them.
+    pub(crate) among: Candidates,
 }
 
 impl LampPlan {
@@ -31,6 +34,7 @@ impl LampPlan {
         }
         if !skip.shafts {
             all_blockers(snapshot, lamp, &mut self.blockers);
+            self.among.all(snapshot.columns());
             return;
         }
         for bounds in points.iter().filter(lit) {
@@ -38,6 +42,7 @@ impl LampPlan {
         }
         self.blockers.sort_unstable();
         self.blockers.dedup();
+        self.among.among(snapshot.columns(), &self.blockers);
     }
 }
 

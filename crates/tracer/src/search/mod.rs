@@ -2,6 +2,7 @@
 
 mod closest;
 mod exact_resolver;
+mod from_point;
 mod hits;
 mod mesh;
 mod mesh_occluded;
@@ -20,6 +21,7 @@ use fearless_simd::Simd;
 use crate::kernel::mesh::Visits;
 use crate::{Snapshot, Stats};
 
+pub(crate) use from_point::FromPoint;
 pub(crate) use hits::{HitColumns, Hits};
 pub(crate) use occluded::ShadowRays;
 pub(crate) use own_segments::OwnSegments;

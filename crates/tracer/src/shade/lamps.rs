@@ -3,18 +3,18 @@
 
 use catoptra_core::contour::Scratch;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Lane, LaneMask, Material, Ray, Rgb, ShadingPoint, Shape};
+use catoptra_core::{Lane, LaneMask, Material, Rgb, ShadingPoint, Shape};
 use fearless_simd::Simd;
 
 use super::Shader;
+use crate::cull::Candidates;
 use crate::lamps::{
     BallOutline, Drawn, Gathered, LampRay, LampRays, LitPoint, Outline, follow, follow_picked, gather, picked,
 };
 use crate::lanes::{D3, F, F3, M, U, narrow3, outlined, splat_wide, widen3};
 use crate::numeric::{CUT_MARGIN, SMALL_LAMP};
-use crate::rays::RayList;
 use crate::sampler::Sampler;
-use crate::search::Refined;
+use crate::search::{FromPoint, Refined};
 use crate::snapshot::{FlatLamp, LampRow, LampTree};
 use crate::stream::Batch;
 use crate::{SurfaceId, Tile};
@@ -24,8 +24,10 @@ use crate::{SurfaceId, Tile};
 pub(crate) struct LampRoom {
     scratch: Scratch,
     /// Rays from a point to lamps, and whether each is blocked.
-    rays: RayList,
+    rays: FromPoint,
     blocked: Vec<bool>,
+    /// Every shape.
+    all: Candidates,
 }
 
 /// The points of a packet as lamps see them.
@@ -223,7 +225,8 @@ impl<'a, S: Simd> Shader<'a, S> {
         }
         let rays = LampRays::new(lamp, number, &here.lit, &here.drawn, self.view.lamp_rays);
         if !open {
-            self.trace_to_lamps(rays.above(), here.lit.surface);
+            self.aim(rays.above(), &here.lit);
+            self.trace(Some(number));
         }
         let mut blocked = self.lamp_room.blocked.iter();
         let lobes = here.material.lobes(&here.shading);
@@ -241,7 +244,9 @@ impl<'a, S: Simd> Shader<'a, S> {
         self.search.stats.lamps.sampled += 1;
         let (origin, count) = (snapshot.origin_in_frame(), self.view.lamp_rays);
         let rays = || picked(snapshot.lamps(), tree, &here.lit, origin, &here.drawn, count);
-        self.trace_to_lamps(rays().filter(|ray| ray.lamp.shadow).map(|ray| ray.ray), here.lit.surface);
+        self.aim(rays().filter(|ray| ray.lamp.shadow).map(|ray| ray.ray), &here.lit);
+        self.lamp_room.all.all(snapshot.columns());
+        self.trace(None);
         let mut blocked = self.lamp_room.blocked.iter();
         let lobes = here.material.lobes(&here.shading);
         let shone = follow_picked(rays(), &here.shading, &lobes, |ray| {
@@ -254,28 +259,28 @@ impl<'a, S: Simd> Shader<'a, S> {
         }
     }
 
-    /// Finds out which rays to lamps are blocked.
-    fn trace_to_lamps(&mut self, rays: impl Iterator<Item = LampRay>, surface: Option<SurfaceId>) {
-        let frame = self.search.snapshot.frame();
-        let room = &mut *self.lamp_room;
-        room.rays.clear();
+    /// Gathers the rays from a point to lamps that need to be traced.
+    fn aim(&mut self, rays: impl Iterator<Item = LampRay>, here: &LitPoint) {
+        let room = &mut self.lamp_room.rays;
+        room.start(here.point, self.search.snapshot.origin_in_frame(), here.surface);
         for LampRay { ray, span, .. } in rays {
-            room.rays.push(&Ray::new(ray.origin + frame, ray.direction), [0.0, span.max], surface);
+            room.push(ray.direction, span.max);
         }
-        self.find_blocked();
+        self.search.stats.rays.lamp += room.len() as u64;
     }
 
-    /// Finds out which rays in the room are blocked.
-    fn find_blocked(&mut self) {
-        let room = &mut *self.lamp_room;
-        room.blocked.clear();
-        room.blocked.resize(room.rays.len().next_multiple_of(F::<S>::LANES), false);
-        self.search.stats.rays.lamp += room.rays.len() as u64;
+    /// Finds out which of the gathered rays the blockers of a lamp block, or of those anything does.
+    fn trace(&mut self, lamp: Option<usize>) {
+        let LampRoom { rays, blocked, all, .. } = &mut *self.lamp_room;
+        let among = match lamp {
+            Some(number) => &self.plan.lamps[number].among,
+            None => all,
+        };
         let search = &mut self.search;
         outlined(
             self.s,
             #[inline(always)]
-            || search.occluded_rays(room.rays.as_slice(), &mut room.blocked),
+            || search.blocked_from(rays, among, blocked),
         );
     }
 

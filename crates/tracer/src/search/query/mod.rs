@@ -292,17 +292,6 @@ impl Answers<'_, '_> {
 }
 
 impl<S: Simd> Searcher<'_, S> {
-    /// Finds out which of some rays of the world are occluded.
-    #[inline(always)]
-    pub(crate) fn occluded_rays(&mut self, rays: RaySlice<'_>, occluded: &mut [bool]) {
-        let query = RayQuery { rays, snapshot: self.snapshot };
-        let mut answers = Answers::Occluded(occluded);
-        match single_mesh(self.snapshot) {
-            Some(mesh) => self.answer_of_mesh(&query, mesh, &mut answers),
-            None => self.answer(&query, &mut answers),
-        }
-    }
-
     #[inline(always)]
     fn answer(&mut self, query: &RayQuery<'_>, answers: &mut Answers<'_, '_>) {
         let mut candidates = Candidates::default();
