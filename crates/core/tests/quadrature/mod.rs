@@ -10,7 +10,14 @@ use catoptra_core::{Geometry, Ray, Shape, Span};
 
 /// Nodes in 0..=1 and weights of the Gauss–Legendre rule with 12 points.
 fn gauss() -> ([f64; 12], [f64; 12]) {
-    let x = [0.125233408511469, 0.367831498998180, 0.587317954286617, 0.769902674194305, 0.904117256370475, 0.981560634246719];
+    let x = [
+        0.125233408511469,
+        0.367831498998180,
+        0.587317954286617,
+        0.769902674194305,
+        0.904117256370475,
+        0.981560634246719,
+    ];
     let (mut nodes, mut weights) = ([0.0; 12], [0.0; 12]);
     for i in 0..6 {
         let mut at: f64 = x[i];
@@ -34,9 +41,20 @@ fn gauss() -> ([f64; 12], [f64; 12]) {
 /// A lamp that is swept: its place at (s, t) in 0..=1, and how the area grows.
 pub(crate) enum Swept {
     /// a + s u + t (v + s w): a rectangle, or a triangle with w = −v.
-    Flat { corner: DVec3, edges: [DVec3; 3], two_sided: bool },
-    Disk { center: DVec3, axes: [DVec3; 2], two_sided: bool },
-    Sphere { center: DVec3, radius: f64 },
+    Flat {
+        corner: DVec3,
+        edges: [DVec3; 3],
+        two_sided: bool,
+    },
+    Disk {
+        center: DVec3,
+        axes: [DVec3; 2],
+        two_sided: bool,
+    },
+    Sphere {
+        center: DVec3,
+        radius: f64,
+    },
 }
 
 impl Swept {
@@ -59,7 +77,8 @@ impl Swept {
     }
 
     pub(crate) fn lamp(&self, shape: &Shape) -> Lamp {
-        let two_sided = matches!(self, Self::Flat { two_sided: true, .. } | Self::Disk { two_sided: true, .. });
+        let two_sided =
+            matches!(self, Self::Flat { two_sided: true, .. } | Self::Disk { two_sided: true, .. });
         Lamp::of(shape, 0).unwrap().with_two_sides(two_sided)
     }
 }
@@ -370,9 +389,13 @@ impl Random {
             2 => {
                 let normal = self.unit();
                 let aside = normal.any_orthonormal_vector() * size * 0.6;
-                Disk::new(if touches { at + aside } else { at + self.vector() * size * 0.3 }, normal, size * 0.6)
-                    .unwrap()
-                    .into()
+                Disk::new(
+                    if touches { at + aside } else { at + self.vector() * size * 0.3 },
+                    normal,
+                    size * 0.6,
+                )
+                .unwrap()
+                .into()
             }
             3 => {
                 let [u, v] = self.right_angle();
@@ -396,7 +419,9 @@ impl Random {
                 }
             }
             _ => {
-                let half = DVec3::new(self.within(0.1, 1.0), self.within(0.1, 1.0), self.within(0.1, 1.0)) * size * 0.5;
+                let half = DVec3::new(self.within(0.1, 1.0), self.within(0.1, 1.0), self.within(0.1, 1.0))
+                    * size
+                    * 0.5;
                 let solid: Shape = Cuboid::new(-half, half).unwrap().into();
                 let turn = catoptra_core::Placement::IDENTITY
                     .turned(DVec3::ZERO, self.unit(), self.within(0.0, 3.0))
