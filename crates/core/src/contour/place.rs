@@ -70,10 +70,11 @@ fn by_lamp_plane(eye: DVec3, lamp: &Lamp, middle: DVec3, reach: impl Fn(DVec3) -
     };
     let up = if normal.dot(eye - base) < 0.0 { -normal } else { normal };
     let (height, reach, off) = (up.dot(middle - base), reach(up), rounding(middle, base));
-    if height - reach >= -off {
-        Some(Place::InFront)
-    } else if height + reach <= off {
+    // What lies in the plane hides nothing.
+    if height + reach <= off {
         Some(Place::Never)
+    } else if height - reach >= -off {
+        Some(Place::InFront)
     } else {
         None
     }
