@@ -5,12 +5,15 @@
 
 mod ambient;
 mod directional;
+mod luminaire;
 mod point;
+mod profile;
 mod spot;
 
 pub use ambient::AmbientLight;
 pub use directional::DirectionalLight;
 pub use point::PointLight;
+pub use profile::{IntensityProfile, Pole};
 pub use spot::SpotLight;
 
 use glam::DVec3;
@@ -49,6 +52,15 @@ pub trait Emitter {
 
     /// What would arrive at `point`.
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L>;
+
+    /// Calls a visitor with this light, or with what it is without something that it lacks.
+    #[inline(always)]
+    fn accept(&self, visitor: impl LightVisitor)
+    where
+        Self: Sized,
+    {
+        visitor.visit(self);
+    }
 
     /// What [`Arrival::strength`] is given in: W/m² per channel for a light at infinity, W/sr for others.
     fn color(&self) -> &Constant3;
@@ -108,7 +120,7 @@ impl Light {
     /// Calls a visitor with the light as its own type.
     #[inline(always)]
     pub fn visit(&self, visitor: impl LightVisitor) {
-        each_light!(self, light => visitor.visit(light));
+        each_light!(self, light => light.accept(visitor));
     }
 
     /// See [`Emitter::arriving`].
