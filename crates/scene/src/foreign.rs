@@ -111,6 +111,13 @@ mod tests {
     }
 
     #[test]
+    fn profiles_are_told() {
+        for (name, bytes) in [("lamp.IES", &b""[..]), ("lamp.txt", b"IESNA:LM-63-2002\r\n")] {
+            assert!(message(name, bytes).contains(&format!("profile=\"{name}\"")), "{name}");
+        }
+    }
+
+    #[test]
     fn models_and_pictures_are_told() {
         assert!(message("m.stl", b"").contains(".ply or .obj"));
         assert!(message("m.txt", b"solid cube\n facet normal 0 0 1\n").contains("(.stl)"));

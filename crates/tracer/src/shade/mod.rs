@@ -8,6 +8,8 @@ mod hits;
 #[cfg(test)]
 mod lobe_tests;
 mod look;
+#[cfg(test)]
+mod profile_tests;
 mod reflect;
 mod rules;
 
