@@ -12,7 +12,8 @@ use crate::{Field, FieldKind, InvalidPart, Lane, Part, Placement, Rgb, Triple, V
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointLight {
     bare: Bare,
-    luminaire: Option<Hung>,
+    /// Apart, since few lights have one.
+    luminaire: Option<Box<Hung>>,
 }
 
 /// The same light in all directions.
@@ -65,7 +66,7 @@ impl Part for PointLight {
         };
         let luminaire = Luminaire::given(given, direction.unwrap_or(-DVec3::Y))?;
         let luminaire = match (luminaire, direction) {
-            (Some(luminaire), direction) => Some(Hung { luminaire, direction }),
+            (Some(luminaire), direction) => Some(Box::new(Hung { luminaire, direction })),
             (None, Some(_)) => return Err(alone("direction")),
             (None, None) => None,
         };
@@ -114,9 +115,9 @@ impl Emitter for PointLight {
     }
 
     fn placed(&self, placement: &Placement) -> Self {
-        let luminaire = self.luminaire.as_ref().map(|hung| Hung {
-            luminaire: hung.luminaire.placed(placement),
-            direction: Some(placement.direction(hung.direction.unwrap_or(-DVec3::Y))),
+        let luminaire = self.luminaire.as_ref().map(|hung| {
+            let direction = placement.direction(hung.direction.unwrap_or(-DVec3::Y));
+            Box::new(Hung { luminaire: hung.luminaire.placed(placement), direction: Some(direction) })
         });
         Self { bare: self.bare.placed(placement), luminaire }
     }

@@ -15,7 +15,8 @@ use crate::{Coefficient, Field, FieldKind, InvalidPart, Lane, Part, Placement, R
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpotLight {
     bare: Bare,
-    luminaire: Option<Luminaire>,
+    /// Apart, since few lights have one.
+    luminaire: Option<Box<Luminaire>>,
 }
 
 /// The same light in all directions of the inner cone.
@@ -110,7 +111,7 @@ impl Part for SpotLight {
         // 1 − cos(angle / 2) without cancellation.
         let depth = |angle: f64| 2.0 * (angle / 4.0).sin().powi(2);
         let direction = given.direction("direction")?;
-        let luminaire = Luminaire::given(given, direction)?;
+        let luminaire = Luminaire::given(given, direction)?.map(Box::new);
         let bare = Bare {
             position: given.point("position")?.into(),
             axis: direction.normalize().into(),
@@ -168,7 +169,7 @@ impl Emitter for SpotLight {
     }
 
     fn placed(&self, placement: &Placement) -> Self {
-        let luminaire = self.luminaire.as_ref().map(|luminaire| luminaire.placed(placement));
+        let luminaire = self.luminaire.as_ref().map(|luminaire| Box::new(luminaire.placed(placement)));
         Self { bare: self.bare.placed(placement), luminaire }
     }
 

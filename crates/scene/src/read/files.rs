@@ -27,13 +27,13 @@ impl Files {
 
     /// The mesh at `path`, read now or before.
     pub(crate) fn mesh(&mut self, path: &str) -> Result<MeshSource, String> {
-        let mesh = get(&mut self.meshes, self.base.as_deref(), path, |file| mesh::read(file))?;
+        let mesh = get(&mut self.meshes, self.base.as_deref(), path, mesh::read)?;
         Ok(MeshSource { path: path.to_owned(), mesh })
     }
 
     /// The intensity profile at `path`, read now or before.
     pub(crate) fn profile(&mut self, path: &str) -> Result<ProfileSource, String> {
-        let profile = get(&mut self.profiles, self.base.as_deref(), path, |file| ies::read(file))?;
+        let profile = get(&mut self.profiles, self.base.as_deref(), path, ies::read)?;
         Ok(ProfileSource { path: path.to_owned(), profile })
     }
 

@@ -30,7 +30,7 @@ const TAN_22_5: f64 = std::f64::consts::SQRT_2 - 1.0;
 
 /// (atan s / s − 1) / s² as a polynomial in s², for s up to tan 22.5°: fitted for the least largest error of atan s / s,
 /// which is 6.6e-10.
-const ATAN: [f32; 5] = [-0.060_834_53, 0.105_960_014, -0.142_438_49, 0.199_984_89, -0.333_333_15];
+const ATAN: [f32; 5] = [-0.060_834_53, 0.105_960_01, -0.142_438_49, 0.199_984_9, -0.333_333_15];
 
 #[cfg(test)]
 mod tests {
