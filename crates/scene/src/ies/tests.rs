@@ -149,103 +149,94 @@ fn type_a_counts_vertical_angles_from_the_horizontal() {
     assert_eq!(at(&profile, 90.0, 180.0), 0.0);
 }
 
+/// What is changed in the plain file, to what, and what is said then.
+const FAULTS: &[(&str, &str, &str)] = &[
+    ("TILT=NONE", "TILT=", "3:1: TILT= must be followed by NONE or INCLUDE"),
+    (
+        "TILT=NONE",
+        "TILT=My Tilt.dat",
+        "3:1: tilt factors in a file of their own (\"My Tilt.dat\") are not read: write TILT=NONE to do without",
+    ),
+    (
+        "TILT=NONE",
+        "TILT=INCLUDE\n1\n1e9",
+        "5:1: 1000000000 by 1 angles need 2000000001 numbers, and at most 25 can follow in the file",
+    ),
+    ("1 1000 2 3", "1 1000 0 3", "4:8: the candela multiplier must be greater than 0, not 0"),
+    (
+        "2 3 1 1 1",
+        "2 1 1 1 1",
+        "4:10: the number of vertical angles must be a whole number of at least 2, not 1",
+    ),
+    (
+        "2 3 1 1 1",
+        "2 3 0.5 1 1",
+        "4:12: the number of horizontal angles must be a whole number of at least 1, not 0.5",
+    ),
+    (
+        "2 3 1 1 1",
+        "2 3 1000000000 1 1",
+        "4:12: 3 by 1000000000 angles need 4000000003 numbers, and at most 9 can follow in the file",
+    ),
+    ("2 3 1 1 1", "2 3 1 4 1", "4:14: the photometric type must be 1 (C), 2 (B) or 3 (A), not 4"),
+    ("0.5 3 10", "-1 3 10", "5:1: the ballast factor must be greater than 0, not -1"),
+    ("0.5 3 10", "0.5 0 10", "5:5: the ballast-lamp photometric factor must be greater than 0, not 0"),
+    ("0.5 3 10", "0.5 3 ten", "5:7: the input watts must be a number, not \"ten\""),
+    ("0.5 3 10", "0.5 3 inf", "5:7: the input watts must be a number, not \"inf\""),
+    ("0 45 90", "0 45 45", "6:6: vertical angles must increase: 45 follows 45"),
+    ("0 45 90", "0 45 181", "6:6: vertical angles must lie in 0..180, not be 181"),
+    (
+        "3 2 1\n",
+        "3 -2 1\n",
+        "8:3: the intensity at vertical angle 45 and horizontal 0 must lie in 0..3.4e38 cd, not -2",
+    ),
+    (
+        "3 2 1\n",
+        "3 2    ",
+        "8:8: the file ends before an intensity (3 of 3: the intensity at vertical angle 90 and horizontal 0)",
+    ),
+    ("3 2 1\n", "3 2 1\n4\n", "9:1: more than 3 intensities: the numbers of angles do not fit what follows"),
+];
+
 #[test]
 fn every_fault_is_told_with_its_place() {
-    let changed = |from: &str, to: &str| {
+    for (from, to, expected) in FAULTS {
         assert!(PLAIN.contains(from), "{from}");
-        refusal(PLAIN.replace(from, to))
-    };
-    let cases = [
-        (refusal(""), "lamp.ies: is empty"),
-        (refusal(" \n \r\n"), "lamp.ies: is empty"),
-        (refusal(b"\x89PNG\0\0TILT=NONE"), "lamp.ies: is no IES file: it holds bytes that are no text"),
-        (refusal(b"\xff\xfeT\0I\0"), "lamp.ies: is text in UTF-16: save it as plain text (ASCII or UTF-8)"),
-        (refusal("a poem\nof two lines\n"), "lamp.ies: is no IES file: no line begins with TILT="),
-        (changed("TILT=NONE", "TILT="), "lamp.ies:3:1: TILT= must be followed by NONE or INCLUDE"),
+        assert_eq!(refusal(PLAIN.replace(from, to)), format!("lamp.ies:{expected}"));
+    }
+    assert!(refusal(PLAIN.replace("3 2 1\n", "3 2 1e39\n")).contains(":8:5: "));
+}
+
+#[test]
+fn what_is_no_ies_file_is_told() {
+    for (bytes, expected) in [
+        (&b""[..], "is empty"),
+        (b" \n \r\n", "is empty"),
+        (b"\x89PNG\0\0TILT=NONE", "is no IES file: it holds bytes that are no text"),
+        (b"\xff\xfeT\0I\0", "is text in UTF-16: save it as plain text (ASCII or UTF-8)"),
+        (b"a poem\nof two lines\n", "is no IES file: no line begins with TILT="),
+        (&vec![b' '; LONGEST + 1], "is longer than 4 MiB, too long for an IES file"),
+    ] {
+        assert_eq!(refusal(bytes), format!("lamp.ies: {expected}"));
+    }
+}
+
+#[test]
+fn angles_that_do_not_fit_the_type_are_told() {
+    let spans = "horizontal angles of type C must be 0 alone or span 0..90, 0..180, 90..270 or 0..360, not";
+    for (text, expected) in [
+        (file(1, &[0.0, 90.0], &[0.0, 45.0, 100.0], None), format!("7:6: {spans} 0..100")),
+        (file(1, &[0.0, 90.0], &[45.0, 90.0], None), format!("7:1: {spans} 45..90")),
         (
-            changed("TILT=NONE", "TILT=My Tilt.dat"),
-            "lamp.ies:3:1: tilt factors in a file of their own (\"My Tilt.dat\") are not read: write \
-             TILT=NONE to do without",
+            file(2, &[0.0, 90.0], &[0.0], None),
+            "7:1: types A and B need at least 2 horizontal angles".to_owned(),
         ),
         (
-            changed("TILT=NONE", "TILT=INCLUDE\n1\n1e9"),
-            "lamp.ies:5:1: 1000000000 by 1 angles need 2000000001 numbers, and at most 25 can follow in the \
-             file",
+            file(3, &[-90.0, 91.0], &[0.0, 90.0], None),
+            "6:5: vertical angles must lie in -90..90, not be 91".to_owned(),
         ),
-        (
-            changed("1 1000 2 3", "1 1000 0 3"),
-            "lamp.ies:4:8: the candela multiplier must be greater than 0, not 0",
-        ),
-        (
-            changed("2 3 1 1 1", "2 1 1 1 1"),
-            "lamp.ies:4:10: the number of vertical angles must be a whole number of at least 2, not 1",
-        ),
-        (
-            changed("2 3 1 1 1", "2 3 0.5 1 1"),
-            "lamp.ies:4:12: the number of horizontal angles must be a whole number of at least 1, not 0.5",
-        ),
-        (
-            changed("2 3 1 1 1", "2 3 1000000000 1 1"),
-            "lamp.ies:4:12: 3 by 1000000000 angles need 4000000003 numbers, and at most 9 can follow in the \
-             file",
-        ),
-        (
-            changed("2 3 1 1 1", "2 3 1 4 1"),
-            "lamp.ies:4:14: the photometric type must be 1 (C), 2 (B) or 3 (A), not 4",
-        ),
-        (changed("0.5 3 10", "-1 3 10"), "lamp.ies:5:1: the ballast factor must be greater than 0, not -1"),
-        (
-            changed("0.5 3 10", "0.5 0 10"),
-            "lamp.ies:5:5: the ballast-lamp photometric factor must be greater than 0, not 0",
-        ),
-        (changed("0.5 3 10", "0.5 3 ten"), "lamp.ies:5:7: the input watts must be a number, not \"ten\""),
-        (changed("0.5 3 10", "0.5 3 inf"), "lamp.ies:5:7: the input watts must be a number, not \"inf\""),
-        (changed("0 45 90", "0 45 45"), "lamp.ies:6:6: vertical angles must increase: 45 follows 45"),
-        (changed("0 45 90", "0 45 181"), "lamp.ies:6:6: vertical angles must lie in 0..180, not be 181"),
-        (
-            changed("3 2 1\n", "3 -2 1\n"),
-            concat!(
-                "lamp.ies:8:3: the intensity at vertical angle 45 and horizontal 0 must lie in 0..3.4e38 cd, not -2"
-            ),
-        ),
-        (
-            changed("3 2 1\n", "3 2 1e39\n"),
-            concat!(
-                "lamp.ies:8:5: the intensity at vertical angle 90 and horizontal 0 must lie in 0..3.4e38 cd, ",
-                "not 1000000000000000000000000000000000000000"
-            ),
-        ),
-        (
-            changed("3 2 1\n", "3 2    "),
-            "lamp.ies:8:8: the file ends before an intensity (3 of 3: the intensity at vertical angle 90 and \
-             horizontal 0)",
-        ),
-        (
-            changed("3 2 1\n", "3 2 1\n4\n"),
-            "lamp.ies:9:1: more than 3 intensities: the numbers of angles do not fit what follows",
-        ),
-        (
-            refusal(file(1, &[0.0, 90.0], &[0.0, 45.0, 100.0], None)),
-            "lamp.ies:7:6: horizontal angles of type C must be 0 alone or span 0..90, 0..180, 90..270 or \
-             0..360, not 0..100",
-        ),
-        (
-            refusal(file(1, &[0.0, 90.0], &[45.0, 90.0], None)),
-            "lamp.ies:7:1: horizontal angles of type C must be 0 alone or span 0..90, 0..180, 90..270 or \
-             0..360, not 45..90",
-        ),
-        (
-            refusal(file(2, &[0.0, 90.0], &[0.0], None)),
-            "lamp.ies:7:1: types A and B need at least 2 horizontal angles",
-        ),
-        (
-            refusal(file(3, &[-90.0, 91.0], &[0.0, 90.0], None)),
-            "lamp.ies:6:5: vertical angles must lie in -90..90, not be 91",
-        ),
-        (refusal(vec![b' '; LONGEST + 1]), "lamp.ies: is longer than 4 MiB, too long for an IES file"),
-    ];
-    for (found, expected) in cases {
-        assert_eq!(found, expected);
+    ] {
+        assert_eq!(refusal(text), format!("lamp.ies:{expected}"));
     }
 }
 
