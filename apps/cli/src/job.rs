@@ -73,8 +73,10 @@ impl Job {
             instructions: means.instructions,
             ..view
         };
-        let meshes: Vec<Input> = file.mesh_paths().map(|path| ("the mesh", path)).collect();
-        check_apart(outputs, &meshes)?;
+        let meshes = file.mesh_paths().map(|path| ("the mesh", path));
+        let inputs: Vec<Input> =
+            meshes.chain(file.profile_paths().map(|path| ("the profile", path))).collect();
+        check_apart(outputs, &inputs)?;
         warn_of_idle(args);
         let started = Instant::now();
         let snapshot = Arc::new(Snapshot::extract(&scene, &pool));

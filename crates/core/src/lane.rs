@@ -85,6 +85,12 @@ pub trait Lane: Arithmetic + Div<Output = Self> {
     /// `self` to a power that is not a small whole number; `self` ≥ 0.
     #[must_use]
     fn real_power(self, exponent: Coefficient) -> Self;
+    /// The angle of the vector (`x`, `self`) from the x axis, radians in −π..=π; 0 where both are 0.
+    #[must_use]
+    fn atan2(self, x: Self) -> Self;
+    /// What `f` makes of each lane and the same lane of `other`: for what has no formula, such as a table.
+    #[must_use]
+    fn each(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self;
 
     /// A constant given on the spot.
     #[inline(always)]
@@ -154,6 +160,12 @@ impl Lane for f64 {
     }
     fn real_power(self, exponent: Coefficient) -> Self {
         self.powf(exponent.wide)
+    }
+    fn atan2(self, x: Self) -> Self {
+        f64::atan2(self, x)
+    }
+    fn each(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        f(self, other)
     }
 }
 

@@ -36,10 +36,10 @@ pub use error::InvalidPart;
 pub use geometry::{Geometry, Shape, TriangleMesh};
 pub use glam;
 pub use lane::{Arithmetic, Coefficient, Constant3, Lane, LaneMask, Triple};
-pub use light::{Arrival, Emitter, Lamp, Light};
+pub use light::{Arrival, Emitter, IntensityProfile, Lamp, Light};
 pub use lobe::{LobeKinds, Lobes, Scatter, ShadingPoint};
 pub use material::{Emission, Material, Surface};
-pub use part::{Field, FieldKind, Kind, MeshSource, Part, Value, Values};
+pub use part::{Field, FieldKind, Kind, MeshSource, Part, ProfileSource, Value, Values};
 pub use placement::Placement;
 pub use ray::{Crossing, Ray, Span, order_of_roots};
 pub use scene::{

@@ -6,10 +6,13 @@
 mod samples;
 
 use std::fmt::Debug;
+use std::sync::Arc;
 
 use catoptra_core::glam::DVec3;
+use catoptra_core::light::Pole;
 use catoptra_core::{
-    Camera, Field, FieldKind, InvalidPart, Kind, Light, Material, Part, Rgb, Settings, Shape, Value, Values,
+    Camera, Field, FieldKind, IntensityProfile, InvalidPart, Kind, Light, Material, Part, ProfileSource, Rgb,
+    Settings, Shape, Value, Values,
 };
 use samples::samples_of;
 
@@ -28,7 +31,14 @@ fn plain(kind: FieldKind, i: usize) -> Value {
         FieldKind::Flag => Value::Flag(false),
         FieldKind::Choice(words) => Value::Word(words[words.len() - 1].to_owned()),
         FieldKind::Mesh => unreachable!("meshes have samples"),
+        FieldKind::Profile => profile(),
     }
+}
+
+/// A lamp that shines downwards alike.
+fn profile() -> Value {
+    let profile = IntensityProfile::new(Pole::Nadir, vec![0.0, 90.0], vec![0.0], vec![5.0; 2]).unwrap();
+    Value::Profile(ProfileSource { path: "lamp.ies".into(), profile: Arc::new(profile) })
 }
 
 /// Good values for every field of a kind.
@@ -87,7 +97,7 @@ fn bad(kind: FieldKind) -> Vec<Value> {
         }
         FieldKind::Color => [colors, vec![negative, Value::Color(Rgb::new(0.0, 0.0, 1.000_001))]].concat(),
         FieldKind::Quantity => [colors, vec![negative]].concat(),
-        FieldKind::Flag | FieldKind::Mesh => Vec::new(),
+        FieldKind::Flag | FieldKind::Mesh | FieldKind::Profile => Vec::new(),
         FieldKind::Choice(_) => vec![Value::Word(String::new()), Value::Word("no such word".into())],
     }
 }
@@ -101,6 +111,7 @@ fn of_other_sorts(kind: FieldKind) -> Vec<Value> {
         Value::Flag(true),
         Value::Word("word".into()),
         samples_of("mesh")[0].shape.values().get("file").unwrap().clone(),
+        profile(),
     ];
     let own = match kind {
         FieldKind::Number | FieldKind::Length | FieldKind::Count | FieldKind::Fraction | FieldKind::Angle => {
@@ -111,6 +122,7 @@ fn of_other_sorts(kind: FieldKind) -> Vec<Value> {
         FieldKind::Flag => 3,
         FieldKind::Choice(_) => 4,
         FieldKind::Mesh => 5,
+        FieldKind::Profile => 6,
     };
     all.into_iter().enumerate().filter(|(sort, _)| *sort != own).map(|(_, value)| value).collect()
 }
@@ -192,6 +204,23 @@ fn every_light_describes_itself() {
     check_words(Light::KINDS);
     for kind in Light::KINDS {
         check(kind, &good(kind), Light::values);
+    }
+}
+
+#[test]
+fn lights_with_a_profile_describe_themselves() {
+    for name in ["point-light", "spot-light"] {
+        let kind = Light::kind_named(name).unwrap();
+        let fields = kind.fields.iter().enumerate();
+        let all = fields.fold(Values::new(), |all, (i, field)| all.with(field.name, plain(field.kind, i)));
+        let light = (kind.make)(&all).unwrap();
+        assert_eq!(light.values(), all);
+        for field in kind.fields {
+            for value in bad(field.kind).into_iter().chain(of_other_sorts(field.kind)) {
+                let error = (kind.make)(&all.clone().with(field.name, value.clone())).unwrap_err();
+                refused_by_name(&error, field, kind.name, &value);
+            }
+        }
     }
 }
 

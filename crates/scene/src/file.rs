@@ -4,8 +4,8 @@ use std::fs::{File, Metadata};
 use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
+use catoptra_core::Shape;
 use catoptra_core::scene::Scene;
-use catoptra_core::{Shape, Value};
 
 use crate::atomic;
 use crate::build::{self, Id};
@@ -13,7 +13,7 @@ use crate::disk::{self, OnDisk};
 use crate::foreign;
 use crate::outline::Outline;
 use crate::printable;
-use crate::read::{self, LONGEST, Meshes};
+use crate::read::{self, Files, LONGEST};
 use crate::report::{Complaints, SceneTextError};
 use crate::slip::{self, Mended};
 use crate::write::{self, Splice};
@@ -30,7 +30,7 @@ pub struct SceneFile {
     outline: Outline,
     /// What every item of the outline stands for.
     ids: Vec<Id>,
-    meshes: Meshes,
+    files: Files,
 }
 
 /// A scene that could not be saved; what was on the disk before is there still.
@@ -42,7 +42,7 @@ pub struct SaveError {
     cause: std::io::Error,
 }
 
-/// Reads a scene file. Meshes are looked for relative to its folder; for what lies in none, such as a pipe or
+/// Reads a scene file. Meshes and profiles are looked for relative to its folder; for what lies in none, such as a pipe or
 /// `/dev/stdin`, relative to the current one.
 ///
 /// # Errors
@@ -66,7 +66,7 @@ pub fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
 }
 
 /// Reads a scene to the end of `input`, which `name` stands for in messages; `base` is the folder at which relative
-/// mesh paths start.
+/// paths start.
 ///
 /// # Errors
 /// As for [`load`].
@@ -98,35 +98,35 @@ fn is_device(_found: &Metadata) -> bool {
     false
 }
 
-/// Reads scene text that `name` stands for in messages; `base` is the folder at which relative mesh paths start.
+/// Reads scene text that `name` stands for in messages; `base` is the folder at which relative paths start.
 ///
 /// # Errors
 /// Text that is no valid scene, with all that is wrong in it.
 pub fn parse(text: &str, name: &str, base: Option<&Path>) -> Result<(Scene, SceneFile), SceneTextError> {
-    let mut meshes = Meshes::new(base);
+    let mut files = Files::new(base);
     let mended = slip::mend(text);
     let mut complaints = Complaints::new();
     if mended.as_ref().is_none_or(Mended::is_doubtful) {
-        let outline = read::read(text, &mut meshes, &mut complaints);
+        let outline = read::read(text, &mut files, &mut complaints);
         let (scene, ids) = build::build(&outline, &mut complaints);
         if complaints.count() == 0 {
             let text = text.to_owned();
-            let file = SceneFile { path: None, stored: String::new(), text, outline, ids, meshes };
+            let file = SceneFile { path: None, stored: String::new(), text, outline, ids, files };
             return Ok((scene, file));
         }
     }
     if let Some(mended) = mended {
-        complaints = without_slips(&mended, &mut meshes);
+        complaints = without_slips(&mended, &mut files);
     }
     Err(complaints.into_error(name, text))
 }
 
 /// All that is wrong with a text: its slips, and what is found behind them.
-fn without_slips(mended: &Mended, meshes: &mut Meshes) -> Complaints {
+fn without_slips(mended: &Mended, files: &mut Files) -> Complaints {
     let (mut slips, mut behind) = (Complaints::new(), Complaints::new());
     mended.tell(&mut slips);
     if mended.is_to_be_read() {
-        let outline = read::read(&mended.text, meshes, &mut behind);
+        let outline = read::read(&mended.text, files, &mut behind);
         build::build(&outline, &mut behind);
         slips.take_over(behind, |at| mended.place(at));
     }
@@ -152,7 +152,7 @@ impl SceneFile {
             text: String::new(),
             outline: Outline::default(),
             ids: Vec::new(),
-            meshes: Meshes::new(None),
+            files: Files::new(None),
         };
         file.update(scene);
         file
@@ -173,7 +173,12 @@ impl SceneFile {
 
     /// Where the meshes lie that it names.
     pub fn mesh_paths(&self) -> impl Iterator<Item = PathBuf> {
-        self.meshes.paths()
+        self.files.mesh_paths()
+    }
+
+    /// Where the intensity profiles lie that it names.
+    pub fn profile_paths(&self) -> impl Iterator<Item = PathBuf> {
+        self.files.profile_paths()
     }
 
     /// The text, as of the last [`Self::update`].
@@ -185,7 +190,7 @@ impl SceneFile {
     /// Makes the text say what the scene holds, changing only what has changed. Comments, order, blank lines and the
     /// spelling of numbers that did not change stay; a node goes with its line and the comment behind it.
     pub fn update(&mut self, scene: &Scene) {
-        self.know_meshes(scene);
+        self.know_files(scene);
         if self.follow(scene).is_none() {
             // No text that we wrote ourselves could be read again: begin anew rather than lose an edit.
             self.text.clear();
@@ -197,7 +202,8 @@ impl SceneFile {
 
     /// Updates the text and writes it to `path`, whole or not at all.
     ///
-    /// Mesh paths are written as they are in the scene: saved to another folder, the scene needs its meshes there.
+    /// Paths of meshes and profiles are written as they are in the scene: saved to another folder, the scene needs them
+    /// there.
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -210,16 +216,15 @@ impl SceneFile {
         Ok(())
     }
 
-    /// A changed text is read again, but its meshes are not.
-    fn know_meshes(&mut self, scene: &Scene) {
-        for shape in scene.entities().filter_map(|id| scene.shape(id)) {
-            if let Shape::Mesh(_) = &shape {
-                for (_, value) in shape.values().iter() {
-                    if let Value::Mesh(source) = value {
-                        self.meshes.know(source);
-                    }
-                }
-            }
+    /// A changed text is read again, but the files that it names are not.
+    fn know_files(&mut self, scene: &Scene) {
+        for id in scene.entities() {
+            let values = match (scene.shape(id), scene.light(id)) {
+                (Some(shape @ Shape::Mesh(_)), _) => shape.values(),
+                (_, Some(light)) => light.values(),
+                _ => continue,
+            };
+            values.iter().for_each(|(_, value)| self.files.know(value));
         }
     }
 
@@ -244,7 +249,7 @@ impl SceneFile {
         let starts: Vec<usize> = self.outline.items.iter().map(|item| item.span.start).collect();
         let (text, moved, new) = write::apply(&self.text, splices, &starts);
         let mut complaints = Complaints::new();
-        let outline = read::read(&text, &mut self.meshes, &mut complaints);
+        let outline = read::read(&text, &mut self.files, &mut complaints);
         if complaints.count() > 0 {
             return None;
         }

@@ -21,6 +21,8 @@ const BEGINNINGS: &[(&[u8], &str)] = &[
     (b"\x76\x2f\x31\x01", "exr"),
     (b"\xff\xd8\xff", "jpg"),
     (b"GIF8", "gif"),
+    (b"IESNA", "ies"),
+    (b"IES:LM", "ies"),
 ];
 
 /// Words that lines of an OBJ file begin with, and no line of a scene.
@@ -40,6 +42,10 @@ pub(crate) fn told(name: &Path, bytes: &[u8]) -> Option<(String, String)> {
         let help =
             format!("{rename}name it in a scene: mesh \"NAME\" material=\"MATERIAL\" {{ file \"{shown}\" }}");
         return Some(("is a mesh, not a scene".to_owned(), help));
+    }
+    if ending == "ies" {
+        let help = format!("name it in a scene: point-light \"NAME\" profile=\"{shown}\"");
+        return Some(("is the profile of a luminaire, not a scene".to_owned(), help));
     }
     if MODELS.contains(&ending) {
         let help = format!(
@@ -102,6 +108,13 @@ mod tests {
             );
         }
         assert!(message("m.kdl", b"ply\r\n").contains("call it something.ply"));
+    }
+
+    #[test]
+    fn profiles_are_told() {
+        for (name, bytes) in [("lamp.IES", &b""[..]), ("lamp.txt", b"IESNA:LM-63-2002\r\n")] {
+            assert!(message(name, bytes).contains(&format!("profile=\"{name}\"")), "{name}");
+        }
     }
 
     #[test]

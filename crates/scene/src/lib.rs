@@ -1,10 +1,10 @@
-//! How scenes, meshes and pictures go into files and come out of them.
+//! How scenes, meshes, profiles and pictures go into files and come out of them.
 //!
 //! * [`load`] and [`parse`] read scene text (KDL; `scenes/README.md` documents it) into a
 //!   [`Scene`](catoptra_core::scene::Scene) and a [`SceneFile`] that keeps the text; [`SceneFile::save`] writes back
 //!   only what has changed. The grammar follows the lists of kinds in the core: a new shape, light or material is
 //!   read and written without a change here.
-//! * [`mesh`] reads triangle meshes, [`image`] reads and writes PNG pictures.
+//! * [`mesh`] reads triangle meshes, [`ies`] how luminaires shine, [`image`] reads and writes PNG pictures.
 //! * [`atomic`] writes any file whole or not at all, and says beforehand whether it can, and [`words`] finds the word that a misspelt one was meant to be.
 //!
 //! Whatever a file holds, reading it ends in a value or in an error that says what, where and what to do: never in a
@@ -17,6 +17,7 @@ mod disk;
 mod excerpt;
 mod file;
 mod foreign;
+pub mod ies;
 pub mod image;
 pub mod mesh;
 mod outline;

@@ -62,6 +62,11 @@ fn edit(ui: &mut Ui, field: &Field, value: &Value) -> Option<Value> {
             ui.label(&source.path).on_hover_text(format!("{triangles} triangles"));
             None
         }
+        (_, Value::Profile(source)) => {
+            let (flux, peak) = (source.profile.flux(), source.profile.peak());
+            ui.label(&source.path).on_hover_text(format!("{flux:.0} lm, at most {peak:.0} cd"));
+            None
+        }
     }
 }
 

@@ -6,7 +6,9 @@
 mod ambient;
 mod directional;
 mod disk;
+mod luminaire;
 mod point;
+mod profile;
 mod rectangle;
 mod shining;
 mod sphere;
@@ -16,6 +18,7 @@ pub use ambient::AmbientLight;
 pub use directional::DirectionalLight;
 pub use disk::DiskLight;
 pub use point::PointLight;
+pub use profile::{IntensityProfile, Pole};
 pub use rectangle::RectangleLight;
 pub use shining::Lamp;
 pub use sphere::SphereLight;
@@ -57,6 +60,15 @@ pub trait Emitter {
 
     /// What would arrive at `point`.
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L>;
+
+    /// Calls a visitor with this light, or with what it is without something that it lacks.
+    #[inline(always)]
+    fn accept(&self, visitor: impl LightVisitor)
+    where
+        Self: Sized,
+    {
+        visitor.visit(self);
+    }
 
     /// What [`Arrival::strength`] is given in: W/m² per channel for a light at infinity, W/sr for others.
     fn color(&self) -> &Constant3;
@@ -127,7 +139,7 @@ impl Light {
     /// Calls a visitor with the light as its own type.
     #[inline(always)]
     pub fn visit(&self, visitor: impl LightVisitor) {
-        each_light!(self, light => visitor.visit(light));
+        each_light!(self, light => light.accept(visitor));
     }
 
     /// See [`Emitter::arriving`].

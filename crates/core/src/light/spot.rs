@@ -1,10 +1,11 @@
-//! Light from a point into a cone.
+//! Light from a point into a cone, alike all over the inner cone or as a luminaire's profile has it.
 
 use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::{Arrival, Emitter, SHADOW, from_point};
+use super::luminaire::{HORIZONTAL, Luminaire, PROFILE, scale};
+use super::{Arrival, Emitter, LightVisitor, SHADOW, from_point};
 use crate::lane::Constant3;
 use crate::part::{Given, degrees};
 use crate::{Coefficient, Field, FieldKind, InvalidPart, Lane, Part, Placement, Rgb, Triple, Value, Values};
@@ -13,6 +14,14 @@ use crate::{Coefficient, Field, FieldKind, InvalidPart, Lane, Part, Placement, R
 /// `((cos α − cos(outer/2)) / (cos(inner/2) − cos(outer/2)))^falloff` at an angle α from the axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpotLight {
+    bare: Bare,
+    /// Apart, since few lights have one.
+    luminaire: Option<Box<Luminaire>>,
+}
+
+/// The same light in all directions of the inner cone.
+#[derive(Debug, Clone, PartialEq)]
+struct Bare {
     position: Constant3,
     axis: Constant3,
     direction: DVec3,
@@ -31,25 +40,25 @@ impl SpotLight {
     /// Full angle of the inner cone, radians.
     #[must_use]
     pub fn inner(&self) -> f64 {
-        self.inner
+        self.bare.inner
     }
 
     /// Full angle of the outer cone, radians.
     #[must_use]
     pub fn outer(&self) -> f64 {
-        self.outer
+        self.bare.outer
     }
 
     /// Exponent of the falloff between the cones.
     #[must_use]
     pub fn falloff(&self) -> f64 {
-        self.falloff.wide
+        self.bare.falloff.wide
     }
 
     /// Intensity on the axis, W/sr per channel.
     #[must_use]
     pub fn intensity(&self) -> Rgb {
-        self.intensity.rgb()
+        self.bare.intensity.rgb()
     }
 }
 
@@ -66,6 +75,8 @@ impl Part for SpotLight {
             "W/sr",
             "Power per solid angle within the inner cone.",
         ),
+        PROFILE,
+        HORIZONTAL,
         Field::required(
             "inner",
             FieldKind::Angle,
@@ -100,33 +111,86 @@ impl Part for SpotLight {
         // 1 − cos(angle / 2) without cancellation.
         let depth = |angle: f64| 2.0 * (angle / 4.0).sin().powi(2);
         let direction = given.direction("direction")?;
-        Ok(Self {
+        let luminaire = Luminaire::given(given, direction)?.map(Box::new);
+        let bare = Bare {
             position: given.point("position")?.into(),
             axis: direction.normalize().into(),
             direction,
-            intensity: given.quantity("intensity")?.into(),
+            intensity: scale(given, luminaire.is_some())?.into(),
             inner,
             outer,
             falloff: Coefficient::new(given.not_negative("falloff")?),
             outer_depth: Coefficient::new(depth(outer)),
             slope: Coefficient::new((1.0 / (depth(outer) - depth(inner))).min(f64::from(f32::MAX))),
             shadow: given.flag("shadow")?,
-        })
+        };
+        Ok(Self { bare, luminaire })
     }
 
     fn values(&self) -> Values {
-        Values::new()
-            .with("position", Value::Vector(self.position.vector()))
-            .with("direction", Value::Vector(self.direction))
-            .with("intensity", Value::Color(self.intensity.rgb()))
-            .with("inner", Value::Number(self.inner))
-            .with("outer", Value::Number(self.outer))
-            .with("falloff", Value::Number(self.falloff.wide))
-            .with("shadow", Value::Flag(self.shadow))
+        let values = Values::new()
+            .with("position", Value::Vector(self.bare.position.vector()))
+            .with("direction", Value::Vector(self.bare.direction))
+            .with("intensity", Value::Color(self.bare.intensity.rgb()));
+        let values = match &self.luminaire {
+            Some(luminaire) => luminaire.values(values),
+            None => values,
+        };
+        values
+            .with("inner", Value::Number(self.bare.inner))
+            .with("outer", Value::Number(self.bare.outer))
+            .with("falloff", Value::Number(self.bare.falloff.wide))
+            .with("shadow", Value::Flag(self.bare.shadow))
     }
 }
 
 impl Emitter for SpotLight {
+    const HAS_CONE: bool = true;
+
+    #[inline(always)]
+    fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
+        let arrival = self.bare.arriving(point);
+        match &self.luminaire {
+            Some(luminaire) => luminaire.shine(arrival),
+            None => arrival,
+        }
+    }
+
+    #[inline(always)]
+    fn accept(&self, visitor: impl LightVisitor) {
+        match &self.luminaire {
+            Some(_) => visitor.visit(self),
+            None => visitor.visit(&self.bare),
+        }
+    }
+
+    fn color(&self) -> &Constant3 {
+        &self.bare.intensity
+    }
+
+    fn placed(&self, placement: &Placement) -> Self {
+        let luminaire = self.luminaire.as_ref().map(|luminaire| Box::new(luminaire.placed(placement)));
+        Self { bare: self.bare.placed(placement), luminaire }
+    }
+
+    fn position(&self) -> Option<DVec3> {
+        self.bare.position()
+    }
+
+    fn direction(&self) -> Option<DVec3> {
+        self.bare.direction()
+    }
+
+    fn may_reach(&self, center: DVec3, radius: f64) -> bool {
+        self.bare.may_reach(center, radius)
+    }
+
+    fn shadow(&self) -> bool {
+        self.bare.shadow
+    }
+}
+
+impl Emitter for Bare {
     const HAS_CONE: bool = true;
 
     #[inline(always)]

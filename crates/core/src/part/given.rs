@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Field, FieldKind, MeshSource, Value, Values};
+use super::{Field, FieldKind, MeshSource, ProfileSource, Value, Values};
 use crate::{InvalidPart, Rgb};
 
 /// The largest magnitude of a number in a part, about 3.4e38: SIMD code keeps numbers in `f32` too, where a larger
@@ -167,6 +167,17 @@ impl Given<'_> {
             other => Err(wrong(name, "must be a mesh file", &other)),
         }
     }
+
+    /// An intensity profile.
+    ///
+    /// # Errors
+    /// Missing or not a profile.
+    pub fn profile(&self, name: &'static str) -> Result<ProfileSource, InvalidPart> {
+        match self.value(name)? {
+            Value::Profile(profile) => Ok(profile),
+            other => Err(wrong(name, "must be an IES file", &other)),
+        }
+    }
 }
 
 /// An angle in degrees, rounded to the ten digits that come back from radians as they were written.
@@ -189,6 +200,7 @@ fn wrong(name: &'static str, requirement: &str, found: &Value) -> InvalidPart {
         Value::Flag(v) => format!("#{v}"),
         Value::Word(w) => format!("\"{w}\""),
         Value::Mesh(m) => format!("the mesh {}", m.path),
+        Value::Profile(p) => format!("the profile {}", p.path),
     };
     InvalidPart::new(name, requirement, found)
 }

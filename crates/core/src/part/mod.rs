@@ -6,7 +6,7 @@ mod value;
 
 pub(crate) use given::degrees;
 pub use given::{Given, LARGEST};
-pub use value::{MeshSource, Value, Values};
+pub use value::{MeshSource, ProfileSource, Value, Values};
 
 use crate::InvalidPart;
 
@@ -37,6 +37,8 @@ pub enum FieldKind {
     Choice(&'static [&'static str]),
     /// A triangle mesh read from a file.
     Mesh,
+    /// How a luminaire shines by direction, read from a file.
+    Profile,
 }
 
 /// One named parameter of a part.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::{Rgb, TriangleMesh};
+use crate::{IntensityProfile, Rgb, TriangleMesh};
 
 /// A triangle mesh and the file it came from.
 #[derive(Debug, Clone)]
@@ -18,6 +18,22 @@ pub struct MeshSource {
 impl PartialEq for MeshSource {
     fn eq(&self, other: &Self) -> bool {
         self.path == other.path && (Arc::ptr_eq(&self.mesh, &other.mesh) || self.mesh == other.mesh)
+    }
+}
+
+/// An intensity profile and the file it came from.
+#[derive(Debug, Clone)]
+pub struct ProfileSource {
+    /// Path as written in the scene, relative to the scene's folder.
+    pub path: String,
+    /// How the luminaire shines by direction.
+    pub profile: Arc<IntensityProfile>,
+}
+
+impl PartialEq for ProfileSource {
+    fn eq(&self, other: &Self) -> bool {
+        self.path == other.path
+            && (Arc::ptr_eq(&self.profile, &other.profile) || self.profile == other.profile)
     }
 }
 
@@ -36,6 +52,8 @@ pub enum Value {
     Word(String),
     /// For [`FieldKind::Mesh`](super::FieldKind::Mesh).
     Mesh(MeshSource),
+    /// For [`FieldKind::Profile`](super::FieldKind::Profile).
+    Profile(ProfileSource),
 }
 
 /// Values by field name, in order.

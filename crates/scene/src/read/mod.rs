@@ -2,7 +2,7 @@
 //!
 //! Everything that is wrong is noted and reading goes on, so that one look tells all.
 
-mod meshes;
+mod files;
 mod node;
 mod placement;
 mod value;
@@ -12,7 +12,7 @@ use kdl::KdlDocument;
 use crate::outline::{Outline, Sort, Span};
 use crate::report::Complaints;
 use crate::scan;
-pub(crate) use meshes::Meshes;
+pub(crate) use files::Files;
 pub(crate) use node::MATERIAL;
 pub(crate) use placement::{ABOUT, STEPS};
 pub(crate) use value::arity;
@@ -24,7 +24,7 @@ pub(crate) const LONGEST: usize = 16 << 20;
 const DEEP_STACK: usize = 256 << 20;
 
 /// What the text says; what is wrong with it goes to `complaints`.
-pub(crate) fn read(text: &str, meshes: &mut Meshes, complaints: &mut Complaints) -> Outline {
+pub(crate) fn read(text: &str, files: &mut Files, complaints: &mut Complaints) -> Outline {
     let mut outline = Outline::default();
     if text.len() > LONGEST {
         complaints.add(0..0, format!("the text is longer than {} MiB", LONGEST >> 20));
@@ -37,7 +37,7 @@ pub(crate) fn read(text: &str, meshes: &mut Meshes, complaints: &mut Complaints)
     }
     match parse_kdl(&scan::without_comments(text)) {
         Ok(document) => {
-            let mut reader = Reader { text, meshes, complaints, outline: &mut outline };
+            let mut reader = Reader { text, files, complaints, outline: &mut outline };
             for node in document.nodes() {
                 reader.read_node(node, None);
             }
@@ -61,7 +61,7 @@ fn parse_kdl(text: &str) -> Result<KdlDocument, kdl::KdlError> {
 /// What reading needs at hand.
 struct Reader<'a> {
     text: &'a str,
-    meshes: &'a mut Meshes,
+    files: &'a mut Files,
     complaints: &'a mut Complaints,
     outline: &'a mut Outline,
 }

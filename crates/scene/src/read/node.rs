@@ -1,6 +1,6 @@
 //! How a node is read: its kind, its name, its fields, its placement and, for a group, its members.
 
-use catoptra_core::{Placement, Values};
+use catoptra_core::{Field, Placement, Values};
 use kdl::{KdlEntry, KdlNode};
 
 use super::placement::STEPS;
@@ -214,7 +214,7 @@ impl Reader<'_> {
                     self.complaints.add_with(
                         span,
                         format!("this {word} needs {}", one(field)),
-                        needs(item.sort),
+                        needs(item.sort, field),
                     );
                 }
             }
@@ -264,8 +264,9 @@ fn missing(item: &Item, field: &str) -> bool {
 }
 
 /// What has to be given, for hints.
-fn needs(sort: Sort) -> String {
-    let required: Vec<&str> = sort.fields().iter().filter(|f| f.default.is_none()).map(|f| f.name).collect();
+fn needs(sort: Sort, missing: &str) -> String {
+    let needed = |field: &&Field| field.default.is_none() && (!field.may_be_missing || field.name == missing);
+    let required: Vec<&str> = sort.fields().iter().filter(needed).map(|f| f.name).collect();
     format!("{} must be given {}", one(sort.word()), required.join(", "))
 }
 

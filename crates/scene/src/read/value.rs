@@ -4,7 +4,7 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Field, FieldKind, Rgb, Value};
 use kdl::{KdlEntry, KdlValue};
 
-use super::{Reader, span_of};
+use super::{Files, Reader, span_of};
 use crate::outline::Span;
 use crate::{slip, words};
 
@@ -15,6 +15,7 @@ pub(crate) fn arity(kind: FieldKind) -> (&'static [usize], &'static str) {
         FieldKind::Color | FieldKind::Quantity => (&[3, 1], "three numbers (red green blue) or one (grey)"),
         FieldKind::Choice(_) => (&[1], "one word"),
         FieldKind::Mesh => (&[1], "the path of a mesh file"),
+        FieldKind::Profile => (&[1], "the path of an IES file"),
         FieldKind::Flag => (&[1], "#true or #false"),
         FieldKind::Angle => (&[1], "one number (degrees)"),
         FieldKind::Number | FieldKind::Length | FieldKind::Count | FieldKind::Fraction => {
@@ -45,13 +46,18 @@ impl Reader<'_> {
                 .add(span, format!("{} takes {words}, not {found} value{}", field.name, plural(found)));
             return None;
         }
-        if matches!(field.kind, FieldKind::Choice(_) | FieldKind::Mesh) {
+        if matches!(field.kind, FieldKind::Choice(_) | FieldKind::Mesh | FieldKind::Profile) {
             self.refuse_odd_quotes(entries[0]);
         }
         match field.kind {
             FieldKind::Flag => self.read_flag(field, entries[0]),
             FieldKind::Choice(choices) => self.read_choice(field, choices, entries[0]),
-            FieldKind::Mesh => self.read_mesh(field, entries[0]),
+            FieldKind::Mesh => {
+                self.read_file(field, entries[0], "mesh", |files, path| files.mesh(path).map(Value::Mesh))
+            }
+            FieldKind::Profile => self.read_file(field, entries[0], "profile", |files, path| {
+                files.profile(path).map(Value::Profile)
+            }),
             FieldKind::Point | FieldKind::Direction => {
                 let [x, y, z] = self.read_three(field.name, entries)?;
                 Some(Value::Vector(DVec3::new(x, y, z)))
@@ -121,13 +127,20 @@ impl Reader<'_> {
         None
     }
 
-    fn read_mesh(&mut self, field: &Field, entry: &KdlEntry) -> Option<Value> {
+    /// Reads a path, and by `get` the file that lies there: a `sort` of file.
+    fn read_file(
+        &mut self,
+        field: &Field,
+        entry: &KdlEntry,
+        sort: &str,
+        get: fn(&mut Files, &str) -> Result<Value, String>,
+    ) -> Option<Value> {
         let Some(path) = entry.value().as_string() else {
             self.expect("a path in quotes", field.name, entry);
             return None;
         };
-        match self.meshes.get(path) {
-            Ok(source) => Some(Value::Mesh(source)),
+        match get(self.files, path) {
+            Ok(value) => Some(value),
             Err(message) => {
                 let span = value_span(entry);
                 let escaped =
@@ -136,7 +149,7 @@ impl Reader<'_> {
                     let slashed = self.text[span.clone()].replace("\\\\", "\\").replace('\\', "/");
                     format!("a \\ in quotes must be written \\\\ or /: write {slashed}")
                 } else {
-                    "the path of a mesh is relative to the folder of the scene file".to_owned()
+                    format!("the path of a {sort} is relative to the folder of the scene file")
                 };
                 self.complaints.add_with(span, message, help);
                 None

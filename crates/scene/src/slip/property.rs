@@ -77,7 +77,9 @@ impl Values<'_> {
         let field = sort.and_then(|sort| sort.fields().iter().find(|field| field.name == key));
         let inner = &text[value.clone()];
         let takes_words = key == MATERIAL
-            || field.is_some_and(|f| matches!(f.kind, FieldKind::Mesh | FieldKind::Choice(_)));
+            || field.is_some_and(|f| {
+                matches!(f.kind, FieldKind::Mesh | FieldKind::Profile | FieldKind::Choice(_))
+            });
         if inner.is_empty() || is_number(inner) || (is_identifier(inner) && !inner.contains(',')) {
             return 0;
         }

@@ -83,7 +83,7 @@ pub(super) fn takes(word: &str, sort: Option<Sort>, within: Option<&str>, is_nod
     }
     if let Some(field) = sort.and_then(|sort| sort.fields().iter().find(|field| field.name == word)) {
         return match field.kind {
-            FieldKind::Mesh | FieldKind::Choice(_) => Takes::Words,
+            FieldKind::Mesh | FieldKind::Profile | FieldKind::Choice(_) => Takes::Words,
             FieldKind::Flag => Takes::Flag,
             kind => Takes::Numbers(arity(kind).0),
         };

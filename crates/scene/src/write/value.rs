@@ -12,6 +12,7 @@ pub(crate) fn words(kind: FieldKind, value: &Value) -> Vec<String> {
         Value::Flag(v) => vec![format!("#{v}")],
         Value::Word(word) => vec![quoted(word)],
         Value::Mesh(source) => vec![quoted(&source.path)],
+        Value::Profile(source) => vec![quoted(&source.path)],
     }
 }
 

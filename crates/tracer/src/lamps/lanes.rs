@@ -229,45 +229,12 @@ fn across<L: Lane>(v: Triple<L>, axis: Triple<L>) -> Triple<L> {
 #[inline(always)]
 fn angle<L: Lane>(pole: Triple<L>, from: Triple<L>, to: Triple<L>) -> L {
     let sine = pole.dot(cross(from, to - from));
-    atan2(sine.max(sine.number(0.0)), from.dot(to))
+    sine.max(sine.number(0.0)).atan2(from.dot(to))
 }
 
 /// The signed angle from one unit vector to another about an axis across both.
 #[inline(always)]
 fn angle_about<L: Lane>(axis: Triple<L>, from: Triple<L>, to: Triple<L>) -> L {
     let sine = axis.dot(cross(from, to - from));
-    let turn = atan2(sine.abs(), from.dot(to));
-    L::select(sine.less(sine.number(0.0)), -turn, turn)
+    sine.atan2(from.dot(to))
 }
-
-/// The angle in 0..=π of the direction (`x`, `y`) with `y` ≥ 0; 0 for the origin.
-///
-/// Within 5e-8: the polynomial's error is below 2e-8 (Abramowitz and Stegun, *Handbook of Mathematical Functions*,
-/// 4.4.49).
-#[inline(always)]
-fn atan2<L: Lane>(y: L, x: L) -> L {
-    use std::f64::consts::{FRAC_PI_2, PI};
-    let wide = x.abs();
-    let (least, most) = (y.min(wide), y.max(wide));
-    let slope = least / most.max(y.number(f64::from(f32::MIN_POSITIVE)));
-    let square = slope * slope;
-    let mut sum = y.number(ATAN[0]);
-    for term in &ATAN[1..] {
-        sum = sum.mul_add(square, y.number(*term));
-    }
-    let acute = (slope * square).mul_add(sum, slope);
-    let upright = L::select(wide.less(y), y.number(FRAC_PI_2) - acute, acute);
-    L::select(x.less(x.number(0.0)), y.number(PI) - upright, upright)
-}
-
-/// Coefficients of x¹⁷ down to x³ in the arcus tangent.
-const ATAN: [f64; 8] = [
-    0.002_866_225_7,
-    -0.016_165_736_7,
-    0.042_909_613_8,
-    -0.075_289_640_0,
-    0.106_562_639_3,
-    -0.142_088_994_4,
-    0.199_935_508_5,
-    -0.333_331_452_8,
-];

@@ -1,5 +1,6 @@
 //! Lanes of the CPU's SIMD registers as the formulas' numbers: `f32` at native width and the same lanes in `f64`.
 
+mod angle;
 mod column;
 mod double;
 mod level;
@@ -285,6 +286,18 @@ impl<S: Simd> Lane for F<S> {
         let smallest = self.number(f64::from(f32::MIN_POSITIVE));
         let power = (self.max(smallest).log2() * self.of(exponent)).exp2();
         Self::pick(self.less(smallest), self.number(0.0), power)
+    }
+    #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        angle::atan2(self, x)
+    }
+    #[inline(always)]
+    fn each(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let mut results = self;
+        for lane in 0..Self::LANES {
+            results.set(lane, f(f64::from(self.lane(lane)), f64::from(other.lane(lane))) as f32);
+        }
+        results
     }
 }
 

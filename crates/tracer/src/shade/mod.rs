@@ -9,6 +9,8 @@ mod lamps;
 #[cfg(test)]
 mod lobe_tests;
 mod look;
+#[cfg(test)]
+mod profile_tests;
 mod reflect;
 mod rules;
 

@@ -6,8 +6,10 @@ use std::sync::Arc;
 
 use catoptra_core::geometry::Plane;
 use catoptra_core::glam::DVec3;
+use catoptra_core::light::Pole;
 use catoptra_core::{
-    Field, FieldKind, Kind, Light, MeshSource, Placement, Rgb, Shape, TriangleMesh, Value, Values,
+    Field, FieldKind, IntensityProfile, Kind, Light, MeshSource, Placement, ProfileSource, Rgb, Shape,
+    TriangleMesh, Value, Values,
 };
 
 use crate::random::Random;
@@ -58,6 +60,7 @@ impl Given {
             FieldKind::Flag => Value::Flag(true),
             FieldKind::Choice(words) => Value::Word((*one_of(random, words)).to_owned()),
             FieldKind::Mesh => Value::Mesh(some_mesh(random, size)),
+            FieldKind::Profile => Value::Profile(some_profile(random)),
         }
     }
 }
@@ -70,6 +73,13 @@ fn some_mesh(random: &mut Random, size: f64) -> MeshSource {
         (0..2 + random.bits() % 6).map(|_| [(); 3].map(|()| (random.bits() % 6) as u32)).collect();
     let mesh = TriangleMesh::new(positions, triangles, None, None).unwrap();
     MeshSource { path: String::new(), mesh: Arc::new(mesh) }
+}
+
+/// Light into a cap round nadir.
+fn some_profile(random: &mut Random) -> ProfileSource {
+    let polar = vec![0.0, 10.0 + 170.0 * random.number().abs()];
+    let profile = IntensityProfile::new(Pole::Nadir, polar, vec![0.0], vec![1.0; 2]).unwrap();
+    ProfileSource { path: String::new(), profile: Arc::new(profile) }
 }
 
 /// A part of some kind near zero, about `size` metres large.

@@ -155,15 +155,20 @@ pub(super) fn bounds_of(snapshot: &Snapshot, seen: &[Seen]) -> Vec<PointBounds> 
 
 /// A light of any kind at a point, shining along `way`.
 fn light_at(random: &mut Random, position: DVec3, way: DVec3) -> Light {
-    let mut light = some_light(random, DVec3::ZERO, 1.0);
+    let light = some_light(random, DVec3::ZERO, 1.0);
+    let mut values = light.values();
     for field in light.kind().fields {
-        light = match field.kind {
-            FieldKind::Point => light.with(field.name, Value::Vector(position)).unwrap(),
-            FieldKind::Direction => light.with(field.name, Value::Vector(way)).unwrap(),
-            _ => light,
-        };
+        match field.kind {
+            FieldKind::Point => values.set(field.name, Value::Vector(position)),
+            // At right angles to the direction.
+            FieldKind::Direction if field.name == "horizontal" => {
+                values.set(field.name, Value::Vector(way.any_orthogonal_vector()));
+            }
+            FieldKind::Direction => values.set(field.name, Value::Vector(way)),
+            _ => {}
+        }
     }
-    light
+    (light.kind().make)(&values).unwrap()
 }
 
 /// Shapes that only just block the segment from a point, which lies outwards in its box, to a light.
