@@ -54,6 +54,14 @@ const FIRST_PAIR: u32 = 64;
 /// How far apart the pairs of two depths lie: more lamps than this share some.
 const PAIRS_PER_DEPTH: u32 = 1 << 16;
 
+impl Drawn {
+    /// The pair of sample dimensions of a lamp.
+    pub(crate) fn pair_of(&self, lamp: usize) -> u32 {
+        let pair = (lamp as u32).wrapping_add(self.depth.wrapping_mul(PAIRS_PER_DEPTH));
+        pair.wrapping_add(FIRST_PAIR)
+    }
+}
+
 impl LampRay {
     fn new(at: &LitPoint, LampPoint { to, end, solid }: LampPoint) -> Self {
         let direction = to.normalize_or_zero();
@@ -72,13 +80,12 @@ impl LampRay {
 impl LampRays {
     /// As many as `count` from a point to the lamp of a number.
     pub(crate) fn new(lamp: &LampRow, number: usize, at: &LitPoint, drawn: &Drawn, count: u32) -> Self {
-        let pair = (number as u32).wrapping_add(drawn.depth.wrapping_mul(PAIRS_PER_DEPTH));
         Self {
             points: LampPoints::new(&lamp.outline, at.point, at.normal),
             at: *at,
             sampler: drawn.sampler,
             first: drawn.sample.wrapping_mul(count),
-            pair: pair.wrapping_add(FIRST_PAIR),
+            pair: drawn.pair_of(number),
             count,
         }
     }

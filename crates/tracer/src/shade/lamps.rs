@@ -7,6 +7,7 @@ use catoptra_core::{Lane, LaneMask, Material, Rgb, ShadingPoint, Shape};
 use fearless_simd::Simd;
 
 use super::Shader;
+use super::lamp_rays::{QuadRays, Weights, open_share};
 use crate::cull::Candidates;
 use crate::lamps::{
     BallOutline, Drawn, Gathered, LampRay, LampRays, LitPoint, Outline, follow, follow_picked, gather, picked,
@@ -26,6 +27,8 @@ pub(crate) struct LampRoom {
     /// Rays from a point to lamps, and whether each is blocked.
     rays: FromPoint,
     blocked: Vec<bool>,
+    /// How much would arrive along each.
+    weights: Weights,
     /// Every shape.
     all: Candidates,
 }
@@ -223,6 +226,11 @@ impl<'a, S: Simd> Shader<'a, S> {
         if let (Gathered::Exactly(seen), false) = (gathered, glossy) {
             return seen;
         }
+        if let (Gathered::UpTo(open), false, Some(flat)) = (gathered, glossy, &lamp.flat)
+            && let Some(rays) = QuadRays::new(flat, here.shading.position.into(), here.lit.normal)
+        {
+            return open * self.open_share(&rays, &here, number);
+        }
         let rays = LampRays::new(lamp, number, &here.lit, &here.drawn, self.view.lamp_rays);
         if !open {
             self.aim(rays.above(), &here.lit);
@@ -235,6 +243,21 @@ impl<'a, S: Simd> Shader<'a, S> {
             self.add_glossy(at.slot, lane, shown * lamp.radiance.rgb());
         }
         found.of(gathered)
+    }
+
+    /// Which share of what would arrive from a rectangle does arrive.
+    fn open_share(&mut self, rays: &QuadRays, here: &LanePoint<'_>, number: usize) -> f64 {
+        let room = &mut *self.lamp_room;
+        room.rays.start(here.lit.point, self.search.snapshot.origin_in_frame(), here.lit.surface);
+        let (count, pair) = (self.view.lamp_rays, here.drawn.pair_of(number));
+        outlined(
+            self.s,
+            #[inline(always)]
+            || rays.aim(self.s, &here.drawn, pair, count, &mut room.rays, &mut room.weights),
+        );
+        self.search.stats.rays.lamp += room.rays.len() as u64;
+        self.trace(Some(number));
+        open_share(&self.lamp_room.weights, &self.lamp_room.blocked)
     }
 
     /// Adds what lamps that a tree picks contribute to a point.
