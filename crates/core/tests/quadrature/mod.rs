@@ -163,8 +163,8 @@ impl<'a> Rule<'a> {
         let mut sum = 0.0;
         for pair in stops.windows(2) {
             if pair[1] > pair[0] && self.is_seen(start + along * ((pair[0] + pair[1]) / 2.0), lit) {
-                for k in 0..2 {
-                    let step = (pair[1] - pair[0]) / 2.0;
+                for k in 0..4 {
+                    let step = (pair[1] - pair[0]) / 4.0;
                     let a = pair[0] + step * f64::from(k);
                     for (x, w) in self.gauss.0.iter().zip(&self.gauss.1) {
                         let d = from + along * (a + step * x);
