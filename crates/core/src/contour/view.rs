@@ -28,7 +28,7 @@ const WINDOW: f64 = 1.25;
 
 impl View {
     /// `None` where nothing of the lamp's lit side lies above the horizon.
-    #[inline]
+    #[inline(always)]
     pub(super) fn of(point: DVec3, normal: DVec3, lamp: &Lamp) -> Option<Self> {
         match &lamp.outline {
             Outline::Polygon(flat) => {
@@ -62,7 +62,7 @@ impl View {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn new(normal: DVec3, away: DVec3, from_eye: &[DVec3], round: Option<Conic>) -> Option<Self> {
         let none = Corner { at: DVec3::ZERO, edge: DVec3::ZERO };
         let (mut corners, mut count) = ([none; 5], from_eye.len());
