@@ -40,6 +40,11 @@ impl Sight<'_> {
             (Kind::Polygon(flat), _) => self.hide_polygon(flat),
             (Kind::Sphere(center, radius), _) => self.hide_sphere(*center, *radius, leaving),
             (Kind::Solid(solid), _) => self.hide_solid(solid, leaving),
+            (Kind::Ground(normal), _) => {
+                let mut cone = Cone::EVERYTHING;
+                cone.push_any(-*normal);
+                Ok(self.take(&cone))
+            }
         }
     }
 

@@ -117,8 +117,10 @@ impl View {
     #[inline]
     pub(super) fn may_meet(&self, point: DVec3, blocker: &Blocker) -> bool {
         let (center, radius) = (blocker.bound.0 - point, blocker.bound.1);
-        if matches!(blocker.kind, Kind::Plane(..)) {
-            return true;
+        match blocker.kind {
+            Kind::Plane(..) => return true,
+            Kind::Ground(normal) => return self.outline().iter().any(|corner| normal.dot(corner.at) < 0.0),
+            _ => {}
         }
         let is_beyond = self.is_flat && self.away.dot(center) - radius >= self.height;
         !is_beyond

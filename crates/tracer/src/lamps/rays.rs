@@ -35,6 +35,8 @@ pub(crate) struct LampRay {
     pub(crate) share: f64,
     /// The solid angle that it stands for if it were the only one, sr.
     pub(crate) solid: f64,
+    /// Whether it runs above the surface itself, and not only above the normal to shade with.
+    pub(crate) above_ground: bool,
 }
 
 /// Which random numbers rays are drawn from.
@@ -73,6 +75,7 @@ impl LampRay {
             cosine,
             share: cosine.max(0.0) * solid,
             solid,
+            above_ground: direction.dot(at.ground) > 0.0,
         }
     }
 }
@@ -152,7 +155,7 @@ pub(crate) fn follow_picked<'a>(
 ) -> Shone {
     let mut shone = Shone { irradiance: Rgb::BLACK, glossy: Rgb::BLACK };
     for picked in rays {
-        if is_blocked(&picked) {
+        if is_blocked(&picked) || !picked.ray.above_ground {
             continue;
         }
         let PickedRay { lamp, ray } = picked;
@@ -173,7 +176,7 @@ pub(crate) fn follow(
 ) -> (Found, Rgb) {
     let (mut found, mut shown) = (Found::default(), Triple::splat(0.0));
     for lamp_ray in rays.above() {
-        let open = !is_blocked(&lamp_ray);
+        let open = !is_blocked(&lamp_ray) && lamp_ray.above_ground;
         found.add(lamp_ray.share, open);
         if open && let Some(glossy) = lobes.glossy(at, lamp_ray.direction.into(), lamp_ray.cosine) {
             shown = glossy.scale(lamp_ray.solid / f64::from(rays.count)) + shown;
