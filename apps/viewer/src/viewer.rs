@@ -196,7 +196,7 @@ impl Viewer {
         let seen = id.and_then(|id| scene.world_camera(id));
         self.through = seen.as_ref().and(id);
         match seen {
-            Some(camera) if camera.focus().is_none() => self.look(self.aimed(&camera)),
+            Some(camera) if camera.target_distance().is_none() => self.look(self.aimed(&camera)),
             Some(camera) => self.look(camera),
             None => self.frame(self.everything()),
         }
