@@ -16,6 +16,7 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<Outcome> {
     let means = Means::of(&args.job)?;
     check_heard()?;
     let job = Job::new(&args.job, means, &[])?;
+    job.warn_of_idle(&args.job);
     let control = interrupt::control();
     let mut film = job.film()?;
     let Ok((_, frame)) = progress::while_showing(&control, || job.frame(&mut film, &control)) else {

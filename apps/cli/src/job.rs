@@ -83,7 +83,6 @@ impl Job {
         check_grid(&view)?;
         let meshes: Vec<Input> = file.mesh_paths().map(|path| ("the mesh", path)).collect();
         check_apart(outputs, &meshes)?;
-        warn_of_idle(args, &view);
         let started = Instant::now();
         let snapshot = Arc::new(Snapshot::extract(&scene, &pool));
         let build_ms = milliseconds_since(started);
@@ -102,6 +101,26 @@ impl Job {
             backend,
             pool,
         })
+    }
+
+    /// Says which options change nothing.
+    pub(crate) fn warn_of_idle(&self, args: &JobArgs) {
+        if self.view.samples == 1 && self.target.is_none() {
+            let given = [("--pattern", args.pattern.is_some()), ("--filter", args.filter.is_some())];
+            for (option, _) in given.iter().filter(|(_, given)| *given) {
+                warn(&format!(
+                    "{option} changes nothing: the one sample of a pixel lies in its middle (--samples asks for more)"
+                ));
+            }
+            if self.view.camera.lens_radius() > 0.0 {
+                warn(
+                    "the camera's lens-radius changes nothing: one sample sees through its middle (--samples asks for more)",
+                );
+            }
+        }
+        if args.simd.is_some() && args.backend != "wide" {
+            warn(&format!("--simd changes nothing: backend {} uses no vector instructions", args.backend));
+        }
     }
 
     /// A film for its frames.
@@ -162,26 +181,6 @@ fn check_grid(view: &View) -> Result<()> {
         side * side,
         (side + 1) * (side + 1)
     ))
-}
-
-/// Says which options change nothing.
-fn warn_of_idle(args: &JobArgs, view: &View) {
-    if view.samples == 1 {
-        let given = [("--pattern", args.pattern.is_some()), ("--filter", args.filter.is_some())];
-        for (option, _) in given.iter().filter(|(_, given)| *given) {
-            warn(&format!(
-                "{option} changes nothing: the one sample of a pixel lies in its middle (--samples asks for more)"
-            ));
-        }
-        if view.camera.lens_radius() > 0.0 {
-            warn(
-                "the camera's lens-radius changes nothing: one sample sees through its middle (--samples asks for more)",
-            );
-        }
-    }
-    if args.simd.is_some() && args.backend != "wide" {
-        warn(&format!("--simd changes nothing: backend {} uses no vector instructions", args.backend));
-    }
 }
 
 fn file_name(path: &Path) -> String {

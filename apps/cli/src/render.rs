@@ -26,6 +26,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome> {
     warn_of_idle(args);
     let tone = display.exposed(args.exposure.unwrap_or(job.scene.settings().exposure()));
     job.target = find_target(args, &job, tone)?;
+    job.warn_of_idle(&args.job);
     let control = interrupt::control();
     let mut film = job.film()?;
     let Ok((times, frame)) = frames(&job, args.repeat, &mut film, &control) else {

@@ -113,7 +113,7 @@ impl Camera {
             return Err(InvalidPart::new(
                 FOCUS,
                 "must be given beside a lens-radius and a direction",
-                "missing",
+                "left out",
             )
             .with_hint("write how far away things are sharp, such as focus 5, or give a target"));
         }

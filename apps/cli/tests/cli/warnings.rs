@@ -29,6 +29,7 @@ fn options_with_effect_are_not_told() {
         "-o a.png --display srgb",
         "-o a.png --display filmic --repeat 2 --stats s.json --tile 8",
         "-o a.exr --pattern grid --samples 4",
+        "-o a.exr --pattern owen --filter tent --samples 5",
     ] {
         let line = format!("render scene.kdl --size 8x8 {line}");
         let ran = catoptra(folder.path(), &line.split(' ').collect::<Vec<_>>());
