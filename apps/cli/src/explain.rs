@@ -16,12 +16,14 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<Outcome> {
     let means = Means::of(&args.job)?;
     check_heard()?;
     let job = Job::new(&args.job, means, &[])?;
+    job.warn_of_idle(&args.job);
     let control = interrupt::control();
     let mut film = job.film()?;
-    let Ok((_, stats)) = progress::while_showing(&control, || job.frame(&mut film, &control)) else {
+    let Ok((_, frame)) = progress::while_showing(&control, || job.frame(&mut film, &control)) else {
         return Ok(Outcome::Interrupted);
     };
-    let found = Found { needs: job.snapshot.needs(), ambient: ambient_lights(&job), job: &job, stats };
+    let found =
+        Found { needs: job.snapshot.needs(), ambient: ambient_lights(&job), job: &job, stats: frame.stats };
     print_answer(&if args.json { format!("{}\n", found.as_json()) } else { found.as_text() })?;
     Ok(Outcome::Done)
 }
@@ -76,8 +78,9 @@ impl Found<'_> {
             "camera": self.job.camera_name,
             "size": self.job.view.size,
             "crop": self.job.view.crop,
-            "samples": self.job.view.samples(),
+            "samples": self.job.view.samples,
             "pattern": self.job.view.pattern.name(),
+            "filter": self.job.view.filter.name(),
             "seed": self.job.view.seed,
             "integrator": self.job.view.integrator.name(),
             "max_depth": self.job.view.max_depth,
@@ -101,7 +104,7 @@ impl Found<'_> {
 
     fn as_text(&self) -> String {
         let (job, size) = (self.job, self.job.view.size);
-        let samples = counted(u64::from(job.view.samples()), "sample");
+        let samples = counted(u64::from(job.view.samples), "sample");
         format!(
             "{} through camera \"{}\" at {}x{}, {samples} a pixel\n\n\
              The scene holds\n{}\nWhat runs\n{}\nOne frame traced\n{}\nIt did not trace\n{}\nHow sure it is\n{}",

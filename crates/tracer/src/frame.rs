@@ -25,14 +25,22 @@ impl<'a> Frame<'a> {
     #[must_use]
     pub fn new(snapshot: &'a Snapshot, view: &'a View) -> Self {
         let frame = Self::without_eye(snapshot, view);
-        Self { outside_solids: snapshot.columns().is_outside(frame.eye), ..frame }
+        let outside = frame.is_pinhole() && snapshot.columns().is_outside(frame.eye);
+        Self { outside_solids: outside, ..frame }
     }
 
     /// As [`new`](Self::new), without asking where the eye lies.
     pub(crate) fn without_eye(snapshot: &'a Snapshot, view: &'a View) -> Self {
         let raster = view.camera.raster(view.size.width, view.size.height);
         let eye = raster.eye - snapshot.origin();
-        let raster = Raster { eye: raster.eye - snapshot.frame(), ..raster };
+        // One sample is seen from the middle of the lens.
+        let lens = raster.lens.filter(|_| view.samples > 1);
+        let raster = Raster { eye: raster.eye - snapshot.frame(), lens, ..raster };
         Self { snapshot, view, raster, eye, outside_solids: false }
+    }
+
+    /// Whether all rays of the view start at the eye.
+    pub(crate) fn is_pinhole(&self) -> bool {
+        self.raster.lens.is_none()
     }
 }

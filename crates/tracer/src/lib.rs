@@ -30,6 +30,7 @@ mod control;
 mod cull;
 mod display;
 mod film;
+mod filter;
 mod frame;
 mod instructions;
 mod integrator;
@@ -45,19 +46,22 @@ pub mod query;
 mod random;
 mod rays;
 mod render;
+mod sample;
 mod sampler;
 mod search;
 mod shade;
 mod snapshot;
 mod stats;
 mod stream;
+mod target;
 mod view;
 
 pub use accel::{MeshTree, Preset};
 pub use backend::{Backend, backend_named, backends};
-pub use control::Control;
-pub use display::Display;
+pub use control::{Control, Progress};
+pub use display::{Display, Tone};
 pub use film::{Film, NoRoom, Tile};
+pub use filter::Filter;
 pub use frame::Frame;
 pub use instructions::Instructions;
 pub use pattern::Pattern;
@@ -68,4 +72,5 @@ pub use snapshot::{
     Changed, Extraction, Hit, Needs, PartDiff, Presence, Prim, ShapeDiff, Snapshot, SnapshotDiff, SurfaceId,
 };
 pub use stats::{LampStats, Rays, Skipped, Stats, Tests};
+pub use target::{Reached, Scale, Target, render_until};
 pub use view::{Region, Size, Skip, View};

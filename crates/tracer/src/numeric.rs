@@ -20,6 +20,17 @@ pub(crate) const FAR: f64 = 8.0;
 /// pixels before it, below 2³², needs 52 bits at most, so it is the same however it is put together.
 pub(crate) const SAMPLE_STEP: f64 = 1.0 / (1_u32 << 20) as f64;
 
+/// Relative error of a sum of light in `f32`, for each of its terms: a rounding.
+pub(crate) const SUM_ERROR: f64 = U as f64;
+
+/// Share of a target below which an error that is judged by few samples is believed at once: what 16 means say is off by a
+/// factor of 3 in less than one case of 10⁶.
+pub(crate) const AT_ONCE: f64 = 1.0 / 3.0;
+
+/// How many times as many samples a pixel gets at most before its error is judged again: so much may be lost where the
+/// error was overrated.
+pub(crate) const MOST_GROWTH: u32 = 16;
+
 /// Whether results in `f32` carry error bounds, as they do in every ordinary build. Only a build that measures the cost
 /// of the bounds (the feature `trust-f32`) sets them all to zero and takes `f32` results as they are.
 pub(crate) const CERTAIN: bool = cfg!(not(feature = "trust-f32"));

@@ -17,7 +17,8 @@ pub struct Cancelled;
 /// [`Cancelled`] when `control` said so before the last tile was begun.
 ///
 /// # Panics
-/// A film of another part of the picture than the view's.
+/// A film of another part of the picture than the view's, or without the samples that the view [goes on](View::range)
+/// from.
 pub fn render(
     backend: &dyn Backend,
     snapshot: &Snapshot,
@@ -27,6 +28,9 @@ pub fn render(
     control: &Control,
 ) -> Result<Stats, Cancelled> {
     assert_eq!(film.region(), view.region(), "the film holds what the view shows");
+    let first = view.traced_samples().start;
+    let goes_on = first == 0 || film.tiles_mut().iter().all(|tile| tile.holds(first));
+    assert!(goes_on, "the film holds the samples before number {first}");
     let frame = Frame::new(snapshot, view);
     let tiles = film.tiles_mut();
     control.start(tiles.len());

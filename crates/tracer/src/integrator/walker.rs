@@ -13,7 +13,7 @@ pub(crate) struct CameraRay {
     pub(super) ray: Ray,
     /// The numbers of the pixel.
     pub(super) sampler: Sampler<u32>,
-    /// Which of the pixel's samples it is.
+    /// Its number in the sequence that its choices go by.
     pub(super) sample: u32,
 }
 

@@ -25,6 +25,12 @@ pub(crate) trait Batch<S: Simd> {
     /// How many rays there are.
     fn live(&self) -> u64;
 
+    /// Whether the packet that starts with ray `at` is known to hold no ray.
+    #[inline(always)]
+    fn is_idle(&self, _at: usize) -> bool {
+        false
+    }
+
     /// The packet that starts with ray `at`.
     fn packet(&self, s: S, at: usize) -> Packet<'_, S, Self::Precise>;
 
@@ -64,9 +70,8 @@ impl<S: Simd> Part<'_, S> {
 
     #[inline(always)]
     fn store(&self, s: S, at: usize, light: F3<S>, (depth, prim): (F<S>, U<S>), tile: &mut Tile) -> u64 {
-        let light = if self.camera.fresh { light } else { load3(s, &tile.sums, at) + light };
         let not_finite = store_sums(s, light, &mut tile.sums, at);
-        if self.camera.kept {
+        if self.camera.is_kept() {
             depth.store(&mut tile.depth[at..]);
             prim.store(&mut tile.surface[at..]);
         }
@@ -113,7 +118,16 @@ impl<'a, S: Simd> Batch<S> for Part<'a, S> {
 
     #[inline(always)]
     fn live(&self) -> u64 {
-        u64::from(self.region.size.width) * u64::from(self.region.size.height)
+        if !self.camera.is_masked() {
+            return u64::from(self.region.size.width) * u64::from(self.region.size.height);
+        }
+        let packets = (0..self.stretches()).flat_map(|stretch| self.stretch(stretch).step_by(F::<S>::LANES));
+        packets.map(|at| u64::from(self.camera.active(at))).sum()
+    }
+
+    #[inline(always)]
+    fn is_idle(&self, at: usize) -> bool {
+        self.camera.is_masked() && self.camera.active(at) == 0
     }
 
     #[inline(always)]

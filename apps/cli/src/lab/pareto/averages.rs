@@ -87,7 +87,7 @@ fn footprint(lab: &Lab) -> Result<Question> {
     let mut ways = Vec::new();
     for &pattern in Pattern::ALL {
         for grid in GRIDS {
-            let view = |view| View { pattern, grid, ..view };
+            let view = |view| View { pattern, samples: grid * grid, ..view };
             let right = |floor: &Floor<'_>| {
                 let [a, b] = [floor(0.0, 0.0), floor(1.0, 1.0)];
                 let (x, z) = (mean_sign(a.x, b.x), mean_sign(a.z, b.z));

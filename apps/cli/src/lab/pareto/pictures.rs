@@ -78,7 +78,10 @@ fn ways(lab: &Lab, scene: &Scene) -> Result<Vec<Way>> {
     let camera = scene.main_camera().and_then(|id| scene.world_camera(id));
     let camera = camera.ok_or_else(|| miette!("a scene of the lab has no camera"))?;
     let snapshot = Snapshot::extract(scene, &lab.pool);
-    let view = |pattern, grid| View { pattern, grid, ..View::of(scene, camera.clone(), SIZE) };
+    let view = |pattern, grid: u32| {
+        let samples = grid * grid;
+        View { pattern, samples, ..View::of(scene, camera.clone(), SIZE) }
+    };
     let (reference, _) = lab.picture(&snapshot, &view(Pattern::Grid, REFERENCE))?;
     let mut ways = Vec::new();
     for &pattern in Pattern::ALL {
