@@ -57,6 +57,9 @@ pub(crate) struct JobArgs {
     /// Where the samples lie in a pixel: grid or sobol [default: grid]
     #[arg(long, value_name = "NAME")]
     pub(crate) pattern: Option<String>,
+    /// Pixels that edges cross: off (by their samples) or exact (by the area of each part) [default: off]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) edges: Option<String>,
     /// What random choices go by: another number makes other ones, the same one the same picture
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u32,

@@ -78,6 +78,7 @@ impl Found<'_> {
             "crop": self.job.view.crop,
             "samples": self.job.view.samples(),
             "pattern": self.job.view.pattern.name(),
+            "edges": self.job.view.edges.name(),
             "seed": self.job.view.seed,
             "integrator": self.job.view.integrator.name(),
             "max_depth": self.job.view.max_depth,

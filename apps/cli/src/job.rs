@@ -7,8 +7,8 @@ use std::time::Instant;
 use catoptra_core::{Camera, EntityId, Role, Scene};
 use catoptra_scene::SceneFile;
 use catoptra_tracer::{
-    Backend, Cancelled, Control, Film, Instructions, Pattern, Pool, Region, Size, Snapshot, Stats, View,
-    render,
+    Backend, Cancelled, Control, Edges, Film, Instructions, Pattern, Pool, Region, Size, Snapshot, Stats,
+    View, render,
 };
 use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
 
@@ -16,7 +16,7 @@ use crate::args::{JobArgs, STANDARD};
 use crate::console::warn;
 use crate::destination::{Input, Output, check_apart};
 use crate::memory;
-use crate::names::{find_backend, find_instructions, find_integrator, find_pattern};
+use crate::names::{find_backend, find_edges, find_instructions, find_integrator, find_pattern};
 use crate::pool::{milliseconds_since, new_pool};
 use crate::suggest::unknown;
 
@@ -25,6 +25,7 @@ use crate::suggest::unknown;
 pub(crate) struct Means {
     backend: &'static dyn Backend,
     pattern: Pattern,
+    edges: Edges,
     instructions: Option<Instructions>,
 }
 
@@ -33,6 +34,7 @@ impl Means {
     pub(crate) fn of(args: &JobArgs) -> Result<Self> {
         Ok(Self {
             backend: find_backend(&args.backend)?,
+            edges: args.edges.as_deref().map(find_edges).transpose()?.unwrap_or_default(),
             pattern: args.pattern.as_deref().map(find_pattern).transpose()?.unwrap_or_default(),
             instructions: args.simd.as_deref().map(find_instructions).transpose()?,
         })
@@ -69,6 +71,7 @@ impl Job {
             max_depth: args.max_depth.unwrap_or(view.max_depth),
             crop,
             pattern: means.pattern,
+            edges: means.edges,
             seed: args.seed,
             instructions: means.instructions,
             ..view

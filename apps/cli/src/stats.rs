@@ -42,6 +42,7 @@ fn as_json(job: &Job, times: &FrameTimes, stats: &Stats) -> Result<Value> {
         "crop": job.view.crop,
         "samples": job.view.samples(),
         "pattern": job.view.pattern.name(),
+        "edges": job.view.edges.name(),
         "seed": job.view.seed,
         "max_depth": job.view.max_depth,
         "frames": times.frames,

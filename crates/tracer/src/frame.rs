@@ -3,6 +3,7 @@
 use catoptra_core::Raster;
 use catoptra_core::glam::DVec3;
 
+use crate::edges::EdgeList;
 use crate::{Snapshot, View};
 
 /// What a backend is given: a snapshot, and from where it is looked at.
@@ -18,6 +19,8 @@ pub struct Frame<'a> {
     pub(crate) eye: DVec3,
     /// Whether the eye, and so every ray of the view, stays outside all convex solids.
     pub(crate) outside_solids: bool,
+    /// The outlines that are seen, where they are to be shown exactly.
+    pub(crate) edges: Option<&'a EdgeList>,
 }
 
 impl<'a> Frame<'a> {
@@ -33,6 +36,6 @@ impl<'a> Frame<'a> {
         let raster = view.camera.raster(view.size.width, view.size.height);
         let eye = raster.eye - snapshot.origin();
         let raster = Raster { eye: raster.eye - snapshot.frame(), ..raster };
-        Self { snapshot, view, raster, eye, outside_solids: false }
+        Self { snapshot, view, raster, eye, outside_solids: false, edges: None }
     }
 }

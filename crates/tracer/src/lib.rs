@@ -29,6 +29,7 @@ pub mod backend;
 mod control;
 mod cull;
 mod display;
+mod edges;
 mod film;
 mod frame;
 mod instructions;
@@ -66,5 +67,5 @@ pub use render::{Cancelled, render};
 pub use snapshot::{
     Changed, Extraction, Hit, Needs, PartDiff, Presence, Prim, ShapeDiff, Snapshot, SnapshotDiff, SurfaceId,
 };
-pub use stats::{Rays, Skipped, Stats, Tests};
-pub use view::{Region, Size, Skip, View};
+pub use stats::{EdgePixels, Rays, Skipped, Stats, Tests};
+pub use view::{Edges, Region, Size, Skip, View};

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::edges::EdgeList;
 use crate::{Backend, Control, Film, Frame, Pool, Snapshot, Stats, View};
 
 /// The render was asked to stop; the film holds some new tiles and some old ones.
@@ -28,6 +29,8 @@ pub fn render(
 ) -> Result<Stats, Cancelled> {
     assert_eq!(film.region(), view.region(), "the film holds what the view shows");
     let frame = Frame::new(snapshot, view);
+    let edges = EdgeList::for_view(snapshot, view, &frame.raster);
+    let frame = Frame { edges: edges.as_ref(), ..frame };
     let tiles = film.tiles_mut();
     control.start(tiles.len());
     let trace = |tile: &mut crate::Tile| {

@@ -88,12 +88,45 @@ pub struct View {
     pub grid: u32,
     /// Where in a pixel they lie.
     pub pattern: Pattern,
+    /// How pixels are shown that outlines cross.
+    pub edges: Edges,
     /// Whether the film is to tell [standard errors](crate::Film::standard_error); the picture's bits do not depend on it.
     pub moments: bool,
     /// Which work that cannot matter is left out; the picture's bits do not depend on it.
     pub skip: Skip,
     /// Vector instructions to trace with; without, the best that the CPU has. The picture's bits do not depend on them.
     pub instructions: Option<Instructions>,
+}
+
+/// How pixels are shown that the outlines of things cross.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Edges {
+    /// As any other: by their samples.
+    #[default]
+    Off,
+    /// By the area of each part that outlines divide them into, and what its centroid shows. Under
+    /// [`Whitted`](Integrator::Whitted) alone; other integrators sample them.
+    Exact,
+}
+
+impl Edges {
+    /// Both ways.
+    pub const ALL: &'static [Self] = &[Self::Off, Self::Exact];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::Exact => "exact",
+        }
+    }
+
+    /// The way of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|edges| edges.name() == name)
+    }
 }
 
 /// Work that is left out because it cannot matter. Switched off, the same bits are computed the long way.
@@ -135,6 +168,7 @@ impl View {
             seed: 0,
             grid: 1,
             pattern: Pattern::Grid,
+            edges: Edges::Off,
             moments: false,
             skip: Skip::ALL,
             instructions: None,

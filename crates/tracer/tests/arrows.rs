@@ -14,6 +14,7 @@ const LAYERS: &[&[&str]] = &[
     &["search"],
     &["cull"],
     &["rays", "frame"],
+    &["edges"],
     &["snapshot"],
     &["kernel"],
     &["accel"],

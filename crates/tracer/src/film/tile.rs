@@ -38,6 +38,24 @@ pub struct Tile {
 type Light = [u32; 3];
 
 impl Tile {
+    /// One without pixels, to hold the light of single rays.
+    pub(crate) fn without_pixels() -> Self {
+        Self {
+            x: 0,
+            y: 0,
+            width: 0,
+            height: 0,
+            sums: Default::default(),
+            depth: Column::default(),
+            surface: Column::default(),
+            samples: Samples::uniform(1),
+            deviations: None,
+            entities: Arc::default(),
+            blank: None,
+            before: None,
+        }
+    }
+
     /// A black one without samples, where there is memory for it.
     pub(super) fn new(x: u32, y: u32, width: u32, height: u32) -> Option<Self> {
         let pixels = (width.div_ceil(BLOCK) * height.div_ceil(BLOCK)) as usize * BLOCK_PIXELS;
@@ -56,6 +74,26 @@ impl Tile {
             blank: Some([0; 3]),
             before: None,
         })
+    }
+
+    /// Makes room for the light of so many single rays, and clears it: each has the pixel of its number.
+    pub(crate) fn hold_rays(&mut self, count: usize) {
+        for light in &mut self.sums {
+            if light.len() < count {
+                light.resize(count, 0.0);
+            }
+            light[..count].fill(0.0);
+        }
+    }
+
+    /// Says what a pixel shows in all, where that is known without an error.
+    pub(crate) fn set_radiance(&mut self, i: usize, light: [f64; 3]) -> u64 {
+        let samples = f64::from(self.samples.count(i));
+        if let Some(deviations) = &mut self.deviations {
+            deviations[i] = 0.0;
+        }
+        let stored = self.sums.iter_mut().zip(light);
+        stored.map(|(sum, light)| store_finite(&mut sum[i], (light * samples) as f32)).sum()
     }
 
     /// Says that the tile is traced anew, and what its surfaces are called from now on.

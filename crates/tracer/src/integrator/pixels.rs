@@ -4,9 +4,10 @@ use catoptra_core::Rgb;
 
 use super::walker::{CameraRay, Walker};
 use super::{Integrate, IntegratorVisitor, Search, visit};
+use crate::edges::{EdgeList, PixelPieces};
 use crate::film::{NOTHING, Sum, store_finite};
 use crate::sampler::Sampler;
-use crate::{Frame, Hit, Stats, Tile};
+use crate::{Frame, Hit, Region, Size, Stats, Tile};
 
 /// Traces every pixel of a tile by the rules of the view's integrator.
 pub(crate) fn trace_pixels(search: &impl Search, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
@@ -29,8 +30,27 @@ impl<S: Search> IntegratorVisitor for Pixels<'_, S> {
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
             trace_pixel::<I, S>(&mut walker, tile, x, y);
         }
+        if let Some(edges) = frame.edges {
+            show_pieces::<I, S>(&mut walker, edges, tile);
+        }
         walker.stats
     }
+}
+
+/// Shows the pixels of a tile that outlines cross, in place of what their samples have shown.
+fn show_pieces<I: Integrate, S: Search>(walker: &mut Walker<'_, S>, edges: &EdgeList, tile: &mut Tile) {
+    let (frame, mut pieces) = (walker.frame, PixelPieces::default());
+    edges.find(Region::new(tile.x, tile.y, Size::new(tile.width, tile.height)), &mut pieces);
+    for ([x, y], parts, shares) in pieces.pixels() {
+        let sampler = Sampler::new(frame.view.seed, tile.x + x, tile.y + y);
+        let mut sum = Rgb::BLACK;
+        for (at, share) in parts.zip(shares) {
+            let ray = frame.raster.ray(pieces.x[at], pieces.y[at]);
+            sum += I::gather(walker, &CameraRay { ray, sampler, sample: 0 }).0 * *share;
+        }
+        walker.stats.not_finite += tile.set_radiance(tile.index(x, y), sum.to_array());
+    }
+    pieces.count(&mut walker.stats.edges);
 }
 
 /// Adds up the samples of a pixel; depth and surface are those of the one in the middle.

@@ -4,9 +4,11 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Span};
 use fearless_simd::Simd;
 
+use crate::film::NOTHING;
 use crate::kernel::{Leaving, Rays, Target};
 use crate::lanes::{
-    Column, D, D3, F, F3, M, U, compress_wide3, compress3, load_wide3, load3, narrow3, store_wide3, store3,
+    Column, D, D3, F, F3, M, MOST_LANES, U, compress_wide3, compress3, load_wide3, load3, narrow3,
+    store_wide3, store3,
 };
 use crate::numeric::{END_ERROR, POINT_ERROR};
 use crate::search::{Packet, PreciseRays, ShadowRays, drift, nearly_unit_rays};
@@ -45,6 +47,11 @@ impl Queue {
         self.length
     }
 
+    /// How many rays there is room for, in whole packets.
+    pub(crate) fn room(&self) -> usize {
+        self.pixel.len()
+    }
+
     /// Removes all rays; those to come are relative to `zero`, a point of the snapshot's frame, and followed up to `far`.
     pub(crate) fn start(&mut self, zero: DVec3, far: f64) {
         (self.length, self.zero, self.far) = (0, zero, far);
@@ -53,6 +60,19 @@ impl Queue {
     /// Removes all rays and keeps the room.
     pub(crate) fn clear(&mut self) {
         self.length = 0;
+    }
+
+    /// Appends a ray from the camera, which leaves no surface; its direction need not be of unit length.
+    pub(crate) fn push_camera_ray(&mut self, origin: DVec3, direction: DVec3, pixel: u32) {
+        self.make_room(MOST_LANES);
+        let (at, unit) = (self.length, direction / direction.length());
+        for axis in 0..3 {
+            self.origin[axis][at] = origin[axis];
+            self.direction[axis][at] = unit[axis];
+            self.weight[axis][at] = 1.0;
+        }
+        (self.pixel[at], self.prim[at], self.facet[at]) = (pixel, NOTHING, 0);
+        self.length += 1;
     }
 
     /// Appends the lanes where the mask holds.

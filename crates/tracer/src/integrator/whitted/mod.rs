@@ -3,6 +3,7 @@
 //! Whitted, "An improved illumination model for shaded display", CACM 23(6), 1980.
 
 mod paths;
+mod pieces;
 mod streams;
 mod tiles;
 

@@ -1,0 +1,154 @@
+//! Which pixels of a tile do outlines cross, and into which pieces do they part them?
+//!
+//! A tile is quartered down to pixels, each quarter with the outlines that may cross it: what is left out is certain not to.
+//! A pixel that straight cuts part into convex pieces is shown by a ray through the centroid of each. One whose outlines are
+//! too many or bend too much is quartered further; what is too small for that is sampled in its middle.
+
+use super::cut::Cuts;
+use super::form::Square;
+use super::sight::Outline;
+use super::split::{MOST_CUTS, Pieces};
+use super::{EdgeList, PixelPieces};
+use crate::Region;
+use crate::numeric::FINEST_SQUARE;
+
+/// Looking through a tile.
+pub(super) struct Search<'a> {
+    edges: &'a EdgeList,
+    region: Region,
+    /// The outlines that may cross the tile.
+    outlines: Vec<Outline>,
+    /// Numbers of those that may cross the squares on the way down, square after square.
+    stack: Vec<u32>,
+    pieces: Pieces,
+    found: &'a mut PixelPieces,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(edges: &'a EdgeList, region: Region, found: &'a mut PixelPieces) -> Self {
+        let [left, top] = [region.x, region.y].map(f64::from);
+        let [right, bottom] = [left + f64::from(region.size.width), top + f64::from(region.size.height)];
+        let mut outlines = Vec::new();
+        for (bounds, outline) in edges.bounds.iter().zip(&edges.outlines) {
+            if bounds[0] <= right && bounds[2] >= left && bounds[1] <= bottom && bounds[3] >= top {
+                outlines.push(*outline);
+            }
+        }
+        Self { edges, region, outlines, stack: Vec::new(), pieces: Pieces::whole(), found }
+    }
+
+    /// Finds the pieces of all pixels.
+    pub(super) fn run(&mut self) {
+        if self.outlines.is_empty() {
+            return;
+        }
+        self.stack.extend(0..self.outlines.len() as u32);
+        let size = self.region.size;
+        let edge = size.width.max(size.height).next_power_of_two();
+        self.look(self.region.x, self.region.y, edge, 0);
+    }
+
+    /// Looks through a square of pixels; its outlines are those of the stack from `first` on.
+    fn look(&mut self, x: u32, y: u32, edge: u32, first: usize) {
+        let half = f64::from(edge) / 2.0;
+        let square = Square { x: f64::from(x) + half, y: f64::from(y) + half, half };
+        let last = self.stack.len();
+        self.keep_crossing(square, first..last);
+        if self.stack.len() > last {
+            if edge == 1 {
+                self.part_pixel([x, y], square, last);
+            } else {
+                let half = edge / 2;
+                let (right, bottom) =
+                    (self.region.x + self.region.size.width, self.region.y + self.region.size.height);
+                for (x, y) in [(x, y), (x + half, y), (x, y + half), (x + half, y + half)] {
+                    if x < right && y < bottom {
+                        self.look(x, y, half, last);
+                    }
+                }
+            }
+        }
+        self.stack.truncate(last);
+    }
+
+    /// Adds those of some outlines that may cross a square to the stack.
+    fn keep_crossing(&mut self, square: Square, among: std::ops::Range<usize>) {
+        let Square { x, y, half } = square;
+        for at in among {
+            let outline = &self.outlines[self.stack[at] as usize];
+            let [left, top, right, bottom] = outline.bounds;
+            if left <= x + half
+                && right >= x - half
+                && top <= y + half
+                && bottom >= y - half
+                && outline.form.within(square).may_vanish()
+            {
+                self.stack.push(self.stack[at]);
+            }
+        }
+    }
+
+    /// Parts a pixel that outlines may cross.
+    fn part_pixel(&mut self, [x, y]: [u32; 2], square: Square, first: usize) {
+        let before = self.found.x.len();
+        let counts = self.found.counts;
+        let cuts = self.part(square, first);
+        let pieces = self.found.x.len() - before;
+        if cuts == 0 || pieces < 2 {
+            self.found.truncate(before);
+            self.found.counts = counts;
+            return;
+        }
+        let total: f64 = self.found.share[before..].iter().sum();
+        self.found.share[before..].iter_mut().for_each(|share| *share /= total);
+        self.found.pixels.push(([x - self.region.x, y - self.region.y], before as u32));
+        let kinds = &mut self.found.counts;
+        *if self.found.quartered { &mut kinds.quartered } else { &mut kinds.parted } += 1;
+        self.found.quartered = false;
+    }
+
+    /// Adds the pieces of a square, whose outlines are those of the stack from `first` on. Returns how many cuts there are.
+    fn part(&mut self, square: Square, first: usize) -> u32 {
+        let last = self.stack.len();
+        let mut cuts = 0;
+        let mut told = last - first <= MOST_CUTS;
+        self.pieces.reset();
+        for at in first..last {
+            if !told {
+                break;
+            }
+            let form = self.outlines[self.stack[at] as usize].form.within(square);
+            match Cuts::of(&form) {
+                Cuts::Not => {}
+                Cuts::Straight(cut) => {
+                    let before = self.pieces.len();
+                    self.pieces.split(cut);
+                    cuts += u32::from(self.pieces.len() > before);
+                }
+                Cuts::Bent => told = false,
+            }
+        }
+        if told {
+            for piece in self.pieces.iter() {
+                let [x, y] = [
+                    piece.center[0].mul_add(square.half, square.x),
+                    piece.center[1].mul_add(square.half, square.y),
+                ];
+                self.found.push(x, y, piece.area * square.half * square.half);
+            }
+            return cuts;
+        }
+        self.found.quartered = true;
+        if square.half <= FINEST_SQUARE {
+            self.found.push(square.x, square.y, 4.0 * square.half * square.half);
+            return 1;
+        }
+        cuts = 0;
+        for quarter in square.quarters() {
+            self.keep_crossing(quarter, first..last);
+            cuts += self.part(quarter, last);
+            self.stack.truncate(last);
+        }
+        cuts
+    }
+}

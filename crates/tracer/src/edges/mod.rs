@@ -1,0 +1,108 @@
+//! Pictures without jagged edges from one sample a pixel: which outlines cross a pixel, and into which pieces they part it.
+//!
+//! An outline in the picture is a line or a conic: the edge of a flat surface, the silhouette of a ball, the line along which
+//! two surfaces meet (`outlines.rs`). What a pixel shows is the sum, over the pieces that its outlines part it into, of the
+//! piece's share of the pixel's area and of what a ray through its centroid shows (`find.rs`): its mean to the second order of the
+//! pixel's size. All of it is `f64`, computed pixel by pixel from the frame alone, and shared by all backends.
+
+mod body;
+mod cut;
+mod find;
+mod form;
+mod outlines;
+mod sight;
+mod split;
+
+use catoptra_core::{Integrator, Raster};
+
+use crate::{EdgePixels, Edges, Region, Snapshot, View};
+use body::Body;
+use find::Search;
+use sight::{Outline, Sight};
+
+/// The outlines of a frame.
+#[derive(Debug, Default)]
+pub(crate) struct EdgeList {
+    outlines: Vec<Outline>,
+    /// Their bounds: left, top, right, bottom.
+    bounds: Vec<[f64; 4]>,
+}
+
+impl EdgeList {
+    /// Those that a view asks for, of what its rays see in the snapshot's frame.
+    pub(crate) fn for_view(snapshot: &Snapshot, view: &View, raster: &Raster) -> Option<Self> {
+        let asked = view.edges == Edges::Exact && view.integrator == Integrator::Whitted;
+        asked.then(|| Self::new(snapshot, raster))
+    }
+
+    /// Of what is seen by the rays of a raster in the snapshot's frame.
+    pub(crate) fn new(snapshot: &Snapshot, raster: &Raster) -> Self {
+        let bodies: Vec<Body> = snapshot.prims().iter().map(|prim| Body::of(&prim.shape)).collect();
+        let mut outlines = Vec::new();
+        outlines::add_outlines(&Sight::new(raster), &bodies, &mut outlines);
+        let bounds = outlines.iter().map(|outline| outline.bounds).collect();
+        Self { outlines, bounds }
+    }
+
+    /// Finds the pieces of all pixels of a part of the picture that outlines cross.
+    pub(crate) fn find(&self, region: Region, found: &mut PixelPieces) {
+        found.clear();
+        Search::new(self, region, found).run();
+    }
+}
+
+/// The pieces of pixels, pixel after pixel.
+#[derive(Debug, Default)]
+pub(crate) struct PixelPieces {
+    /// Column and row from the region's corner, and the pixel's first piece.
+    pixels: Vec<([u32; 2], u32)>,
+    /// Centroids, in pixels from the picture's corner.
+    pub(crate) x: Vec<f64>,
+    pub(crate) y: Vec<f64>,
+    /// Shares of their pixel.
+    share: Vec<f64>,
+    counts: EdgePixels,
+    /// Whether the pixel under way is quartered.
+    quartered: bool,
+}
+
+impl PixelPieces {
+    fn clear(&mut self) {
+        self.pixels.clear();
+        self.truncate(0);
+        self.counts = EdgePixels::default();
+    }
+
+    fn truncate(&mut self, length: usize) {
+        self.x.truncate(length);
+        self.y.truncate(length);
+        self.share.truncate(length);
+        self.quartered = false;
+    }
+
+    #[inline]
+    fn push(&mut self, x: f64, y: f64, share: f64) {
+        self.x.push(x);
+        self.y.push(y);
+        self.share.push(share);
+    }
+
+    /// How many pieces there are.
+    pub(crate) fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// Adds what was found to counts.
+    pub(crate) fn count(&self, counts: &mut EdgePixels) {
+        *counts += EdgePixels { pieces: self.len() as u64, ..self.counts };
+    }
+
+    /// Every pixel: column and row, its pieces, and their shares.
+    pub(crate) fn pixels(&self) -> impl Iterator<Item = ([u32; 2], std::ops::Range<usize>, &[f64])> {
+        self.pixels.iter().enumerate().map(|(i, &(at, first))| {
+            let last = self.pixels.get(i + 1).map_or(self.len(), |(_, next)| *next as usize);
+            let pieces = first as usize..last;
+            (at, pieces.clone(), &self.share[pieces])
+        })
+    }
+}
