@@ -11,6 +11,14 @@ pub(crate) struct Cut {
     pub(crate) off: f64,
 }
 
+impl Cut {
+    /// Its function at a place; positive in front.
+    #[inline]
+    pub(crate) fn height(&self, [x, y]: [f64; 2]) -> f64 {
+        self.along[0] * x + self.along[1] * y + self.off
+    }
+}
+
 /// How an outline cuts a square.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Cuts {
@@ -80,8 +88,8 @@ impl Cuts {
 
 /// The zero of a form that rises or falls all the way along y.
 fn height(form: &Form, x: f64) -> f64 {
-    let linear = form.xy.mul_add(x, form.y);
-    let constant = form.xx.mul_add(x, form.x).mul_add(x, form.one);
+    let linear = form.xy * x + form.y;
+    let constant = (form.xx * x + form.x) * x + form.one;
     let under = linear * linear - 4.0 * form.yy * constant;
     // Beyond the last zero lies none: far away on the side that the form points to.
     if under < 0.0 {
@@ -95,8 +103,8 @@ fn crossings(form: &Form) -> [f64; 6] {
     let mut stops = [-1.0, 1.0, 1.0, 1.0, 1.0, 1.0];
     let mut count = 1;
     for y in [-1.0, 1.0] {
-        let linear = form.xy.mul_add(y, form.x);
-        let constant = form.yy.mul_add(y, form.y).mul_add(y, form.one);
+        let linear = form.xy * y + form.x;
+        let constant = (form.yy * y + form.y) * y + form.one;
         let under = linear * linear - 4.0 * form.xx * constant;
         if under >= 0.0 {
             let sum = linear + under.sqrt().copysign(linear);

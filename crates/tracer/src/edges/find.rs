@@ -7,14 +7,13 @@
 use super::cut::Cuts;
 use super::form::Square;
 use super::sight::Outline;
-use super::split::{MOST_CUTS, Pieces};
+use super::split::{MOST_CUTS, Piece, Pieces, halves};
 use super::{EdgeList, PixelPieces};
 use crate::Region;
 use crate::numeric::FINEST_SQUARE;
 
 /// Looking through a tile.
 pub(super) struct Search<'a> {
-    edges: &'a EdgeList,
     region: Region,
     /// The outlines that may cross the tile.
     outlines: Vec<Outline>,
@@ -25,7 +24,7 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(edges: &'a EdgeList, region: Region, found: &'a mut PixelPieces) -> Self {
+    pub(super) fn new(edges: &EdgeList, region: Region, found: &'a mut PixelPieces) -> Self {
         let [left, top] = [region.x, region.y].map(f64::from);
         let [right, bottom] = [left + f64::from(region.size.width), top + f64::from(region.size.height)];
         let mut outlines = Vec::new();
@@ -34,7 +33,7 @@ impl<'a> Search<'a> {
                 outlines.push(*outline);
             }
         }
-        Self { edges, region, outlines, stack: Vec::new(), pieces: Pieces::whole(), found }
+        Self { region, outlines, stack: Vec::new(), pieces: Pieces::whole(), found }
     }
 
     /// Finds the pieces of all pixels.
@@ -81,7 +80,7 @@ impl<'a> Search<'a> {
                 && right >= x - half
                 && top <= y + half
                 && bottom >= y - half
-                && outline.form.within(square).may_vanish()
+                && outline.form.may_cross(square)
             {
                 self.stack.push(self.stack[at]);
             }
@@ -90,10 +89,10 @@ impl<'a> Search<'a> {
 
     /// Parts a pixel that outlines may cross.
     fn part_pixel(&mut self, [x, y]: [u32; 2], square: Square, first: usize) {
-        let before = self.found.x.len();
+        let before = self.found.len();
         let counts = self.found.counts;
         let cuts = self.part(square, first);
-        let pieces = self.found.x.len() - before;
+        let pieces = self.found.len() - before;
         if cuts == 0 || pieces < 2 {
             self.found.truncate(before);
             self.found.counts = counts;
@@ -111,6 +110,17 @@ impl<'a> Search<'a> {
     fn part(&mut self, square: Square, first: usize) -> u32 {
         let last = self.stack.len();
         let mut cuts = 0;
+        if last - first == 1
+            && let Cuts::Straight(cut) =
+                Cuts::of(&self.outlines[self.stack[first] as usize].form.within(square))
+        {
+            let Some(parts) = halves(cut) else {
+                self.found.add(Piece::SQUARE, square);
+                return 0;
+            };
+            parts.into_iter().for_each(|piece| self.found.add(piece, square));
+            return 1;
+        }
         let mut told = last - first <= MOST_CUTS;
         self.pieces.reset();
         for at in first..last {
@@ -129,18 +139,12 @@ impl<'a> Search<'a> {
             }
         }
         if told {
-            for piece in self.pieces.iter() {
-                let [x, y] = [
-                    piece.center[0].mul_add(square.half, square.x),
-                    piece.center[1].mul_add(square.half, square.y),
-                ];
-                self.found.push(x, y, piece.area * square.half * square.half);
-            }
+            self.pieces.iter().for_each(|piece| self.found.add(*piece, square));
             return cuts;
         }
         self.found.quartered = true;
         if square.half <= FINEST_SQUARE {
-            self.found.push(square.x, square.y, 4.0 * square.half * square.half);
+            self.found.add(Piece::SQUARE, square);
             return 1;
         }
         cuts = 0;

@@ -18,7 +18,9 @@ use catoptra_core::{Integrator, Raster};
 use crate::{EdgePixels, Edges, Region, Snapshot, View};
 use body::Body;
 use find::Search;
+use form::Square;
 use sight::{Outline, Sight};
+use split::Piece;
 
 /// The outlines of a frame.
 #[derive(Debug, Default)]
@@ -80,16 +82,25 @@ impl PixelPieces {
         self.quartered = false;
     }
 
+    /// Adds a piece of a square.
     #[inline]
-    fn push(&mut self, x: f64, y: f64, share: f64) {
-        self.x.push(x);
-        self.y.push(y);
-        self.share.push(share);
+    fn add(&mut self, piece: Piece, square: Square) {
+        let [x, y] = piece.center;
+        self.x.push(x * square.half + square.x);
+        self.y.push(y * square.half + square.y);
+        self.share.push(piece.area * square.half * square.half);
     }
 
     /// How many pieces there are.
     pub(crate) fn len(&self) -> usize {
-        self.x.len()
+        self.share.len()
+    }
+
+    /// Fills up the columns of centroids to whole packets.
+    pub(crate) fn fill_up(&mut self, lanes: usize) {
+        let room = self.len().next_multiple_of(lanes);
+        self.x.resize(room, 0.0);
+        self.y.resize(room, 0.0);
     }
 
     /// Adds what was found to counts.

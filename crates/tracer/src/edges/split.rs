@@ -26,6 +26,55 @@ pub(crate) struct Piece {
     pub(crate) center: [f64; 2],
 }
 
+impl Piece {
+    /// The whole square.
+    pub(crate) const SQUARE: Self = Self { area: 4.0, center: [0.0; 2] };
+}
+
+/// The place between two others.
+#[inline]
+fn between([ax, ay]: [f64; 2], [bx, by]: [f64; 2], share: f64) -> [f64; 2] {
+    [ax + share * (bx - ax), ay + share * (by - ay)]
+}
+
+/// What a single cut makes of the square; `None` where it leaves no more than a sliver on one side.
+#[inline]
+pub(crate) fn halves(cut: Cut) -> Option<[Piece; 2]> {
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    // The border of what lies in front.
+    let (mut border, mut count) = ([[0.0; 2]; 6], 0);
+    let (mut from, mut here) = (corners[3], cut.height(corners[3]));
+    for to in corners {
+        let there = cut.height(to);
+        if here * there < 0.0 {
+            border[count] = between(from, to, here / (here - there));
+            count += 1;
+        }
+        if there >= 0.0 {
+            border[count] = to;
+            count += 1;
+        }
+        (from, here) = (to, there);
+    }
+    let (mut twice, mut x, mut y) = (0.0, 0.0, 0.0);
+    let mut last = border[if count > 0 { count - 1 } else { 0 }];
+    for &to in &border[..count] {
+        let area = last[0] * to[1] - last[1] * to[0];
+        twice += area;
+        x += area * (last[0] + to[0]);
+        y += area * (last[1] + to[1]);
+        last = to;
+    }
+    let area = twice / 2.0;
+    let rest = 4.0 - area;
+    if !(area > LEAST_PIECE && rest > LEAST_PIECE) {
+        return None;
+    }
+    let center = [x / (3.0 * twice), y / (3.0 * twice)];
+    let share = -area / rest;
+    Some([Piece { area, center }, Piece { area: rest, center: center.map(|c| c * share) }])
+}
+
 /// The pieces of a square that reaches from −1 to 1.
 pub(crate) struct Pieces {
     count: usize,
@@ -45,14 +94,14 @@ impl Pieces {
     /// The square as it is.
     #[inline]
     pub(crate) fn whole() -> Self {
-        Self { count: 1, pieces: [(SQUARE, Piece { area: 4.0, center: [0.0; 2] }); MOST_PIECES] }
+        Self { count: 1, pieces: [(SQUARE, Piece::SQUARE); MOST_PIECES] }
     }
 
     /// Puts the square together again.
     #[inline]
     pub(crate) fn reset(&mut self) {
         self.count = 1;
-        self.pieces[0] = (SQUARE, Piece { area: 4.0, center: [0.0; 2] });
+        self.pieces[0] = (SQUARE, Piece::SQUARE);
     }
 
     /// How many there are.
@@ -69,53 +118,54 @@ impl Pieces {
     #[inline]
     pub(crate) fn split(&mut self, cut: Cut) {
         for at in 0..self.count {
-            if self.count == MOST_PIECES {
-                return;
-            }
-            let Some([front, back]) = self.pieces[at].0.parted(cut) else { continue };
-            let parts = [front, back].map(|polygon| (polygon, polygon.piece()));
-            if parts.iter().any(|(_, piece)| !(piece.area > LEAST_PIECE)) {
+            let (known, [free, ..]) = self.pieces.split_at_mut(self.count) else { return };
+            let mut rest = Polygon { count: 0, corners: SQUARE.corners };
+            if !known[at].0.parted(cut, [&mut free.0, &mut rest]) {
                 continue;
             }
-            self.pieces[at] = parts[0];
-            self.pieces[self.count] = parts[1];
+            let parts = [free.0.piece(), rest.piece()];
+            if parts.iter().any(|piece| !(piece.area > LEAST_PIECE)) {
+                continue;
+            }
+            free.1 = parts[0];
+            known[at] = (rest, parts[1]);
             self.count += 1;
         }
     }
 }
 
 impl Polygon {
-    /// What lies in front of a cut and behind it; `None` where all lies on one side.
+    /// Fills in what lies in front of a cut and behind it; false where all lies on one side.
     #[inline]
-    fn parted(&self, cut: Cut) -> Option<[Self; 2]> {
+    fn parted(&self, cut: Cut, parts: [&mut Self; 2]) -> bool {
         let mut heights = [0.0; MOST_CORNERS];
         let (mut lowest, mut highest) = (f64::INFINITY, f64::NEG_INFINITY);
-        for (height, [x, y]) in heights.iter_mut().zip(&self.corners[..self.count]) {
-            *height = cut.along[0].mul_add(*x, cut.along[1].mul_add(*y, cut.off));
+        for (height, corner) in heights.iter_mut().zip(&self.corners[..self.count]) {
+            *height = cut.height(*corner);
             lowest = height.min(lowest);
             highest = height.max(highest);
         }
         if !(lowest < 0.0 && highest > 0.0) || self.count + 1 >= MOST_CORNERS {
-            return None;
+            return false;
         }
-        let mut parts = [Self { count: 0, corners: [[0.0; 2]; MOST_CORNERS] }; 2];
+        let [front, back] = parts;
+        (front.count, back.count) = (0, 0);
         for i in 0..self.count {
             let next = if i + 1 == self.count { 0 } else { i + 1 };
             let (a, b, here, there) = (self.corners[i], self.corners[next], heights[i], heights[next]);
             if here >= 0.0 {
-                parts[0].push(a);
+                front.push(a);
             }
             if here <= 0.0 {
-                parts[1].push(a);
+                back.push(a);
             }
             if here * there < 0.0 {
-                let share = here / (here - there);
-                let on = [share.mul_add(b[0] - a[0], a[0]), share.mul_add(b[1] - a[1], a[1])];
-                parts[0].push(on);
-                parts[1].push(on);
+                let on = between(a, b, here / (here - there));
+                front.push(on);
+                back.push(on);
             }
         }
-        Some(parts)
+        true
     }
 
     #[inline]
@@ -165,7 +215,34 @@ mod tests {
     fn a_cut_along_the_diagonal_halves_the_square() {
         let mut pieces = Pieces::whole();
         pieces.split(Cut { along: [1.0, -1.0], off: 0.0 });
-        let found: Vec<_> = pieces.iter().map(|piece| (piece.area, piece.center[0].abs())).collect();
-        assert_eq!(found, [(2.0, 1.0 / 3.0); 2]);
+        let found: Vec<_> = pieces.iter().map(|piece| (piece.area, piece.center)).collect();
+        assert_eq!(found.len(), 2);
+        for ((area, [x, y]), side) in found.iter().zip([-1.0, 1.0]) {
+            assert!(
+                (area - 2.0).abs() + (x - side / 3.0).abs() + (y + side / 3.0).abs() < 1e-15,
+                "{area} {x} {y}"
+            );
+        }
+    }
+
+    #[test]
+    fn halves_are_those_of_any_other_polygon() {
+        let mut random = Random(11);
+        for _ in 0..2000 {
+            let cut = Cut { along: [random.number(), random.number()], off: 1.5 * random.number() };
+            let mut pieces = Pieces::whole();
+            pieces.split(cut);
+            let Some(parts) = halves(cut) else {
+                assert_eq!(pieces.len(), 1);
+                continue;
+            };
+            for part in parts {
+                let near = |other: &Piece| {
+                    let [dx, dy] = [0, 1].map(|axis| (other.center[axis] - part.center[axis]).abs());
+                    (other.area - part.area).abs() + dx + dy
+                };
+                assert!(pieces.iter().map(near).fold(f64::INFINITY, f64::min) < 1e-9, "{cut:?}");
+            }
+        }
     }
 }

@@ -1,13 +1,14 @@
 //! The rays of a stream, gathered lane by lane and handed out in full packets.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Ray, Span};
+use catoptra_core::{Lane, Ray, Span};
 use fearless_simd::Simd;
 
 use crate::film::NOTHING;
+use crate::frame::Frame;
 use crate::kernel::{Leaving, Rays, Target};
 use crate::lanes::{
-    Column, D, D3, F, F3, M, MOST_LANES, U, compress_wide3, compress3, load_wide3, load3, narrow3,
+    Column, D, D3, F, F3, M, U, compress_wide3, compress3, load_wide3, load3, narrow3, splat_wide,
     store_wide3, store3,
 };
 use crate::numeric::{END_ERROR, POINT_ERROR};
@@ -47,11 +48,6 @@ impl Queue {
         self.length
     }
 
-    /// How many rays there is room for, in whole packets.
-    pub(crate) fn room(&self) -> usize {
-        self.pixel.len()
-    }
-
     /// Removes all rays; those to come are relative to `zero`, a point of the snapshot's frame, and followed up to `far`.
     pub(crate) fn start(&mut self, zero: DVec3, far: f64) {
         (self.length, self.zero, self.far) = (0, zero, far);
@@ -62,17 +58,35 @@ impl Queue {
         self.length = 0;
     }
 
-    /// Appends a ray from the camera, which leaves no surface; its direction need not be of unit length.
-    pub(crate) fn push_camera_ray(&mut self, origin: DVec3, direction: DVec3, pixel: u32) {
-        self.make_room(MOST_LANES);
-        let (at, unit) = (self.length, direction / direction.length());
-        for axis in 0..3 {
-            self.origin[axis][at] = origin[axis];
-            self.direction[axis][at] = unit[axis];
-            self.weight[axis][at] = 1.0;
+    /// Appends camera rays through places of the picture, given in pixels in whole packets, of which the first `count` count.
+    /// They leave no surface, and the pixel of each is its number.
+    #[inline(always)]
+    pub(crate) fn push_camera_rays<S: Simd>(
+        &mut self,
+        s: S,
+        frame: &Frame<'_>,
+        [x, y]: [&[f64]; 2],
+        count: usize,
+    ) {
+        let raster = &frame.raster;
+        let (origin, corner) = (splat_wide(s, frame.eye), splat_wide(s, raster.corner));
+        let (across, down) = (splat_wide(s, raster.across), splat_wide(s, raster.down));
+        for at in (0..count).step_by(F::<S>::LANES) {
+            let (x, y) = (D::load(s, &x[at..]), D::load(s, &y[at..]));
+            let direction = across.scale_add(x, down.scale_add(y, corner));
+            let length = narrow3(direction);
+            let inverse = F::splat(s, 1.0) / length.dot(length).sqrt();
+            let rays = QueuedRays {
+                origin,
+                direction: direction.scale(inverse.widen()),
+                weight: F3::splat(F::splat(s, 1.0)),
+                pixel: U::counted(s, at as u32),
+                prim: U::splat(s, NOTHING),
+                facet: U::splat(s, 0),
+            };
+            let left = (count - at).min(F::<S>::LANES);
+            self.push(M::from_bits(s, u64::MAX >> (64 - left)), &rays);
         }
-        (self.pixel[at], self.prim[at], self.facet[at]) = (pixel, NOTHING, 0);
-        self.length += 1;
     }
 
     /// Appends the lanes where the mask holds.

@@ -7,6 +7,7 @@ use super::streams::Bounce;
 use super::tiles::TileTracer;
 use crate::cull::{Candidates, Frustum};
 use crate::edges::{EdgeList, PixelPieces};
+use crate::lanes::{F, outlined};
 use crate::stream::Queue;
 use crate::{Region, Size, Tile};
 
@@ -46,10 +47,14 @@ impl<S: Simd> TileTracer<'_, S> {
             return;
         }
         rays.start(snapshot.origin_in_frame(), f64::INFINITY);
-        for (at, (x, y)) in pieces.x.iter().zip(&pieces.y).enumerate() {
-            rays.push_camera_ray(frame.eye, frame.raster.ray(*x, *y).direction, at as u32);
-        }
-        light.hold_rays(rays.room());
+        let count = pieces.len();
+        pieces.fill_up(F::<S>::LANES);
+        outlined(
+            self.s,
+            #[inline(always)]
+            || rays.push_camera_rays(self.s, frame, [&pieces.x, &pieces.y], count),
+        );
+        light.hold_rays(count);
         self.shader.plan.dark.clear();
         self.trace(&*rays, visible, light, 0);
         if self.shader.next.len() > 0 {
