@@ -84,6 +84,19 @@ pub(crate) const OUTLINE_MARGIN: f64 = 1.0 / (1_u64 << 40) as f64;
 /// 2²⁰ times as far from the picture's middle as the eye sees that end to be off it.
 pub(crate) const NEAREST_SHARE: f64 = 1.0 / (1_u64 << 20) as f64;
 
+/// Most lines of one family between checkered squares that part a square: beyond, squares are so small that their mean is
+/// near.
+pub(crate) const MOST_LINES: f64 = 8.0;
+
+/// Most outlines of a frame: with so many, those in mirrors are no longer told apart.
+pub(crate) const MOST_OUTLINES: usize = 1 << 16;
+
+/// Most pairs of a flat surface and a body between it and a lamp: with more, shadows' edges are not told.
+pub(crate) const MOST_SHADOWS: usize = 1 << 16;
+
+/// Mirrors after one another in which outlines are told.
+pub(crate) const MIRRORS_DEEP: u32 = 2;
+
 /// Largest area of a piece that is left with its neighbour, in quarters of a square: four of 2⁻²² change a pixel by a
 /// millionth of what they show at most.
 pub(crate) const LEAST_PIECE: f64 = 1.0 / (1_u64 << 22) as f64;

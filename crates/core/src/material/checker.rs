@@ -35,6 +35,13 @@ impl Checker {
         )
     }
 
+    /// Squares per metre, and the cell numbers along x and z at the origin that positions are relative to, less a multiple of
+    /// two.
+    #[must_use]
+    pub fn grid(&self) -> (f64, [f64; 2]) {
+        (self.scale.wide, self.phase.map(|phase| phase.wide))
+    }
+
     /// In how many cells from the pattern's corner a point lies, along x and z.
     #[inline(always)]
     fn cells<L: Lane>(&self, at: &ShadingPoint<L>) -> [L; 2] {

@@ -4,6 +4,7 @@
 //! A pixel that straight cuts part into convex pieces is shown by a ray through the centroid of each. One whose outlines are
 //! too many or bend too much is quartered further; what is too small for that is sampled in its middle.
 
+use super::checker::Lines;
 use super::cut::Cuts;
 use super::form::Square;
 use super::sight::Outline;
@@ -17,6 +18,10 @@ pub(super) struct Search<'a> {
     region: Region,
     /// The outlines that may cross the tile.
     outlines: Vec<Outline>,
+    /// Lines between checkered squares in mirrors; they are numbered on from the outlines.
+    lines: Vec<Lines>,
+    /// Those that part a pixel only where outlines do.
+    others: Vec<Lines>,
     /// Numbers of those that may cross the squares on the way down, square after square.
     stack: Vec<u32>,
     pieces: Pieces,
@@ -27,21 +32,26 @@ impl<'a> Search<'a> {
     pub(super) fn new(edges: &EdgeList, region: Region, found: &'a mut PixelPieces) -> Self {
         let [left, top] = [region.x, region.y].map(f64::from);
         let [right, bottom] = [left + f64::from(region.size.width), top + f64::from(region.size.height)];
+        let near = |bounds: &[f64; 4]| {
+            bounds[0] <= right && bounds[2] >= left && bounds[1] <= bottom && bounds[3] >= top
+        };
         let mut outlines = Vec::new();
         for (bounds, outline) in edges.bounds.iter().zip(&edges.outlines) {
-            if bounds[0] <= right && bounds[2] >= left && bounds[1] <= bottom && bounds[3] >= top {
+            if near(bounds) {
                 outlines.push(*outline);
             }
         }
-        Self { region, outlines, stack: Vec::new(), pieces: Pieces::whole(), found }
+        let lines = edges.lines.iter().filter(|lines| near(&lines.bounds));
+        let (lines, others) = lines.partition(|lines| lines.alone);
+        Self { region, outlines, lines, others, stack: Vec::new(), pieces: Pieces::whole(), found }
     }
 
     /// Finds the pieces of all pixels.
     pub(super) fn run(&mut self) {
-        if self.outlines.is_empty() {
+        self.stack.extend(0..(self.outlines.len() + self.lines.len()) as u32);
+        if self.stack.is_empty() {
             return;
         }
-        self.stack.extend(0..self.outlines.len() as u32);
         let size = self.region.size;
         let edge = size.width.max(size.height).next_power_of_two();
         self.look(self.region.x, self.region.y, edge, 0);
@@ -74,15 +84,21 @@ impl<'a> Search<'a> {
     fn keep_crossing(&mut self, square: Square, among: std::ops::Range<usize>) {
         let Square { x, y, half } = square;
         for at in among {
-            let outline = &self.outlines[self.stack[at] as usize];
-            let [left, top, right, bottom] = outline.bounds;
+            let number = self.stack[at] as usize;
+            let outline = self.outlines.get(number);
+            let bounds =
+                outline.map_or_else(|| &self.lines[number - self.outlines.len()].bounds, |o| &o.bounds);
+            let [left, top, right, bottom] = *bounds;
             if left <= x + half
                 && right >= x - half
                 && top <= y + half
                 && bottom >= y - half
-                && outline.form.may_cross(square)
+                && match outline {
+                    Some(outline) => outline.form.may_cross(square),
+                    None => self.lines[number - self.outlines.len()].may_cross(square),
+                }
             {
-                self.stack.push(self.stack[at]);
+                self.stack.push(number as u32);
             }
         }
     }
@@ -109,10 +125,10 @@ impl<'a> Search<'a> {
     /// Adds the pieces of a square, whose outlines are those of the stack from `first` on. Returns how many cuts there are.
     fn part(&mut self, square: Square, first: usize) -> u32 {
         let last = self.stack.len();
-        let mut cuts = 0;
         if last - first == 1
-            && let Cuts::Straight(cut) =
-                Cuts::of(&self.outlines[self.stack[first] as usize].form.within(square))
+            && self.others.is_empty()
+            && let Some(outline) = self.outlines.get(self.stack[first] as usize)
+            && let Cuts::Straight(cut) = Cuts::of(&outline.form.within(square))
         {
             let Some(parts) = halves(cut) else {
                 self.found.add(Piece::SQUARE, square);
@@ -121,33 +137,18 @@ impl<'a> Search<'a> {
             parts.into_iter().for_each(|piece| self.found.add(piece, square));
             return 1;
         }
-        let mut told = last - first <= MOST_CUTS;
         self.pieces.reset();
-        for at in first..last {
-            if !told {
-                break;
-            }
-            let form = self.outlines[self.stack[at] as usize].form.within(square);
-            match Cuts::of(&form) {
-                Cuts::Not => {}
-                Cuts::Straight(cut) => {
-                    let before = self.pieces.len();
-                    self.pieces.split(cut);
-                    cuts += u32::from(self.pieces.len() > before);
-                }
-                Cuts::Bent => told = false,
-            }
-        }
+        let told = self.cut(square, first..last);
         if told {
             self.pieces.iter().for_each(|piece| self.found.add(*piece, square));
-            return cuts;
+            return self.pieces.len() as u32 - 1;
         }
         self.found.quartered = true;
         if square.half <= FINEST_SQUARE {
             self.found.add(Piece::SQUARE, square);
             return 1;
         }
-        cuts = 0;
+        let mut cuts = 0;
         for quarter in square.quarters() {
             self.keep_crossing(quarter, first..last);
             cuts += self.part(quarter, last);
@@ -155,4 +156,44 @@ impl<'a> Search<'a> {
         }
         cuts
     }
+
+    /// Cuts the square of the pieces by some outlines, and by the lines between what squares there are; false where they are
+    /// too many or bend too much.
+    fn cut(&mut self, square: Square, among: std::ops::Range<usize>) -> bool {
+        if among.len() > MOST_CUTS {
+            return false;
+        }
+        let mut left = MOST_CUTS as u32;
+        for at in among {
+            let number = self.stack[at] as usize;
+            let told = match self.outlines.get(number) {
+                Some(outline) => match Cuts::of(&outline.form.within(square)) {
+                    Cuts::Not => true,
+                    Cuts::Straight(cut) => self.pieces.cut(cut, &mut left),
+                    Cuts::Bent => false,
+                },
+                None => cut_by_lines(
+                    &mut self.pieces,
+                    &self.lines[number - self.outlines.len()],
+                    square,
+                    &mut left,
+                ),
+            };
+            if !told {
+                return false;
+            }
+        }
+        self.others.iter().all(|lines| cut_by_lines(&mut self.pieces, lines, square, &mut left))
+    }
+}
+
+/// Cuts pieces by the lines of a family; false where no more of the cuts that are allowed is left.
+fn cut_by_lines(pieces: &mut Pieces, lines: &Lines, square: Square, left: &mut u32) -> bool {
+    let [left_edge, top, right, bottom] = lines.bounds;
+    let Square { x, y, half } = square;
+    if left_edge > x + half || right < x - half || top > y + half || bottom < y - half {
+        return true;
+    }
+    let Some([first, last]) = lines.numbers(square) else { return true };
+    (0..(last - first) as u32).all(|i| pieces.cut(lines.cut(first + f64::from(i), square), left))
 }

@@ -74,7 +74,7 @@ impl Form {
 
     /// Whether it is a straight line.
     pub(crate) fn is_straight(&self) -> bool {
-        [self.xx, self.xy, self.yy] == [0.0; 3]
+        self.xx == 0.0 && self.xy == 0.0 && self.yy == 0.0
     }
 
     /// The least and the largest x and y of an ellipse; `None` for what has no such bounds.

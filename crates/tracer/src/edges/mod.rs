@@ -6,21 +6,26 @@
 //! pixel's size. All of it is `f64`, computed pixel by pixel from the frame alone, and shared by all backends.
 
 mod body;
+mod checker;
 mod cut;
 mod find;
 mod form;
 mod outlines;
+mod shadows;
 mod sight;
 mod split;
+mod stage;
 
 use catoptra_core::{Integrator, Raster};
 
+use crate::numeric::{MIRRORS_DEEP, MOST_OUTLINES};
 use crate::{EdgePixels, Edges, Region, Snapshot, View};
-use body::Body;
+use checker::Lines;
 use find::Search;
 use form::Square;
-use sight::{Outline, Sight};
+use sight::{EVERYWHERE, Outline, Sight, common};
 use split::Piece;
+use stage::Stage;
 
 /// The outlines of a frame.
 #[derive(Debug, Default)]
@@ -28,6 +33,8 @@ pub(crate) struct EdgeList {
     outlines: Vec<Outline>,
     /// Their bounds: left, top, right, bottom.
     bounds: Vec<[f64; 4]>,
+    /// Lines between checkered squares.
+    lines: Vec<Lines>,
 }
 
 impl EdgeList {
@@ -39,11 +46,32 @@ impl EdgeList {
 
     /// Of what is seen by the rays of a raster in the snapshot's frame.
     pub(crate) fn new(snapshot: &Snapshot, raster: &Raster) -> Self {
-        let bodies: Vec<Body> = snapshot.prims().iter().map(|prim| Body::of(&prim.shape)).collect();
-        let mut outlines = Vec::new();
-        outlines::add_outlines(&Sight::new(raster), &bodies, &mut outlines);
-        let bounds = outlines.iter().map(|outline| outline.bounds).collect();
-        Self { outlines, bounds }
+        let (stage, mut edges) = (Stage::new(snapshot), Self::default());
+        edges.add_seen(&Sight::new(raster), &stage, EVERYWHERE, 0);
+        edges.bounds = edges.outlines.iter().map(|outline| outline.bounds).collect();
+        edges
+    }
+
+    /// Adds what an eye sees in a part of the picture, after some mirrors.
+    fn add_seen(&mut self, sight: &Sight, stage: &Stage, within: [f64; 4], mirrors: u32) {
+        let first = self.outlines.len();
+        outlines::add_outlines(sight, stage, &mut self.outlines);
+        for outline in &mut self.outlines[first..] {
+            outline.bounds = common(outline.bounds, within);
+        }
+        for subject in &stage.subjects {
+            let sheets = subject.sheets(sight);
+            for (level, bounds) in sheets.into_iter().map(|(level, bounds)| (level, common(bounds, within))) {
+                if let Some(grid) = &subject.grid {
+                    self.lines.extend(Lines::on(sight, grid, (level, bounds), mirrors > 0));
+                }
+                let further = mirrors < MIRRORS_DEEP && self.outlines.len() < MOST_OUTLINES;
+                if subject.mirror && further && bounds[0] < bounds[2] && bounds[1] < bounds[3] {
+                    let mirrored = sight.mirrored(level.normal, level.normal * level.offset);
+                    self.add_seen(&mirrored, stage, bounds, mirrors + 1);
+                }
+            }
+        }
     }
 
     /// Finds the pieces of all pixels of a part of the picture that outlines cross.

@@ -4,14 +4,34 @@ use catoptra_core::Aabb;
 use catoptra_core::glam::DVec3;
 
 use super::body::{Body, Border, Flat, Level, Rim, overlap};
+use super::shadows::Receiver;
 use super::sight::{EVERYWHERE, Outline, Sight, circle, common, silhouette};
+use super::stage::Stage;
+use crate::numeric::MOST_SHADOWS;
 
 /// Adds all outlines of some bodies as an eye sees them.
-pub(crate) fn add_outlines(sight: &Sight, bodies: &[Body], found: &mut Vec<Outline>) {
-    for body in bodies {
+pub(crate) fn add_outlines(sight: &Sight, stage: &Stage, found: &mut Vec<Outline>) {
+    for body in stage.bodies() {
         add_own(sight, body, found);
     }
-    add_meetings(sight, bodies, found);
+    add_meetings(sight, stage, found);
+    add_shadows(sight, stage, found);
+}
+
+/// The edges of shadows on flat surfaces.
+fn add_shadows(sight: &Sight, stage: &Stage, found: &mut Vec<Outline>) {
+    if stage.subjects.len() * stage.subjects.len() * stage.lamps.len() > MOST_SHADOWS {
+        return;
+    }
+    for (i, subject) in stage.subjects.iter().enumerate().filter(|(_, subject)| subject.lit) {
+        for (level, within) in subject.sheets(sight) {
+            for receiver in stage.lamps.iter().filter_map(|lamp| Receiver::new(sight, level, *lamp, within)) {
+                for (_, body) in stage.bodies().enumerate().filter(|(j, _)| *j != i) {
+                    receiver.add_shadow(body, found);
+                }
+            }
+        }
+    }
 }
 
 /// The outlines of a body alone.
@@ -42,13 +62,13 @@ fn add_own(sight: &Sight, body: &Body, found: &mut Vec<Outline>) {
 }
 
 /// The outlines along which two bodies meet.
-fn add_meetings(sight: &Sight, bodies: &[Body], found: &mut Vec<Outline>) {
+fn add_meetings(sight: &Sight, stage: &Stage, found: &mut Vec<Outline>) {
     let mut bounded: Vec<(Aabb, &Body)> = Vec::new();
-    for body in bodies {
+    for body in stage.bodies() {
         bounded.extend(body.bounds().map(|bounds| (bounds, body)));
     }
     let levels =
-        || bodies.iter().filter_map(|body| if let Body::Plane(level) = body { Some(level) } else { None });
+        || stage.bodies().filter_map(|body| if let Body::Plane(level) = body { Some(level) } else { None });
     for (i, level) in levels().enumerate() {
         for other in levels().skip(i + 1) {
             found.extend(line_of(level, other).map(|[point, along]| sight.line(point, along)));

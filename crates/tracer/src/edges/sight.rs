@@ -56,11 +56,6 @@ impl Sight {
         Self::of(point + mirrored(self.eye - point), axes)
     }
 
-    /// The direction seen at a place, of any length.
-    pub(crate) fn direction(&self, x: f64, y: f64) -> DVec3 {
-        self.axes.x_axis * x + (self.axes.y_axis * y + self.axes.z_axis)
-    }
-
     /// Coefficients of normal · d.
     pub(crate) fn linear(&self, normal: DVec3) -> [f64; 3] {
         [normal.dot(self.axes.x_axis), normal.dot(self.axes.y_axis), normal.dot(self.axes.z_axis)]
@@ -72,7 +67,7 @@ impl Sight {
     }
 
     /// dᵀ Q d.
-    fn quadratic(&self, q: &DMat3) -> Form {
+    pub(crate) fn quadratic(&self, q: &DMat3) -> Form {
         let [x, y, one] = [self.axes.x_axis, self.axes.y_axis, self.axes.z_axis];
         let [qx, qy, q1] = [*q * x, *q * y, *q * one];
         Form {
