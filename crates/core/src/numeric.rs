@@ -51,6 +51,14 @@ pub const PATTERN_SHIFT: f64 = 1.0 / (1_u64 << 14) as f64;
 /// rounded up.
 pub const PATTERN_ERROR: f64 = 4.0 * UNIT_ROUNDOFF_F32;
 
+/// Most pairs of lines between squares that are told apart within a footprint: a mean over so many squares is within 1/64 of
+/// grey.
+pub const MOST_SQUARES: u32 = 64;
+
+/// Least slope of a line in parts of its larger one, in place of none: lines that far from meeting an edge of a footprint within
+/// it add 2⁻⁴⁰ of its area, below what `f32` can tell.
+pub const LEAST_SLOPE: f64 = 1.0 / (1_u64 << 40) as f64;
+
 /// γₙ = n·u / (1 − n·u): the relative error bound of `n` accumulated roundings in `f32`
 /// (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., lemma 3.1).
 #[must_use]

@@ -94,6 +94,10 @@ pub(crate) const MOST_OUTLINES: usize = 1 << 16;
 /// Most pairs of a flat surface and a body between it and a lamp: with more, shadows' edges are not told.
 pub(crate) const MOST_SHADOWS: usize = 1 << 16;
 
+/// How far apart, as a share of the largest, what the corners of a pixel show may lie for the pixel to be taken as one
+/// surface: measured on shaded balls, whose own shading passes it only near the edge of the light.
+pub(crate) const DOUBT_CONTRAST: f64 = 1.0 / 32.0;
+
 /// Mirrors after one another in which outlines are told.
 pub(crate) const MIRRORS_DEEP: u32 = 2;
 

@@ -63,7 +63,9 @@ pub struct EdgePixels {
     pub parted: u64,
     /// With outlines that are too many or bend too much for that: quartered until they are not.
     pub quartered: u64,
-    /// Rays through pieces of either.
+    /// Sampled, as not all that may end in them is known.
+    pub sampled: u64,
+    /// Rays through pieces, and samples.
     pub pieces: u64,
 }
 
@@ -101,7 +103,7 @@ add_fields!(Tests: shapes, boxes);
 add_fields!(Skipped:
     nothing_seen, blank_before, unreached, facing_away, out_of_cone, shadow_off, unlit_material, nothing_between, nothing_ahead, not_reflective,
     depth_limit, weight_cutoff, below_surface);
-add_fields!(EdgePixels: parted, quartered, pieces);
+add_fields!(EdgePixels: parted, quartered, sampled, pieces);
 add_fields!(Stats: rays, tests, skipped, edges, settled, exact, not_finite);
 
 impl Stats {

@@ -5,6 +5,7 @@
 
 mod checker;
 mod depth;
+mod footprint;
 mod matte;
 mod mirror;
 mod mirror_share;
@@ -12,6 +13,7 @@ mod phong;
 
 pub use checker::Checker;
 pub use depth::Depth;
+pub use footprint::Footprint;
 pub use matte::Matte;
 pub use mirror::Mirror;
 pub use phong::Phong;
@@ -26,6 +28,12 @@ pub trait Surface {
     /// How light leaves it where and from where it is seen. Which lobes there are depends on the material alone, how
     /// strong they are on the point.
     fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L>;
+
+    /// As [`lobes`](Self::lobes), on average over what is seen through a square of the picture.
+    #[inline(always)]
+    fn mean_lobes<L: Lane>(&self, at: &ShadingPoint<L>, _footprint: &Footprint<L>) -> Lobes<L> {
+        self.lobes(at)
+    }
 
     /// The same material for positions that are counted from `origin`, a point of the scene.
     #[must_use]
@@ -89,6 +97,16 @@ impl Material {
         work: impl FnOnce(Lobes<L>) -> T,
     ) -> T {
         each_material!(self, material => work(material.lobes(&at())))
+    }
+
+    /// As [`visit_lobes`](Self::visit_lobes), with [`Surface::mean_lobes`].
+    #[inline(always)]
+    pub fn visit_mean_lobes<L: Lane, T>(
+        &self,
+        (at, footprint): (&ShadingPoint<L>, &Footprint<L>),
+        work: impl FnOnce(Lobes<L>) -> T,
+    ) -> T {
+        each_material!(self, material => work(material.mean_lobes(at, footprint)))
     }
 
     /// Which lobes it has, anywhere.

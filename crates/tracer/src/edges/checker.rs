@@ -84,6 +84,14 @@ impl Lines {
         self.numbers(square).map_or(square.half > 0.5, |[first, last]| first < last)
     }
 
+    /// Whether so many lines may cross a square that they are not told apart.
+    pub(crate) fn are_many(&self, square: Square) -> bool {
+        let Square { x, y, half } = square;
+        let [left, top, right, bottom] = self.bounds;
+        let seen = left <= x + half && right >= x - half && top <= y + half && bottom >= y - half;
+        seen && self.numbers(square).is_none()
+    }
+
     /// The cut along line number `k` through a square.
     pub(crate) fn cut(&self, k: f64, square: Square) -> Cut {
         let [x, y, one] = [0, 1, 2].map(|i| self.above[i] - k * self.below[i]);

@@ -25,25 +25,24 @@ pub(super) struct Search<'a> {
     /// Numbers of those that may cross the squares on the way down, square after square.
     stack: Vec<u32>,
     pieces: Pieces,
+    /// Whether a round surface with a pattern may be seen.
+    patterned: bool,
     found: &'a mut PixelPieces,
 }
 
 impl<'a> Search<'a> {
     pub(super) fn new(edges: &EdgeList, region: Region, found: &'a mut PixelPieces) -> Self {
-        let [left, top] = [region.x, region.y].map(f64::from);
-        let [right, bottom] = [left + f64::from(region.size.width), top + f64::from(region.size.height)];
-        let near = |bounds: &[f64; 4]| {
-            bounds[0] <= right && bounds[2] >= left && bounds[1] <= bottom && bounds[3] >= top
-        };
         let mut outlines = Vec::new();
         for (bounds, outline) in edges.bounds.iter().zip(&edges.outlines) {
-            if near(bounds) {
+            if near(bounds, region) {
                 outlines.push(*outline);
             }
         }
-        let lines = edges.lines.iter().filter(|lines| near(&lines.bounds));
+        let lines = edges.lines.iter().filter(|lines| near(&lines.bounds, region));
         let (lines, others) = lines.partition(|lines| lines.alone);
-        Self { region, outlines, lines, others, stack: Vec::new(), pieces: Pieces::whole(), found }
+        let patterned = edges.patterned.iter().any(|part| near(part, region));
+        let (stack, pieces) = (Vec::new(), Pieces::whole());
+        Self { region, outlines, lines, others, stack, pieces, patterned, found }
     }
 
     /// Finds the pieces of all pixels.
@@ -131,21 +130,22 @@ impl<'a> Search<'a> {
             && let Cuts::Straight(cut) = Cuts::of(&outline.form.within(square))
         {
             let Some(parts) = halves(cut) else {
-                self.found.add(Piece::SQUARE, square);
+                self.found.add(Piece::SQUARE, square, self.patterned);
                 return 0;
             };
-            parts.into_iter().for_each(|piece| self.found.add(piece, square));
+            parts.into_iter().for_each(|piece| self.found.add(piece, square, self.patterned));
             return 1;
         }
         self.pieces.reset();
         let told = self.cut(square, first..last);
         if told {
-            self.pieces.iter().for_each(|piece| self.found.add(*piece, square));
+            let mixed = self.patterned || self.others.iter().any(|lines| lines.are_many(square));
+            self.pieces.iter().for_each(|piece| self.found.add(*piece, square, mixed));
             return self.pieces.len() as u32 - 1;
         }
         self.found.quartered = true;
         if square.half <= FINEST_SQUARE {
-            self.found.add(Piece::SQUARE, square);
+            self.found.add(Piece::SQUARE, square, true);
             return 1;
         }
         let mut cuts = 0;
@@ -185,6 +185,13 @@ impl<'a> Search<'a> {
         }
         self.others.iter().all(|lines| cut_by_lines(&mut self.pieces, lines, square, &mut left))
     }
+}
+
+/// Whether a part of the picture reaches into a rectangle of pixels.
+pub(super) fn near(bounds: &[f64; 4], region: Region) -> bool {
+    let [left, top] = [region.x, region.y].map(f64::from);
+    let [right, bottom] = [left + f64::from(region.size.width), top + f64::from(region.size.height)];
+    bounds[0] <= right && bounds[2] >= left && bounds[1] <= bottom && bounds[3] >= top
 }
 
 /// Cuts pieces by the lines of a family; false where no more of the cuts that are allowed is left.

@@ -8,10 +8,12 @@
 mod body;
 mod checker;
 mod cut;
+mod doubt;
 mod find;
 mod form;
 mod outlines;
 mod shadows;
+mod show;
 mod sight;
 mod split;
 mod stage;
@@ -20,9 +22,11 @@ use catoptra_core::{Integrator, Raster};
 
 use crate::numeric::{MIRRORS_DEEP, MOST_OUTLINES};
 use crate::{EdgePixels, Edges, Region, Snapshot, View};
+use body::Body;
 use checker::Lines;
 use find::Search;
 use form::Square;
+pub(crate) use show::EdgeRoom;
 use sight::{EVERYWHERE, Outline, Sight, common};
 use split::Piece;
 use stage::Stage;
@@ -35,6 +39,10 @@ pub(crate) struct EdgeList {
     bounds: Vec<[f64; 4]>,
     /// Lines between checkered squares.
     lines: Vec<Lines>,
+    /// Parts of the picture in which round surfaces have patterns.
+    patterned: Vec<[f64; 4]>,
+    /// Parts of the picture in which not all outlines are known.
+    doubts: Vec<[f64; 4]>,
 }
 
 impl EdgeList {
@@ -60,6 +68,12 @@ impl EdgeList {
             outline.bounds = common(outline.bounds, within);
         }
         for subject in &stage.subjects {
+            if let Some(bounds) = doubt::doubtful_part(sight, stage, subject, mirrors) {
+                self.doubts.push(common(bounds, within));
+            }
+            if let (Body::Ball { center, radius }, Some(_)) = (&subject.body, &subject.grid) {
+                self.patterned.extend(sight.bounds_of_ball(*center, *radius));
+            }
             let sheets = subject.sheets(sight);
             for (level, bounds) in sheets.into_iter().map(|(level, bounds)| (level, common(bounds, within))) {
                 if let Some(grid) = &subject.grid {
@@ -75,9 +89,54 @@ impl EdgeList {
     }
 
     /// Finds the pieces of all pixels of a part of the picture that outlines cross.
-    pub(crate) fn find(&self, region: Region, found: &mut PixelPieces) {
+    fn find(&self, region: Region, found: &mut PixelPieces) {
         found.clear();
         Search::new(self, region, found).run();
+    }
+}
+
+/// Places in the picture that camera rays go through.
+#[derive(Debug, Default)]
+pub(crate) struct Places {
+    count: usize,
+    /// In pixels from the picture's corner.
+    pub(crate) x: Vec<f64>,
+    pub(crate) y: Vec<f64>,
+    /// The side of the square that each stands for, in pixels; 0 for what looks the same all over it.
+    pub(crate) side: Vec<f64>,
+}
+
+impl Places {
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.count
+    }
+
+    fn clear(&mut self) {
+        self.truncate(0);
+    }
+
+    fn truncate(&mut self, count: usize) {
+        self.count = count;
+        self.x.truncate(count);
+        self.y.truncate(count);
+        self.side.truncate(count);
+    }
+
+    #[inline]
+    fn push(&mut self, x: f64, y: f64, side: f64) {
+        self.x.push(x);
+        self.y.push(y);
+        self.side.push(side);
+        self.count += 1;
+    }
+
+    /// Fills up the columns to whole packets.
+    pub(crate) fn fill_up(&mut self, lanes: usize) {
+        let room = self.count.next_multiple_of(lanes);
+        self.x.resize(room, 0.0);
+        self.y.resize(room, 0.0);
+        self.side.resize(room, 0.0);
     }
 }
 
@@ -86,9 +145,8 @@ impl EdgeList {
 pub(crate) struct PixelPieces {
     /// Column and row from the region's corner, and the pixel's first piece.
     pixels: Vec<([u32; 2], u32)>,
-    /// Centroids, in pixels from the picture's corner.
-    pub(crate) x: Vec<f64>,
-    pub(crate) y: Vec<f64>,
+    /// Centroids.
+    pub(crate) places: Places,
     /// Shares of their pixel.
     share: Vec<f64>,
     counts: EdgePixels,
@@ -104,19 +162,32 @@ impl PixelPieces {
     }
 
     fn truncate(&mut self, length: usize) {
-        self.x.truncate(length);
-        self.y.truncate(length);
+        self.places.truncate(length);
         self.share.truncate(length);
         self.quartered = false;
     }
 
-    /// Adds a piece of a square.
+    /// Adds a piece of a square; `mixed` where its look may change within it.
     #[inline]
-    fn add(&mut self, piece: Piece, square: Square) {
+    fn add(&mut self, piece: Piece, square: Square, mixed: bool) {
         let [x, y] = piece.center;
-        self.x.push(x * square.half + square.x);
-        self.y.push(y * square.half + square.y);
-        self.share.push(piece.area * square.half * square.half);
+        let area = piece.area * square.half * square.half;
+        let side = if mixed { area.sqrt() } else { 0.0 };
+        self.places.push(x * square.half + square.x, y * square.half + square.y, side);
+        self.share.push(area);
+    }
+
+    /// Begins a pixel that is sampled.
+    fn begin(&mut self, pixel: [u32; 2]) {
+        self.pixels.push((pixel, self.len() as u32));
+        self.counts.sampled += 1;
+    }
+
+    /// Adds one of so many samples of a pixel.
+    fn push_sample(&mut self, x: f64, y: f64, samples: u32) {
+        let share = 1.0 / f64::from(samples);
+        self.places.push(x, y, share.sqrt());
+        self.share.push(share);
     }
 
     /// How many pieces there are.
@@ -124,20 +195,13 @@ impl PixelPieces {
         self.share.len()
     }
 
-    /// Fills up the columns of centroids to whole packets.
-    pub(crate) fn fill_up(&mut self, lanes: usize) {
-        let room = self.len().next_multiple_of(lanes);
-        self.x.resize(room, 0.0);
-        self.y.resize(room, 0.0);
-    }
-
-    /// Adds what was found to counts.
-    pub(crate) fn count(&self, counts: &mut EdgePixels) {
-        *counts += EdgePixels { pieces: self.len() as u64, ..self.counts };
+    /// What was found, in counts.
+    fn counts(&self) -> EdgePixels {
+        EdgePixels { pieces: self.len() as u64, ..self.counts }
     }
 
     /// Every pixel: column and row, its pieces, and their shares.
-    pub(crate) fn pixels(&self) -> impl Iterator<Item = ([u32; 2], std::ops::Range<usize>, &[f64])> {
+    fn pixels(&self) -> impl Iterator<Item = ([u32; 2], std::ops::Range<usize>, &[f64])> {
         self.pixels.iter().enumerate().map(|(i, &(at, first))| {
             let last = self.pixels.get(i + 1).map_or(self.len(), |(_, next)| *next as usize);
             let pieces = first as usize..last;

@@ -20,7 +20,7 @@ pub(crate) fn add_outlines(sight: &Sight, stage: &Stage, found: &mut Vec<Outline
 
 /// The edges of shadows on flat surfaces.
 fn add_shadows(sight: &Sight, stage: &Stage, found: &mut Vec<Outline>) {
-    if stage.subjects.len() * stage.subjects.len() * stage.lamps.len() > MOST_SHADOWS {
+    if stage.shadows() > MOST_SHADOWS {
         return;
     }
     for (i, subject) in stage.subjects.iter().enumerate().filter(|(_, subject)| subject.lit) {

@@ -4,10 +4,10 @@ use catoptra_core::Rgb;
 
 use super::walker::{CameraRay, Walker};
 use super::{Integrate, IntegratorVisitor, Search, visit};
-use crate::edges::{EdgeList, PixelPieces};
+use crate::edges::{EdgeList, EdgeRoom};
 use crate::film::{NOTHING, Sum, store_finite};
 use crate::sampler::Sampler;
-use crate::{Frame, Hit, Region, Size, Stats, Tile};
+use crate::{Frame, Hit, Stats, Tile};
 
 /// Traces every pixel of a tile by the rules of the view's integrator.
 pub(crate) fn trace_pixels(search: &impl Search, frame: &Frame<'_>, tile: &mut Tile) -> Stats {
@@ -39,18 +39,19 @@ impl<S: Search> IntegratorVisitor for Pixels<'_, S> {
 
 /// Shows the pixels of a tile that outlines cross, in place of what their samples have shown.
 fn show_pieces<I: Integrate, S: Search>(walker: &mut Walker<'_, S>, edges: &EdgeList, tile: &mut Tile) {
-    let (frame, mut pieces) = (walker.frame, PixelPieces::default());
-    edges.find(Region::new(tile.x, tile.y, Size::new(tile.width, tile.height)), &mut pieces);
-    for ([x, y], parts, shares) in pieces.pixels() {
-        let sampler = Sampler::new(frame.view.seed, tile.x + x, tile.y + y);
-        let mut sum = Rgb::BLACK;
-        for (at, share) in parts.zip(shares) {
-            let ray = frame.raster.ray(pieces.x[at], pieces.y[at]);
-            sum += I::gather(walker, &CameraRay { ray, sampler, sample: 0 }).0 * *share;
+    let (frame, mut room) = (walker.frame, EdgeRoom::default());
+    let shown = edges.show(frame.view, tile, &mut room, |places, light| {
+        light.clear();
+        for at in 0..places.len() {
+            let (x, y) = (places.x[at], places.y[at]);
+            let sampler = Sampler::new(frame.view.seed, x as u32, y as u32);
+            let ray = frame.raster.ray(x, y);
+            let side = Some(places.side[at]);
+            light.push(I::gather(walker, &CameraRay { ray, sampler, sample: 0, side }).0.to_array());
         }
-        walker.stats.not_finite += tile.set_radiance(tile.index(x, y), sum.to_array());
-    }
-    pieces.count(&mut walker.stats.edges);
+    });
+    walker.stats.edges += shown.pixels;
+    walker.stats.not_finite += shown.not_finite;
 }
 
 /// Adds up the samples of a pixel; depth and surface are those of the one in the middle.
@@ -59,12 +60,13 @@ fn trace_pixel<I: Integrate, S: Search>(walker: &mut Walker<'_, S>, tile: &mut T
     let grid = frame.view.grid;
     let [column, row] = [tile.x + x, tile.y + y];
     let sampler = Sampler::new(frame.view.seed, column, row);
+    let side = frame.edges.map(|_| 1.0 / f64::from(grid));
     let (mut sum, mut count) = (Rgb::BLACK, 0);
     for (u, v) in (0..grid).flat_map(|v| (0..grid).map(move |u| (u, v))) {
         let [right, down] = frame.view.place(u, v);
         let ray = frame.raster.ray(f64::from(column) + right, f64::from(row) + down);
-        let (light, first) =
-            I::gather(walker, &CameraRay { ray, sampler, sample: v.wrapping_mul(grid).wrapping_add(u) });
+        let sample = v.wrapping_mul(grid).wrapping_add(u);
+        let (light, first) = I::gather(walker, &CameraRay { ray, sampler, sample, side });
         if frame.view.moments {
             let [before, sample] =
                 [(sum, count), (light, 1)].map(|(light, count)| Sum { light: light.to_array(), count });

@@ -1,5 +1,6 @@
 //! The camera's rays through a tile, made block by block.
 
+use catoptra_core::material::Footprint;
 use catoptra_core::{Raster, Ray, Span};
 use fearless_simd::Simd;
 
@@ -55,6 +56,8 @@ pub(crate) struct CameraPackets<'a, S: Simd> {
     y: u32,
     pub(crate) width: u32,
     pub(crate) height: u32,
+    /// What the sides of the square that a sample stands for add to its direction, where looks are averaged over it.
+    sides: Option<[F3<S>; 2]>,
     /// Whether pixels hold nothing yet.
     pub(crate) fresh: bool,
     /// Whether the hits of this sample are kept as the pixels' surfaces and depths.
@@ -101,6 +104,14 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
             y: tile.y,
             width: tile.width,
             height: tile.height,
+            sides: match frame.edges {
+                Some(_) => {
+                    let share = 1.0 / f64::from(frame.view.grid);
+                    let (across, down) = (raster.across * share, raster.down * share);
+                    Some([narrow3(splat_wide(s, across)), narrow3(splat_wide(s, down))])
+                }
+                None => None,
+            },
             fresh: (column, row) == (0, 0),
             kept: (column, row) == (frame.view.grid / 2, frame.view.grid / 2),
         }
@@ -183,6 +194,17 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
             leaving: Leaving::nothing(s),
             live: self.live_lanes(s, at),
         }
+    }
+}
+
+impl<S: Simd> CameraPackets<'_, S> {
+    /// The squares that the rays of a packet stand for, where looks are averaged over them.
+    #[inline(always)]
+    pub(crate) fn footprint(&self, s: S, at: usize) -> Option<Footprint<F<S>>> {
+        let [across, down] = self.sides?;
+        let length = F::load(s, &self.rays.inverse_length[at..]);
+        let direction = load3(s, &self.rays.direction, at);
+        Some(Footprint { direction, sides: [across.scale(length), down.scale(length)] })
     }
 }
 

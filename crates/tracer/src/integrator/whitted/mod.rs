@@ -18,7 +18,7 @@ pub(super) struct Whitted;
 
 impl Integrate for Whitted {
     fn gather<S: Search>(walker: &mut Walker<'_, S>, camera: &CameraRay) -> (Rgb, Option<Hit>) {
-        walker.follow(camera.ray)
+        walker.follow(camera)
     }
 
     fn trace_tile(frame: &Frame<'_>, tile: &mut Tile) -> Stats {

@@ -6,13 +6,14 @@ use catoptra_core::{Arrival, Light, Lobes, Ray, Rgb, Span, Triple};
 
 use crate::Hit;
 use crate::integrator::Search;
-use crate::integrator::walker::{SurfaceHit, Walker};
+use crate::integrator::walker::{CameraRay, SurfaceHit, Walker};
 use crate::shade::{MirrorNormals, continues, mirror_direction};
 
 impl<S: Search> Walker<'_, S> {
     /// The light that arrives along a ray from the camera, and what the ray meets first.
-    pub(super) fn follow(&mut self, mut ray: Ray) -> (Rgb, Option<Hit>) {
-        let snapshot = self.frame.snapshot;
+    pub(super) fn follow(&mut self, camera: &CameraRay) -> (Rgb, Option<Hit>) {
+        let (snapshot, mut ray) = (self.frame.snapshot, camera.ray);
+        let mut footprint = self.footprint(camera);
         let (mut light, mut weight) = (Rgb::BLACK, Triple::splat(1.0));
         let (mut first, mut leaving) = (None, None);
         self.stats.rays.primary += 1;
@@ -25,7 +26,12 @@ impl<S: Search> Walker<'_, S> {
                 first = Some(hit);
             }
             let surface = self.surface_at(hit, ray);
-            let lobes = surface.material.lobes(&surface.shading);
+            let lobes = match footprint.take() {
+                Some(footprint) => {
+                    surface.material.visit_mean_lobes((&surface.shading, &footprint), |lobes| lobes)
+                }
+                None => surface.material.lobes(&surface.shading),
+            };
             if lobes.share > 0.0 {
                 light += rgb(weight) * lobes.share * self.local(&surface, &lobes);
             }

@@ -1,27 +1,27 @@
-//! Pixels that outlines cross, over packets of rays: a ray through each piece gathers its light by itself, and the pieces of
-//! a pixel are added up by their shares.
+//! The light that arrives along camera rays through any places of a tile, over packets of rays: what shows the pixels that
+//! outlines cross.
 
 use fearless_simd::Simd;
 
 use super::streams::Bounce;
 use super::tiles::TileTracer;
 use crate::cull::{Candidates, Frustum};
-use crate::edges::{EdgeList, PixelPieces};
+use crate::edges::{EdgeList, EdgeRoom, Places};
 use crate::lanes::{F, outlined};
 use crate::stream::Queue;
 use crate::{Region, Size, Tile};
 
-/// Room for the pieces of a tile.
+/// Room for the rays of a tile.
 pub(super) struct PieceRoom {
-    pieces: PixelPieces,
+    edges: EdgeRoom,
     rays: Queue,
-    /// The light of every piece.
+    /// The light of every ray.
     light: Tile,
 }
 
 impl Default for PieceRoom {
     fn default() -> Self {
-        Self { pieces: PixelPieces::default(), rays: Queue::default(), light: Tile::without_pixels() }
+        Self { edges: EdgeRoom::default(), rays: Queue::default(), light: Tile::without_pixels() }
     }
 }
 
@@ -35,41 +35,42 @@ impl<S: Simd> TileTracer<'_, S> {
         tile: &mut Tile,
     ) {
         let place = Region::new(tile.x, tile.y, Size::new(tile.width, tile.height));
-        let PieceRoom { pieces, rays, light } = room;
-        edges.find(place, pieces);
-        let (frame, snapshot) = (self.frame, self.frame.snapshot);
-        let columns = snapshot.columns();
-        if pieces.len() == 0 {
-            return;
-        }
+        let (frame, columns) = (self.frame, self.frame.snapshot.columns());
         visible.visible_through(&Frustum::new(frame, &place), columns, all, self.planner.outside);
         if visible.is_empty() && columns.general_unbounded.is_empty() {
             return;
         }
-        rays.start(snapshot.origin_in_frame(), f64::INFINITY);
-        let count = pieces.len();
-        pieces.fill_up(F::<S>::LANES);
+        let PieceRoom { edges: room, rays, light } = room;
+        let shown = edges.show(frame.view, tile, room, |places, found| {
+            self.gather(places, visible, (rays, bounce, light));
+            found.clear();
+            let [red, green, blue] = &light.sums;
+            found.extend((0..places.len()).map(|at| [red[at], green[at], blue[at]].map(f64::from)));
+        });
+        let stats = &mut self.shader.search.stats;
+        stats.edges += shown.pixels;
+        stats.not_finite += shown.not_finite;
+    }
+
+    /// Finds the light that arrives along the camera rays through some places.
+    fn gather(
+        &mut self,
+        places: &mut Places,
+        visible: &Candidates,
+        (rays, bounce, light): (&mut Queue, &mut Bounce, &mut Tile),
+    ) {
+        rays.start(self.frame.snapshot.origin_in_frame(), f64::INFINITY);
+        places.fill_up(F::<S>::LANES);
         outlined(
             self.s,
             #[inline(always)]
-            || rays.push_camera_rays(self.s, frame, [&pieces.x, &pieces.y], count),
+            || rays.push_camera_rays(self.s, self.frame, places),
         );
-        light.hold_rays(count);
+        light.hold_rays(places.len());
         self.shader.plan.dark.clear();
         self.trace(&*rays, visible, light, 0);
         if self.shader.next.len() > 0 {
             self.follow(bounce, light);
         }
-        let stats = &mut self.shader.search.stats;
-        for ([x, y], pieces, shares) in pieces.pixels() {
-            let mut sum = [0.0; 3];
-            for (at, share) in pieces.zip(shares) {
-                for (sum, light) in sum.iter_mut().zip(&light.sums) {
-                    *sum += share * f64::from(light[at]);
-                }
-            }
-            stats.not_finite += tile.set_radiance(tile.index(x, y), sum);
-        }
-        pieces.count(&mut stats.edges);
     }
 }

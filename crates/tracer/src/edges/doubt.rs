@@ -1,0 +1,147 @@
+//! Where are no outlines known, and which pixels there need more samples?
+//!
+//! Meshes, round mirrors and round surfaces that shadows may fall on have outlines of a higher degree. Where they may be seen, what
+//! the corners of a pixel show tells whether something ends in it: a thin thing between the corners is missed.
+
+use catoptra_core::glam::DVec3;
+
+use super::body::Body;
+use super::find::near;
+use super::sight::{EVERYWHERE, Sight};
+use super::stage::{Lamp, Stage, Subject};
+use super::{EdgeList, PixelPieces, Places};
+use crate::numeric::{DOUBT_CONTRAST, MIRRORS_DEEP, MOST_SHADOWS};
+use crate::sampler::{Sampler, share};
+use crate::{Region, View};
+
+/// The part of the picture in which an eye sees a subject whose outlines are not known.
+pub(super) fn doubtful_part(
+    sight: &Sight,
+    stage: &Stage,
+    subject: &Subject,
+    mirrors: u32,
+) -> Option<[f64; 4]> {
+    let round = |center: DVec3, radius: f64| sight.bounds_of_ball(center, radius);
+    match &subject.body {
+        Body::Other(None) => Some(EVERYWHERE),
+        Body::Other(Some(bounds)) => round(bounds.centre(), bounds.size().length() / 2.0),
+        Body::Ball { center, radius } => {
+            let patterned = subject.grid.is_some() && mirrors > 0;
+            let shaded = || subject.lit && stage.may_shade(*center, *radius);
+            if subject.mirror || patterned || shaded() { round(*center, *radius) } else { None }
+        }
+        Body::Plane(_) | Body::Flats { .. } => {
+            let untold = subject.lit && stage.shadows() > MOST_SHADOWS;
+            let deep = subject.mirror && mirrors >= MIRRORS_DEEP;
+            let bounds = subject.body.bounds();
+            (untold || deep)
+                .then(|| bounds.map_or(Some(EVERYWHERE), |b| round(b.centre(), b.size().length() / 2.0)))?
+        }
+    }
+}
+
+impl Stage {
+    /// Whether anything may stand between a ball and a lamp.
+    fn may_shade(&self, center: DVec3, radius: f64) -> bool {
+        let stands = |lamp: &Lamp, body: &Body| {
+            let Some(bounds) = body.bounds() else { return false };
+            let (middle, size) = (bounds.centre() - center, bounds.size().length() / 2.0);
+            if middle == DVec3::ZERO && (size - radius * 3.0_f64.sqrt()).abs() <= radius * f64::EPSILON * 8.0
+            {
+                return false;
+            }
+            let (way, most) = match lamp {
+                Lamp::At(place) => (*place - center, 1.0),
+                Lamp::Along(way) => (-*way, f64::INFINITY),
+            };
+            let along = (middle.dot(way) / way.length_squared()).clamp(0.0, most);
+            !((middle - way * along).length() > size + radius)
+        };
+        self.lamps.iter().any(|lamp| self.bodies().any(|body| stands(lamp, body)))
+    }
+
+    /// How many pairs of a surface and what may throw a shadow on it there are.
+    pub(super) fn shadows(&self) -> usize {
+        self.subjects.len() * self.subjects.len() * self.lamps.len()
+    }
+}
+
+/// The pixels of a part of the picture that are in doubt, and the corners that they have in common.
+#[derive(Debug, Default)]
+pub(crate) struct Doubts {
+    /// Column and row from the part's corner, and the numbers of the four corners.
+    pixels: Vec<([u32; 2], [u32; 4])>,
+    pub(crate) corners: Places,
+    numbers: Vec<u32>,
+}
+
+impl Doubts {
+    /// Finds those that no outlines part.
+    pub(super) fn find(&mut self, edges: &EdgeList, region: Region, parted: &PixelPieces) {
+        self.pixels.clear();
+        self.corners.clear();
+        let parts: Vec<&[f64; 4]> = edges.doubts.iter().filter(|part| near(part, region)).collect();
+        if parts.is_empty() {
+            return;
+        }
+        let (width, height) = (region.size.width, region.size.height);
+        let across = width + 1;
+        self.numbers.clear();
+        self.numbers.resize((across * (height + 1)) as usize, u32::MAX);
+        let mut known = vec![false; region.size.pixels()];
+        for ([x, y], ..) in parted.pixels() {
+            known[(y * width + x) as usize] = true;
+        }
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            let pixel = Region::new(region.x + x, region.y + y, crate::Size::new(1, 1));
+            if known[(y * width + x) as usize] || !parts.iter().any(|part| near(part, pixel)) {
+                continue;
+            }
+            let corners = [[x, y], [x + 1, y], [x, y + 1], [x + 1, y + 1]].map(|[x, y]| {
+                let number = &mut self.numbers[(y * across + x) as usize];
+                if *number == u32::MAX {
+                    *number = self.corners.len() as u32;
+                    self.corners.push(f64::from(region.x + x), f64::from(region.y + y), 1.0);
+                }
+                *number
+            });
+            self.pixels.push(([x, y], corners));
+        }
+    }
+
+    /// Adds samples for the pixels whose corners differ from each other or from what the pixel shows so far.
+    pub(super) fn sample(
+        &self,
+        region: Region,
+        view: &View,
+        (light, shown): (&[[f64; 3]], impl Fn(u32, u32) -> [f64; 3]),
+        found: &mut PixelPieces,
+    ) {
+        found.clear();
+        for ([x, y], corners) in &self.pixels {
+            let [a, b, c, d] = corners.map(|corner| light[corner as usize]);
+            if !differ(&[a, b, c, d, shown(*x, *y)]) {
+                continue;
+            }
+            let (column, row) = (region.x + x, region.y + y);
+            let sampler = Sampler::new(view.seed, column, row);
+            found.begin([*x, *y]);
+            for sample in 0..SAMPLES {
+                let [right, down] = sampler.pair(sample, 0).map(share);
+                found.push_sample(f64::from(column) + right, f64::from(row) + down, SAMPLES);
+            }
+        }
+    }
+}
+
+/// Samples of a pixel in doubt.
+const SAMPLES: u32 = 16;
+
+/// Whether lights are farther apart than shading alone would make them.
+fn differ(lights: &[[f64; 3]; 5]) -> bool {
+    (0..3).any(|channel| {
+        let values = lights.map(|light| light[channel]);
+        let (least, most) = values.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), v| (v.min(a), v.max(b)));
+        most - least > most * DOUBT_CONTRAST
+    })
+}
