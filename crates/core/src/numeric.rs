@@ -51,8 +51,8 @@ pub const PATTERN_SHIFT: f64 = 1.0 / (1_u64 << 14) as f64;
 /// rounded up.
 pub const PATTERN_ERROR: f64 = 4.0 * UNIT_ROUNDOFF_F32;
 
-/// Most pairs of lines between squares that are told apart within a footprint: a mean over so many squares is within 1/64 of
-/// grey.
+/// Most pairs of lines between squares that are told apart within a footprint: a mean over more squares is taken as grey, from
+/// which it is off by less than a tenth, and by a hundredth on average.
 pub const MOST_SQUARES: u32 = 64;
 
 /// Least slope of a line in parts of its larger one, in place of none: lines that far from meeting an edge of a footprint within

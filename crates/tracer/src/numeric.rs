@@ -98,8 +98,15 @@ pub(crate) const MOST_SHADOWS: usize = 1 << 16;
 /// surface: measured on shaded balls, whose own shading passes it only near the edge of the light.
 pub(crate) const DOUBT_CONTRAST: f64 = 1.0 / 32.0;
 
+/// Least share of light that mirrors must leave for outlines in them to be told: what is seen in fainter ones is left to a
+/// pixel's own sample.
+pub(crate) const LEAST_MIRRORED: f64 = 1.0 / 16.0;
+
+/// Most pieces of a pixel: one with more is sampled.
+pub(crate) const MOST_PIXEL_PIECES: usize = 64;
+
 /// Mirrors after one another in which outlines are told.
-pub(crate) const MIRRORS_DEEP: u32 = 2;
+pub(crate) const MIRRORS_DEEP: usize = 2;
 
 /// Largest area of a piece that is left with its neighbour, in quarters of a square: four of 2⁻²² change a pixel by a
 /// millionth of what they show at most.

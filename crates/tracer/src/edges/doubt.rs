@@ -11,7 +11,6 @@ use super::sight::{EVERYWHERE, Sight};
 use super::stage::{Lamp, Stage, Subject};
 use super::{EdgeList, PixelPieces, Places};
 use crate::numeric::{DOUBT_CONTRAST, MIRRORS_DEEP, MOST_SHADOWS};
-use crate::sampler::{Sampler, share};
 use crate::{Region, View};
 
 /// The part of the picture in which an eye sees a subject whose outlines are not known.
@@ -19,25 +18,42 @@ pub(super) fn doubtful_part(
     sight: &Sight,
     stage: &Stage,
     subject: &Subject,
-    mirrors: u32,
-) -> Option<[f64; 4]> {
+    mirrors: usize,
+) -> Option<Doubt> {
     let round = |center: DVec3, radius: f64| sight.bounds_of_ball(center, radius);
-    match &subject.body {
-        Body::Other(None) => Some(EVERYWHERE),
-        Body::Other(Some(bounds)) => round(bounds.centre(), bounds.size().length() / 2.0),
+    let (bounds, whole) = match &subject.body {
+        Body::Other(None) => (EVERYWHERE, true),
+        Body::Other(Some(bounds)) => (round(bounds.centre(), bounds.size().length() / 2.0)?, true),
         Body::Ball { center, radius } => {
-            let patterned = subject.grid.is_some() && mirrors > 0;
-            let shaded = || subject.lit && stage.may_shade(*center, *radius);
-            if subject.mirror || patterned || shaded() { round(*center, *radius) } else { None }
+            let whole = subject.mirror.is_some() || (subject.grid.is_some() && mirrors > 0);
+            if !whole && !(subject.lit && stage.may_shade(*center, *radius)) {
+                return None;
+            }
+            (round(*center, *radius)?, whole)
         }
         Body::Plane(_) | Body::Flats { .. } => {
             let untold = subject.lit && stage.shadows() > MOST_SHADOWS;
-            let deep = subject.mirror && mirrors >= MIRRORS_DEEP;
-            let bounds = subject.body.bounds();
-            (untold || deep)
-                .then(|| bounds.map_or(Some(EVERYWHERE), |b| round(b.centre(), b.size().length() / 2.0)))?
+            let deep = subject.mirror.is_some() && mirrors >= MIRRORS_DEEP;
+            if !untold && !deep {
+                return None;
+            }
+            let bounds = match subject.body.bounds() {
+                Some(bounds) => round(bounds.centre(), bounds.size().length() / 2.0)?,
+                None => EVERYWHERE,
+            };
+            (bounds, deep)
         }
-    }
+    };
+    Some(Doubt { bounds, whole })
+}
+
+/// A part of the picture in which not all outlines are known.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Doubt {
+    /// Left, top, right, bottom.
+    pub(super) bounds: [f64; 4],
+    /// Whether what is seen there may look anyhow between the outlines that are known, so that pieces tell nothing.
+    pub(super) whole: bool,
 }
 
 impl Stage {
@@ -76,11 +92,11 @@ pub(crate) struct Doubts {
 }
 
 impl Doubts {
-    /// Finds those that no outlines part.
+    /// Finds those of a part of the picture.
     pub(super) fn find(&mut self, edges: &EdgeList, region: Region, parted: &PixelPieces) {
         self.pixels.clear();
         self.corners.clear();
-        let parts: Vec<&[f64; 4]> = edges.doubts.iter().filter(|part| near(part, region)).collect();
+        let parts: Vec<&Doubt> = edges.doubts.iter().filter(|part| near(&part.bounds, region)).collect();
         if parts.is_empty() {
             return;
         }
@@ -94,7 +110,8 @@ impl Doubts {
         }
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
             let pixel = Region::new(region.x + x, region.y + y, crate::Size::new(1, 1));
-            if known[(y * width + x) as usize] || !parts.iter().any(|part| near(part, pixel)) {
+            let told = known[(y * width + x) as usize];
+            if !parts.iter().any(|part| (part.whole || !told) && near(&part.bounds, pixel)) {
                 continue;
             }
             let corners = [[x, y], [x + 1, y], [x, y + 1], [x + 1, y + 1]].map(|[x, y]| {
@@ -120,22 +137,12 @@ impl Doubts {
         found.clear();
         for ([x, y], corners) in &self.pixels {
             let [a, b, c, d] = corners.map(|corner| light[corner as usize]);
-            if !differ(&[a, b, c, d, shown(*x, *y)]) {
-                continue;
-            }
-            let (column, row) = (region.x + x, region.y + y);
-            let sampler = Sampler::new(view.seed, column, row);
-            found.begin([*x, *y]);
-            for sample in 0..SAMPLES {
-                let [right, down] = sampler.pair(sample, 0).map(share);
-                found.push_sample(f64::from(column) + right, f64::from(row) + down, SAMPLES);
+            if differ(&[a, b, c, d, shown(*x, *y)]) {
+                found.add_samples([*x, *y], region, view.seed);
             }
         }
     }
 }
-
-/// Samples of a pixel in doubt.
-const SAMPLES: u32 = 16;
 
 /// Whether lights are farther apart than shading alone would make them.
 fn differ(lights: &[[f64; 3]; 5]) -> bool {

@@ -11,7 +11,7 @@ use super::sight::Outline;
 use super::split::{MOST_CUTS, Piece, Pieces, halves};
 use super::{EdgeList, PixelPieces};
 use crate::Region;
-use crate::numeric::FINEST_SQUARE;
+use crate::numeric::{FINEST_SQUARE, MOST_PIXEL_PIECES};
 
 /// Looking through a tile.
 pub(super) struct Search<'a> {
@@ -27,6 +27,9 @@ pub(super) struct Search<'a> {
     pieces: Pieces,
     /// Whether a round surface with a pattern may be seen.
     patterned: bool,
+    seed: u32,
+    /// How many pieces there may be up to those of the pixel under way.
+    limit: usize,
     found: &'a mut PixelPieces,
 }
 
@@ -42,7 +45,8 @@ impl<'a> Search<'a> {
         let (lines, others) = lines.partition(|lines| lines.alone);
         let patterned = edges.patterned.iter().any(|part| near(part, region));
         let (stack, pieces) = (Vec::new(), Pieces::whole());
-        Self { region, outlines, lines, others, stack, pieces, patterned, found }
+        let seed = edges.seed;
+        Self { region, outlines, lines, others, stack, pieces, patterned, seed, limit: 0, found }
     }
 
     /// Finds the pieces of all pixels.
@@ -106,11 +110,17 @@ impl<'a> Search<'a> {
     fn part_pixel(&mut self, [x, y]: [u32; 2], square: Square, first: usize) {
         let before = self.found.len();
         let counts = self.found.counts;
+        self.limit = before + MOST_PIXEL_PIECES;
         let cuts = self.part(square, first);
         let pieces = self.found.len() - before;
         if cuts == 0 || pieces < 2 {
             self.found.truncate(before);
             self.found.counts = counts;
+            return;
+        }
+        if self.found.len() > self.limit {
+            self.found.truncate(before);
+            self.found.add_samples([x - self.region.x, y - self.region.y], self.region, self.seed);
             return;
         }
         let total: f64 = self.found.share[before..].iter().sum();
@@ -150,6 +160,9 @@ impl<'a> Search<'a> {
         }
         let mut cuts = 0;
         for quarter in square.quarters() {
+            if self.found.len() > self.limit {
+                return 1;
+            }
             self.keep_crossing(quarter, first..last);
             cuts += self.part(quarter, last);
             self.stack.truncate(last);

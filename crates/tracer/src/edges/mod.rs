@@ -20,10 +20,12 @@ mod stage;
 
 use catoptra_core::{Integrator, Raster};
 
-use crate::numeric::{MIRRORS_DEEP, MOST_OUTLINES};
+use crate::numeric::{LEAST_MIRRORED, MIRRORS_DEEP, MOST_OUTLINES};
+use crate::sampler::{self, Sampler};
 use crate::{EdgePixels, Edges, Region, Snapshot, View};
 use body::Body;
 use checker::Lines;
+use doubt::Doubt;
 use find::Search;
 use form::Square;
 pub(crate) use show::EdgeRoom;
@@ -42,34 +44,36 @@ pub(crate) struct EdgeList {
     /// Parts of the picture in which round surfaces have patterns.
     patterned: Vec<[f64; 4]>,
     /// Parts of the picture in which not all outlines are known.
-    doubts: Vec<[f64; 4]>,
+    doubts: Vec<Doubt>,
+    /// What samples go by.
+    seed: u32,
 }
 
 impl EdgeList {
     /// Those that a view asks for, of what its rays see in the snapshot's frame.
     pub(crate) fn for_view(snapshot: &Snapshot, view: &View, raster: &Raster) -> Option<Self> {
         let asked = view.edges == Edges::Exact && view.integrator == Integrator::Whitted;
-        asked.then(|| Self::new(snapshot, raster))
+        asked.then(|| Self { seed: view.seed, ..Self::new(snapshot, raster) })
     }
 
     /// Of what is seen by the rays of a raster in the snapshot's frame.
     pub(crate) fn new(snapshot: &Snapshot, raster: &Raster) -> Self {
         let (stage, mut edges) = (Stage::new(snapshot), Self::default());
-        edges.add_seen(&Sight::new(raster), &stage, EVERYWHERE, 0);
+        edges.add_seen(&Sight::new(raster), &stage, EVERYWHERE, &[]);
         edges.bounds = edges.outlines.iter().map(|outline| outline.bounds).collect();
         edges
     }
 
-    /// Adds what an eye sees in a part of the picture, after some mirrors.
-    fn add_seen(&mut self, sight: &Sight, stage: &Stage, within: [f64; 4], mirrors: u32) {
+    /// Adds what an eye sees in a part of the picture, after mirrors that leave these shares of light.
+    fn add_seen(&mut self, sight: &Sight, stage: &Stage, within: [f64; 4], mirrors: &[f64]) {
         let first = self.outlines.len();
         outlines::add_outlines(sight, stage, &mut self.outlines);
         for outline in &mut self.outlines[first..] {
             outline.bounds = common(outline.bounds, within);
         }
         for subject in &stage.subjects {
-            if let Some(bounds) = doubt::doubtful_part(sight, stage, subject, mirrors) {
-                self.doubts.push(common(bounds, within));
+            if let Some(doubt) = doubt::doubtful_part(sight, stage, subject, mirrors.len()) {
+                self.doubts.push(Doubt { bounds: common(doubt.bounds, within), ..doubt });
             }
             if let (Body::Ball { center, radius }, Some(_)) = (&subject.body, &subject.grid) {
                 self.patterned.extend(sight.bounds_of_ball(*center, *radius));
@@ -77,12 +81,15 @@ impl EdgeList {
             let sheets = subject.sheets(sight);
             for (level, bounds) in sheets.into_iter().map(|(level, bounds)| (level, common(bounds, within))) {
                 if let Some(grid) = &subject.grid {
-                    self.lines.extend(Lines::on(sight, grid, (level, bounds), mirrors > 0));
+                    self.lines.extend(Lines::on(sight, grid, (level, bounds), !mirrors.is_empty()));
                 }
-                let further = mirrors < MIRRORS_DEEP && self.outlines.len() < MOST_OUTLINES;
-                if subject.mirror && further && bounds[0] < bounds[2] && bounds[1] < bounds[3] {
+                let Some(share) = subject.mirror else { continue };
+                let left: Vec<f64> = mirrors.iter().copied().chain([share]).collect();
+                let told = left.len() <= MIRRORS_DEEP && left.iter().product::<f64>() > LEAST_MIRRORED;
+                let seen = bounds[0] < bounds[2] && bounds[1] < bounds[3];
+                if told && seen && self.outlines.len() < MOST_OUTLINES {
                     let mirrored = sight.mirrored(level.normal, level.normal * level.offset);
-                    self.add_seen(&mirrored, stage, bounds, mirrors + 1);
+                    self.add_seen(&mirrored, stage, bounds, &left);
                 }
             }
         }
@@ -94,6 +101,9 @@ impl EdgeList {
         Search::new(self, region, found).run();
     }
 }
+
+/// Samples of a pixel that is not told by pieces.
+const SAMPLES: u32 = 16;
 
 /// Places in the picture that camera rays go through.
 #[derive(Debug, Default)]
@@ -177,17 +187,18 @@ impl PixelPieces {
         self.share.push(area);
     }
 
-    /// Begins a pixel that is sampled.
-    fn begin(&mut self, pixel: [u32; 2]) {
-        self.pixels.push((pixel, self.len() as u32));
+    /// Adds samples of a pixel, given by its column and row in the region and that region.
+    fn add_samples(&mut self, [x, y]: [u32; 2], region: Region, seed: u32) {
+        self.pixels.push(([x, y], self.len() as u32));
         self.counts.sampled += 1;
-    }
-
-    /// Adds one of so many samples of a pixel.
-    fn push_sample(&mut self, x: f64, y: f64, samples: u32) {
-        let share = 1.0 / f64::from(samples);
-        self.places.push(x, y, share.sqrt());
-        self.share.push(share);
+        let (column, row) = (region.x + x, region.y + y);
+        let sampler = Sampler::new(seed, column, row);
+        for sample in 0..SAMPLES {
+            let [right, down] = sampler.pair(sample, 0).map(sampler::share);
+            let share = 1.0 / f64::from(SAMPLES);
+            self.places.push(f64::from(column) + right, f64::from(row) + down, share.sqrt());
+            self.share.push(share);
+        }
     }
 
     /// How many pieces there are.

@@ -56,9 +56,13 @@ impl Shown {
     /// Gives pixels the sums of what their pieces show, by their shares.
     fn add(&mut self, pieces: &PixelPieces, light: &[[f64; 3]], tile: &mut Tile) {
         for ([x, y], pieces, shares) in pieces.pixels() {
-            let mut sum = [0.0; 3];
-            for (light, share) in light[pieces].iter().zip(shares) {
-                sum.iter_mut().zip(light).for_each(|(sum, light)| *sum += share * light);
+            // Written so that pieces that look the same show exactly that.
+            let light = &light[pieces];
+            let mut sum = light[0];
+            for (other, share) in light.iter().zip(shares).skip(1) {
+                for channel in 0..3 {
+                    sum[channel] += share * (other[channel] - light[0][channel]);
+                }
             }
             self.not_finite += tile.set_radiance(tile.index(x, y), sum);
         }

@@ -4,7 +4,7 @@ use super::cut::Cut;
 use crate::numeric::LEAST_PIECE;
 
 /// Most cuts through one square.
-pub(crate) const MOST_CUTS: usize = 5;
+pub(crate) const MOST_CUTS: usize = 8;
 
 /// Corners of a square after that many cuts, with one to spare while it is cut.
 const MOST_CORNERS: usize = 4 + MOST_CUTS + 1;

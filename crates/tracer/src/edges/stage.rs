@@ -1,7 +1,7 @@
 //! What does the search for outlines know of a scene? Its bodies, how they look, and the lamps that throw shadows.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Light, Material};
+use catoptra_core::{Light, Material, ShadingPoint, Triple};
 
 use super::body::{Body, Flat, Level};
 use super::checker::Grid;
@@ -31,7 +31,8 @@ pub(crate) struct Subject {
     pub(crate) body: Body,
     /// Whether lamps change its look.
     pub(crate) lit: bool,
-    pub(crate) mirror: bool,
+    /// What share of light it mirrors, if it does.
+    pub(crate) mirror: Option<f64>,
     pub(crate) grid: Option<Grid>,
 }
 
@@ -53,7 +54,10 @@ impl Stage {
             Subject {
                 body: Body::of(&prim.shape),
                 lit: row.lobes.is_lit(),
-                mirror: row.lobes.mirror,
+                mirror: material.lobes(&ShadingPoint::HEAD_ON).mirror.map(|mirror| {
+                    let Triple { x, y, z } = mirror.tint;
+                    f64::max(x, y).max(z)
+                }),
                 grid: match material {
                     Material::Checker(checker) if row.is_pattern => {
                         Some(Grid::of(checker, snapshot.origin_in_frame()))

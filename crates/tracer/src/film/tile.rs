@@ -116,6 +116,11 @@ impl Tile {
         self.blank == self.before
     }
 
+    /// Whether it is known that no pixel shows a surface.
+    pub(crate) fn is_blank(&self) -> bool {
+        self.blank.is_some()
+    }
+
     /// Blocks across.
     pub(crate) fn blocks_across(&self) -> u32 {
         self.width.div_ceil(BLOCK)

@@ -36,12 +36,16 @@ impl<S: Simd> TileTracer<'_, S> {
     ) {
         let place = Region::new(tile.x, tile.y, Size::new(tile.width, tile.height));
         let (frame, columns) = (self.frame, self.frame.snapshot.columns());
-        visible.visible_through(&Frustum::new(frame, &place), columns, all, self.planner.outside);
-        if visible.is_empty() && columns.general_unbounded.is_empty() {
+        if tile.is_blank() {
             return;
         }
         let PieceRoom { edges: room, rays, light } = room;
+        let mut known = false;
         let shown = edges.show(frame.view, tile, room, |places, found| {
+            if !known {
+                visible.visible_through(&Frustum::new(frame, &place), columns, all, self.planner.outside);
+                known = true;
+            }
             self.gather(places, visible, (rays, bounce, light));
             found.clear();
             let [red, green, blue] = &light.sums;
