@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use catoptra_core::{Camera, EntityId, Role, Scene};
+use catoptra_core::{Camera, EntityId, Integrator, Role, Scene};
 use catoptra_scene::SceneFile;
 use catoptra_tracer::{
     Backend, Cancelled, Control, Edges, Film, Instructions, Pattern, Pool, Region, Size, Snapshot, Stats,
@@ -78,7 +78,7 @@ impl Job {
         };
         let meshes: Vec<Input> = file.mesh_paths().map(|path| ("the mesh", path)).collect();
         check_apart(outputs, &meshes)?;
-        warn_of_idle(args);
+        warn_of_idle(args, &view);
         let started = Instant::now();
         let snapshot = Arc::new(Snapshot::extract(&scene, &pool));
         let build_ms = milliseconds_since(started);
@@ -117,11 +117,14 @@ pub(crate) fn scene_input(scene: &Path) -> Input {
 }
 
 /// Says which options change nothing.
-fn warn_of_idle(args: &JobArgs) {
+fn warn_of_idle(args: &JobArgs, view: &View) {
     if args.pattern.is_some() && args.samples == 1 {
         warn(
             "--pattern changes nothing: the one sample of a pixel lies in its middle (--samples asks for more)",
         );
+    }
+    if args.edges.is_some() && view.integrator != Integrator::Whitted {
+        warn(&format!("--edges changes nothing: integrator {} samples them", view.integrator.name()));
     }
     if args.simd.is_some() && args.backend != "wide" {
         warn(&format!("--simd changes nothing: backend {} uses no vector instructions", args.backend));

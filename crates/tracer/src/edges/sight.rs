@@ -158,3 +158,71 @@ pub(crate) fn circle(normal: DVec3, offset: f64, center: DVec3, radius: f64) -> 
 pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+
+    fn sight() -> Sight {
+        Sight::new(&Raster {
+            eye: DVec3::new(0.3, 1.2, 5.0),
+            corner: DVec3::new(-0.5, 0.4, -1.0),
+            across: DVec3::new(0.01, 0.0, 0.0004),
+            down: DVec3::new(0.0002, -0.01, 0.0),
+        })
+    }
+
+    /// How far off the outline a point is seen, in pixels.
+    fn off(sight: &Sight, outline: &Outline, point: DVec3) -> f64 {
+        let place = sight.place(point);
+        let square = super::super::form::Square { x: place.x / place.z, y: place.y / place.z, half: 1.0 };
+        let form = outline.form.within(square);
+        form.one.abs() / form.x.hypot(form.y)
+    }
+
+    fn random_vector(random: &mut Random) -> DVec3 {
+        DVec3::new(random.number(), random.number(), random.number())
+    }
+
+    #[test]
+    fn points_of_segments_circles_and_silhouettes_lie_on_their_outlines() {
+        let (sight, mut random) = (sight(), Random(4));
+        for _ in 0..300 {
+            let [a, b] = [random_vector(&mut random), random_vector(&mut random)];
+            let segment = sight.segment([a, b]).unwrap();
+            assert!(off(&sight, &segment, a + (b - a) * 0.3) < 1e-9);
+            let (normal, radius) = (b.normalize(), 0.2 + random.number().abs());
+            let side = normal.any_orthonormal_vector();
+            let q = circle(normal, normal.dot(a - sight.eye), a - sight.eye, radius);
+            let rim = sight.conic(&q, a, radius).unwrap();
+            assert!(off(&sight, &rim, a + side * radius) < 1e-6);
+            // A point where a line through the eye touches the ball.
+            let to_eye = sight.eye - a;
+            let share = radius * radius / to_eye.length_squared();
+            let aside = to_eye.any_orthonormal_vector() * (radius * (1.0 - share).sqrt());
+            let silhouette = sight.conic(&silhouette(-to_eye, radius), a, radius).unwrap();
+            assert!(off(&sight, &silhouette, a + to_eye * share + aside) < 1e-6);
+        }
+    }
+
+    #[test]
+    fn a_mirror_shows_points_where_their_images_are_seen() {
+        let (sight, mut random) = (sight(), Random(8));
+        for _ in 0..100 {
+            let [point, on, normal] = [(); 3].map(|()| random_vector(&mut random));
+            let normal = normal.normalize();
+            let image = point - normal * (2.0 * normal.dot(point - on));
+            let [seen, direct] = [sight.mirrored(normal, on).place(point), sight.place(image)];
+            assert!((seen - direct).length() < 1e-9 * (1.0 + direct.length()), "{seen} {direct}");
+        }
+    }
+
+    #[test]
+    fn what_lies_behind_the_eye_has_no_outline() {
+        let sight = sight();
+        assert!(sight.segment([DVec3::new(0.0, 1.0, 7.0), DVec3::new(1.0, 1.0, 6.0)]).is_none());
+        assert!(sight.bounds_of_ball(DVec3::new(0.0, 1.0, 9.0), 1.0).is_none());
+        assert_eq!(sight.bounds_of_ball(sight.eye, 1.0), Some(EVERYWHERE));
+    }
+}
