@@ -94,9 +94,9 @@ pub(crate) const MOST_OUTLINES: usize = 1 << 16;
 /// Most pairs of a flat surface and a body between it and a lamp: with more, shadows' edges are not told.
 pub(crate) const MOST_SHADOWS: usize = 1 << 16;
 
-/// How far apart, as a share of the largest, what the corners of a pixel show may lie for the pixel to be taken as one
-/// surface: measured on shaded balls, whose own shading passes it only near the edge of the light.
-pub(crate) const DOUBT_CONTRAST: f64 = 1.0 / 32.0;
+/// How far four times what the middle of a pixel shows may be from the sum of what its corners do, as a share of the largest of
+/// them, for the pixel to be taken as one surface: a hundredth of that, which is less than an eye can tell.
+pub(crate) const DOUBT_CONTRAST: f64 = 4.0 / 100.0;
 
 /// Least share of light that mirrors must leave for outlines in them to be told: what is seen in fainter ones is left to a
 /// pixel's own sample.

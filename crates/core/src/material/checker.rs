@@ -99,7 +99,7 @@ impl Surface for Checker {
         let [x, z] = footprint.coordinates(at, self.cells(at), at.distance.of(self.scale));
         let half = at.distance.number(0.5);
         let odd = half - half * mean_sign(&x, &z);
-        let [color, other] = [&self.color, &self.other].map(|color| Triple::of(odd, color));
+        let (color, other) = (Triple::of(odd, &self.color), Triple::of(odd, &self.other));
         self.mirror.over(Lobes::matte(color.scale_add(odd, other.scale(at.distance.number(1.0) - odd))))
     }
 

@@ -44,25 +44,28 @@ impl<L: Lane> Footprint<L> {
         let inverse = at.distance.number(1.0) / at.normal.dot(*direction);
         let bends = [at.normal.dot(*across) * inverse, at.normal.dot(*down) * inverse];
         let far = at.distance * scale;
-        let along = |here: L, way: L, right: L, below: L| Coordinate {
-            at: here,
-            slopes: [far * (right - way * bends[0]), far * (below - way * bends[1])],
-            bends,
-        };
-        [along(x, direction.x, across.x, down.x), along(z, direction.z, across.z, down.z)]
+        let axis_x = (direction.x, [across.x, down.x]);
+        let axis_z = (direction.z, [across.z, down.z]);
+        [Coordinate::along(x, far, axis_x, bends), Coordinate::along(z, far, axis_z, bends)]
     }
 }
 
 impl<L: Lane> Coordinate<L> {
+    /// That of one axis, on a surface that is so many squares away.
+    #[inline(always)]
+    fn along(at: L, far: L, (way, [right, below]): (L, [L; 2]), bends: [L; 2]) -> Self {
+        let [x, y] = bends;
+        Self { at, slopes: [far * (right - way * x), far * (below - way * y)], bends }
+    }
+
     /// The first whole number that it reaches in the square, and how many; at most, and more than [`MOST_SQUARES`] where it
     /// has no end.
     #[inline(always)]
     fn jumps(&self) -> (L, L) {
         let (half, zero) = (self.at.number(0.5), self.at.number(0.0));
-        let sum = |[x, y]: [L; 2]| (x.abs() + y.abs()) * half;
-        let rest = self.at.number(1.0) - sum(self.bends);
+        let rest = self.at.number(1.0) - half_sum(self.bends, half);
         let most = self.at.number(f64::from(MOST_SQUARES));
-        let reach = L::select(zero.less(rest), sum(self.slopes) / rest, most).min(most);
+        let reach = L::select(zero.less(rest), half_sum(self.slopes, half) / rest, most).min(most);
         let first = -(reach - self.at).floor();
         (first, -(-(self.at + reach)).floor() - first)
     }
@@ -71,15 +74,25 @@ impl<L: Lane> Coordinate<L> {
     #[inline(always)]
     fn beyond(&self, k: L) -> Half<L> {
         let off = self.at - k;
-        let along = |axis: usize| off.mul_add(self.bends[axis], self.slopes[axis]);
-        let (x, y) = (along(0), along(1));
+        let x = off.mul_add(self.bends[0], self.slopes[0]);
+        let y = off.mul_add(self.bends[1], self.slopes[1]);
         // In parts of the slope, and never without one.
-        let least = off.number(LEAST_SLOPE);
-        let scale = off.number(1.0) / (x.abs() + y.abs()).max(least);
-        let sloped = |slope: L| L::select(slope.abs().less(least), least, slope);
-        let (x, y, one) = (sloped(x * scale), sloped(y * scale), off.number(1.0));
+        let (least, one) = (off.number(LEAST_SLOPE), off.number(1.0));
+        let scale = one / (x.abs() + y.abs()).max(least);
+        let (x, y) = (not_level(x * scale, least), not_level(y * scale, least));
         Half { one: off * scale, x, y, inverse: [one / x, one / y] }
     }
+}
+
+#[inline(always)]
+fn half_sum<L: Lane>([x, y]: [L; 2], half: L) -> L {
+    (x.abs() + y.abs()) * half
+}
+
+/// A slope, or the least one where there is less.
+#[inline(always)]
+fn not_level<L: Lane>(slope: L, least: L) -> L {
+    L::select(slope.abs().less(least), least, slope)
 }
 
 /// −1 for odd whole numbers, 1 for even ones.
@@ -191,17 +204,19 @@ fn area<L: Lane>(half: &Half<L>) -> L {
 #[inline(always)]
 fn common_area<L: Lane>(g: &Half<L>, h: &Half<L>) -> L {
     let half = g.one.number(0.5);
-    let ([gx, gy], [hx, hy]) = (g.inverse, h.inverse);
-    let side = |at: L| {
-        // Along x at y = `at`, and along y at x = `at`.
-        let level = length(half, [(at.mul_add(g.y, g.one), gx), (at.mul_add(h.y, h.one), hx)]);
-        level + length(half, [(at.mul_add(g.x, g.one), gy), (at.mul_add(h.x, h.one), hy)])
-    };
-    let sides = (side(half) + side(-half)) * half;
+    let sides = (side(g, h, half, half) + side(g, h, -half, half)) * half;
     let least = half.number(LEAST_SLOPE);
     let turn = h.y.mul_add(g.x, -(h.x * g.y));
-    let turn = half.number(1.0) / L::select(turn.abs().less(least), least, turn);
+    let turn = half.number(1.0) / not_level(turn, least);
     (sides + along(g, h, turn) + along(h, g, -turn)) * half
+}
+
+/// How much of the sides of the square at x and at y = `at` lies within two half-planes.
+#[inline(always)]
+fn side<L: Lane>(g: &Half<L>, h: &Half<L>, at: L, half: L) -> L {
+    let ([gx, gy], [hx, hy]) = (g.inverse, h.inverse);
+    let level = length(half, [(at.mul_add(g.y, g.one), gx), (at.mul_add(h.y, h.one), hx)]);
+    level + length(half, [(at.mul_add(g.x, g.one), gy), (at.mul_add(h.x, h.one), hy)])
 }
 
 /// How much of the stretch from −`half` to `half` keeps two linear functions, given as value and 1 over the slope, from being

@@ -87,6 +87,15 @@ impl Body {
         }
     }
 
+    /// Whether it lies in one plane.
+    pub(crate) fn is_flat(&self) -> bool {
+        match self {
+            Self::Plane(_) => true,
+            Self::Flats { solid, .. } => !solid,
+            _ => false,
+        }
+    }
+
     /// A box round it, where it has an end.
     pub(crate) fn bounds(&self) -> Option<Aabb> {
         match self {

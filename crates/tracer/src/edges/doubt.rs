@@ -144,11 +144,15 @@ impl Doubts {
     }
 }
 
-/// Whether lights are farther apart than shading alone would make them.
-fn differ(lights: &[[f64; 3]; 5]) -> bool {
-    (0..3).any(|channel| {
-        let values = lights.map(|light| light[channel]);
-        let (least, most) = values.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), v| (v.min(a), v.max(b)));
-        most - least > most * DOUBT_CONTRAST
+/// Whether what the corners of a pixel (two above, two below) and its middle show is farther from changing evenly than
+/// shading alone would make it.
+///
+/// Of a step anywhere between the corners the middle is not the mean, or the corners are not those of a plane.
+fn differ([a, b, c, d, middle]: &[[f64; 3]; 5]) -> bool {
+    (0..3).any(|i| {
+        let turn = (a[i] + d[i]) - (b[i] + c[i]);
+        let bulge = 4.0 * middle[i] - (a[i] + b[i] + c[i] + d[i]);
+        let most = a[i].max(b[i]).max(c[i]).max(d[i]).max(middle[i]);
+        turn.abs().max(bulge.abs()) > most * DOUBT_CONTRAST
     })
 }

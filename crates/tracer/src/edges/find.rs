@@ -13,9 +13,9 @@ use super::{EdgeList, PixelPieces};
 use crate::Region;
 use crate::numeric::{FINEST_SQUARE, MOST_PIXEL_PIECES};
 
-/// Looking through a tile.
-pub(super) struct Search<'a> {
-    region: Region,
+/// Room for what a tile needs.
+#[derive(Debug, Default)]
+pub(super) struct SearchRoom {
     /// The outlines that may cross the tile.
     outlines: Vec<Outline>,
     /// Lines between checkered squares in mirrors; they are numbered on from the outlines.
@@ -25,6 +25,12 @@ pub(super) struct Search<'a> {
     /// Numbers of those that may cross the squares on the way down, square after square.
     stack: Vec<u32>,
     pieces: Pieces,
+}
+
+/// Looking through a tile.
+pub(super) struct Search<'a> {
+    region: Region,
+    room: &'a mut SearchRoom,
     /// Whether a round surface with a pattern may be seen.
     patterned: bool,
     seed: u32,
@@ -34,25 +40,35 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    pub(super) fn new(edges: &EdgeList, region: Region, found: &'a mut PixelPieces) -> Self {
-        let mut outlines = Vec::new();
+    pub(super) fn new(
+        edges: &EdgeList,
+        region: Region,
+        room: &'a mut SearchRoom,
+        found: &'a mut PixelPieces,
+    ) -> Self {
+        let SearchRoom { outlines, lines, others, stack, .. } = room;
+        outlines.clear();
         for (bounds, outline) in edges.bounds.iter().zip(&edges.outlines) {
             if near(bounds, region) {
                 outlines.push(*outline);
             }
         }
-        let lines = edges.lines.iter().filter(|lines| near(&lines.bounds, region));
-        let (lines, others) = lines.partition(|lines| lines.alone);
+        let seen = |alone: bool| {
+            edges.lines.iter().filter(move |lines| lines.alone == alone && near(&lines.bounds, region))
+        };
+        lines.clear();
+        lines.extend(seen(true));
+        others.clear();
+        others.extend(seen(false));
+        stack.clear();
         let patterned = edges.patterned.iter().any(|part| near(part, region));
-        let (stack, pieces) = (Vec::new(), Pieces::whole());
-        let seed = edges.seed;
-        Self { region, outlines, lines, others, stack, pieces, patterned, seed, limit: 0, found }
+        Self { region, room, patterned, seed: edges.seed, limit: 0, found }
     }
 
     /// Finds the pieces of all pixels.
     pub(super) fn run(&mut self) {
-        self.stack.extend(0..(self.outlines.len() + self.lines.len()) as u32);
-        if self.stack.is_empty() {
+        self.room.stack.extend(0..(self.room.outlines.len() + self.room.lines.len()) as u32);
+        if self.room.stack.is_empty() {
             return;
         }
         let size = self.region.size;
@@ -64,9 +80,9 @@ impl<'a> Search<'a> {
     fn look(&mut self, x: u32, y: u32, edge: u32, first: usize) {
         let half = f64::from(edge) / 2.0;
         let square = Square { x: f64::from(x) + half, y: f64::from(y) + half, half };
-        let last = self.stack.len();
+        let last = self.room.stack.len();
         self.keep_crossing(square, first..last);
-        if self.stack.len() > last {
+        if self.room.stack.len() > last {
             if edge == 1 {
                 self.part_pixel([x, y], square, last);
             } else {
@@ -80,17 +96,17 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        self.stack.truncate(last);
+        self.room.stack.truncate(last);
     }
 
     /// Adds those of some outlines that may cross a square to the stack.
     fn keep_crossing(&mut self, square: Square, among: std::ops::Range<usize>) {
         let Square { x, y, half } = square;
         for at in among {
-            let number = self.stack[at] as usize;
-            let outline = self.outlines.get(number);
-            let bounds =
-                outline.map_or_else(|| &self.lines[number - self.outlines.len()].bounds, |o| &o.bounds);
+            let number = self.room.stack[at] as usize;
+            let outline = self.room.outlines.get(number);
+            let bounds = outline
+                .map_or_else(|| &self.room.lines[number - self.room.outlines.len()].bounds, |o| &o.bounds);
             let [left, top, right, bottom] = *bounds;
             if left <= x + half
                 && right >= x - half
@@ -98,10 +114,10 @@ impl<'a> Search<'a> {
                 && bottom >= y - half
                 && match outline {
                     Some(outline) => outline.form.may_cross(square),
-                    None => self.lines[number - self.outlines.len()].may_cross(square),
+                    None => self.room.lines[number - self.room.outlines.len()].may_cross(square),
                 }
             {
-                self.stack.push(number as u32);
+                self.room.stack.push(number as u32);
             }
         }
     }
@@ -133,10 +149,10 @@ impl<'a> Search<'a> {
 
     /// Adds the pieces of a square, whose outlines are those of the stack from `first` on. Returns how many cuts there are.
     fn part(&mut self, square: Square, first: usize) -> u32 {
-        let last = self.stack.len();
+        let last = self.room.stack.len();
         if last - first == 1
-            && self.others.is_empty()
-            && let Some(outline) = self.outlines.get(self.stack[first] as usize)
+            && self.room.others.is_empty()
+            && let Some(outline) = self.room.outlines.get(self.room.stack[first] as usize)
             && let Cuts::Straight(cut) = Cuts::of(&outline.form.within(square))
         {
             let Some(parts) = halves(cut) else {
@@ -146,12 +162,13 @@ impl<'a> Search<'a> {
             parts.into_iter().for_each(|piece| self.found.add(piece, square, self.patterned));
             return 1;
         }
-        self.pieces.reset();
+        self.room.pieces.reset();
         let told = self.cut(square, first..last);
         if told {
-            let mixed = self.patterned || self.others.iter().any(|lines| lines.are_many(square));
-            self.pieces.iter().for_each(|piece| self.found.add(*piece, square, mixed));
-            return self.pieces.len() as u32 - 1;
+            let mixed = self.patterned || self.room.others.iter().any(|lines| lines.are_many(square));
+            let Self { room, found, .. } = self;
+            room.pieces.iter().for_each(|piece| found.add(*piece, square, mixed));
+            return self.room.pieces.len() as u32 - 1;
         }
         self.found.quartered = true;
         if square.half <= FINEST_SQUARE {
@@ -165,7 +182,7 @@ impl<'a> Search<'a> {
             }
             self.keep_crossing(quarter, first..last);
             cuts += self.part(quarter, last);
-            self.stack.truncate(last);
+            self.room.stack.truncate(last);
         }
         cuts
     }
@@ -178,16 +195,16 @@ impl<'a> Search<'a> {
         }
         let mut left = MOST_CUTS as u32;
         for at in among {
-            let number = self.stack[at] as usize;
-            let told = match self.outlines.get(number) {
+            let number = self.room.stack[at] as usize;
+            let told = match self.room.outlines.get(number) {
                 Some(outline) => match Cuts::of(&outline.form.within(square)) {
                     Cuts::Not => true,
-                    Cuts::Straight(cut) => self.pieces.cut(cut, &mut left),
+                    Cuts::Straight(cut) => self.room.pieces.cut(cut, &mut left),
                     Cuts::Bent => false,
                 },
                 None => cut_by_lines(
-                    &mut self.pieces,
-                    &self.lines[number - self.outlines.len()],
+                    &mut self.room.pieces,
+                    &self.room.lines[number - self.room.outlines.len()],
                     square,
                     &mut left,
                 ),
@@ -196,7 +213,7 @@ impl<'a> Search<'a> {
                 return false;
             }
         }
-        self.others.iter().all(|lines| cut_by_lines(&mut self.pieces, lines, square, &mut left))
+        self.room.others.iter().all(|lines| cut_by_lines(&mut self.room.pieces, lines, square, &mut left))
     }
 }
 

@@ -26,7 +26,7 @@ use crate::{EdgePixels, Edges, Region, Snapshot, View};
 use body::Body;
 use checker::Lines;
 use doubt::Doubt;
-use find::Search;
+use find::{Search, SearchRoom};
 use form::Square;
 pub(crate) use show::EdgeRoom;
 use sight::{EVERYWHERE, Outline, Sight, common};
@@ -64,14 +64,19 @@ impl EdgeList {
         edges
     }
 
-    /// Adds what an eye sees in a part of the picture, after mirrors that leave these shares of light.
-    fn add_seen(&mut self, sight: &Sight, stage: &Stage, within: [f64; 4], mirrors: &[f64]) {
+    /// Adds what an eye sees in a part of the picture, after mirrors, given by
+    /// their numbers and the shares of light that they leave.
+    fn add_seen(&mut self, sight: &Sight, stage: &Stage, within: [f64; 4], mirrors: &[(usize, f64)]) {
         let first = self.outlines.len();
         outlines::add_outlines(sight, stage, &mut self.outlines);
         for outline in &mut self.outlines[first..] {
             outline.bounds = common(outline.bounds, within);
         }
-        for subject in &stage.subjects {
+        for (number, subject) in stage.subjects.iter().enumerate() {
+            // A flat mirror does not see itself.
+            if mirrors.last().is_some_and(|last| last.0 == number) && subject.body.is_flat() {
+                continue;
+            }
             if let Some(doubt) = doubt::doubtful_part(sight, stage, subject, mirrors.len()) {
                 self.doubts.push(Doubt { bounds: common(doubt.bounds, within), ..doubt });
             }
@@ -84,8 +89,9 @@ impl EdgeList {
                     self.lines.extend(Lines::on(sight, grid, (level, bounds), !mirrors.is_empty()));
                 }
                 let Some(share) = subject.mirror else { continue };
-                let left: Vec<f64> = mirrors.iter().copied().chain([share]).collect();
-                let told = left.len() <= MIRRORS_DEEP && left.iter().product::<f64>() > LEAST_MIRRORED;
+                let left: Vec<(usize, f64)> = mirrors.iter().copied().chain([(number, share)]).collect();
+                let told = left.len() <= MIRRORS_DEEP
+                    && left.iter().map(|(_, share)| share).product::<f64>() > LEAST_MIRRORED;
                 let seen = bounds[0] < bounds[2] && bounds[1] < bounds[3];
                 if told && seen && self.outlines.len() < MOST_OUTLINES {
                     let mirrored = sight.mirrored(level.normal, level.normal * level.offset);
@@ -96,9 +102,9 @@ impl EdgeList {
     }
 
     /// Finds the pieces of all pixels of a part of the picture that outlines cross.
-    fn find(&self, region: Region, found: &mut PixelPieces) {
+    fn find(&self, region: Region, room: &mut SearchRoom, found: &mut PixelPieces) {
         found.clear();
-        Search::new(self, region, found).run();
+        Search::new(self, region, room, found).run();
     }
 }
 

@@ -1,12 +1,14 @@
 //! What do the pixels show that outlines cross? The same steps for every backend, which traces the rays.
 
 use super::doubt::Doubts;
+use super::find::SearchRoom;
 use super::{EdgeList, PixelPieces, Places};
 use crate::{EdgePixels, Region, Size, Tile, View};
 
 /// Room for what a tile needs, kept from tile to tile.
 #[derive(Debug, Default)]
 pub(crate) struct EdgeRoom {
+    search: SearchRoom,
     pieces: PixelPieces,
     doubts: Doubts,
     light: Vec<[f64; 3]>,
@@ -30,10 +32,10 @@ impl EdgeList {
         room: &mut EdgeRoom,
         mut gather: impl FnMut(&mut Places, &mut Vec<[f64; 3]>),
     ) -> Shown {
-        let EdgeRoom { pieces, doubts, light } = room;
+        let EdgeRoom { search, pieces, doubts, light } = room;
         let region = Region::new(tile.x, tile.y, Size::new(tile.width, tile.height));
         let mut shown = Shown::default();
-        self.find(region, pieces);
+        self.find(region, search, pieces);
         doubts.find(self, region, pieces);
         if pieces.len() > 0 {
             gather(&mut pieces.places, light);

@@ -76,9 +76,10 @@ pub(crate) fn halves(cut: Cut) -> Option<[Piece; 2]> {
 }
 
 /// The pieces of a square that reaches from −1 to 1.
+#[derive(Debug)]
 pub(crate) struct Pieces {
     count: usize,
-    pieces: [(Polygon, Piece); MOST_PIECES],
+    pieces: Box<[(Polygon, Piece)]>,
 }
 
 const SQUARE: Polygon = {
@@ -90,11 +91,16 @@ const SQUARE: Polygon = {
     Polygon { count: 4, corners }
 };
 
+impl Default for Pieces {
+    fn default() -> Self {
+        Self::whole()
+    }
+}
+
 impl Pieces {
     /// The square as it is.
-    #[inline]
     pub(crate) fn whole() -> Self {
-        Self { count: 1, pieces: [(SQUARE, Piece::SQUARE); MOST_PIECES] }
+        Self { count: 1, pieces: vec![(SQUARE, Piece::SQUARE); MOST_PIECES].into() }
     }
 
     /// Puts the square together again.
