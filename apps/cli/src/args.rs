@@ -65,6 +65,9 @@ pub(crate) struct JobArgs {
     /// Cut off each sample's channels at this radiance, which tames rare bright ones and darkens the picture
     #[arg(long, value_name = "L", value_parser = clamp)]
     pub(crate) clamp: Option<f32>,
+    /// Pixels that edges cross: off (by their samples) or exact (by the area of each part) [default: off]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) edges: Option<String>,
     /// What random choices go by: another number makes other ones, the same one the same picture
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u32,

@@ -1,7 +1,7 @@
 //! `catoptra explain`: what does a scene need, what runs for it, and which work was skipped as it could not matter?
 
 use catoptra_core::{Integrator, Light};
-use catoptra_tracer::{Needs, Skipped, Stats};
+use catoptra_tracer::{EdgePixels, Edges, Needs, Skipped, Stats};
 use miette::Result;
 use serde_json::{Map, Value, json};
 
@@ -81,6 +81,7 @@ impl Found<'_> {
             "samples": self.job.view.samples,
             "pattern": self.job.view.pattern.name(),
             "filter": self.job.view.filter.name(),
+            "edges": self.job.view.edges.name(),
             "seed": self.job.view.seed,
             "integrator": self.job.view.integrator.name(),
             "max_depth": self.job.view.max_depth,
@@ -188,14 +189,31 @@ impl Found<'_> {
     fn traced(&self) -> Vec<String> {
         let (rays, tests) = (&self.stats.rays, &self.stats.tests);
         let each = |count: u64| format!("{:.1} a ray", count as f64 / rays.total().max(1) as f64);
-        vec![
+        let mut lines = vec![
             counted(rays.primary, "primary ray"),
             counted(rays.shadow, "shadow ray"),
             counted(rays.reflection, "reflection ray"),
             counted(rays.occlusion, "occlusion ray"),
             format!("{} against shapes and triangles, {}", counted(tests.shapes, "test"), each(tests.shapes)),
             format!("{} against boxes of trees, {}", counted(tests.boxes, "test"), each(tests.boxes)),
-        ]
+        ];
+        lines.extend(self.edges());
+        lines
+    }
+
+    /// How pixels were shown that outlines cross.
+    fn edges(&self) -> Option<String> {
+        let EdgePixels { parted, quartered, sampled, pieces } = self.stats.edges;
+        (self.job.view.edges == Edges::Exact).then(|| {
+            format!(
+                "{} that outlines cross, by {}: {} parted by lines, {} quartered, {} sampled",
+                counted(parted + quartered + sampled, "pixel"),
+                counted(pieces, "ray"),
+                thousands(parted),
+                thousands(quartered),
+                thousands(sampled)
+            )
+        })
     }
 
     fn skipped(&self) -> Vec<String> {

@@ -4,11 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use catoptra_core::{Camera, EntityId, Role, Scene};
+use catoptra_core::{Camera, EntityId, Integrator, Role, Scene};
 use catoptra_scene::SceneFile;
 use catoptra_tracer::{
-    Backend, Cancelled, Control, Film, Filter, Instructions, Pattern, Pool, Reached, Region, Size, Snapshot,
-    Stats, Target, View, render, render_until,
+    Backend, Cancelled, Control, Edges, Film, Filter, Instructions, Pattern, Pool, Reached, Region, Size,
+    Snapshot, Stats, Target, View, render, render_until,
 };
 use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
 
@@ -16,7 +16,7 @@ use crate::args::{JobArgs, STANDARD};
 use crate::console::warn;
 use crate::destination::{Input, Output, check_apart};
 use crate::memory;
-use crate::names::{find_backend, find_filter, find_instructions, find_integrator, find_pattern};
+use crate::names::{find_backend, find_edges, find_filter, find_instructions, find_integrator, find_pattern};
 use crate::pool::{milliseconds_since, new_pool};
 use crate::suggest::unknown;
 
@@ -26,6 +26,7 @@ pub(crate) struct Means {
     backend: &'static dyn Backend,
     pattern: Pattern,
     filter: Filter,
+    edges: Edges,
     instructions: Option<Instructions>,
 }
 
@@ -34,6 +35,7 @@ impl Means {
     pub(crate) fn of(args: &JobArgs) -> Result<Self> {
         Ok(Self {
             backend: find_backend(&args.backend)?,
+            edges: args.edges.as_deref().map(find_edges).transpose()?.unwrap_or_default(),
             pattern: args.pattern.as_deref().map(find_pattern).transpose()?.unwrap_or_default(),
             filter: args.filter.as_deref().map(find_filter).transpose()?.unwrap_or_default(),
             instructions: args.simd.as_deref().map(find_instructions).transpose()?,
@@ -76,6 +78,7 @@ impl Job {
             pattern: means.pattern,
             filter: means.filter,
             clamp: args.clamp.unwrap_or(f32::INFINITY),
+            edges: means.edges,
             seed: args.seed,
             instructions: means.instructions,
             ..view
@@ -119,6 +122,10 @@ impl Job {
                     "the camera's lens-radius changes nothing: one sample sees through its middle (--samples asks for more)",
                 );
             }
+        }
+        if args.edges.is_some() && self.view.integrator != Integrator::Whitted {
+            let integrator = self.view.integrator.name();
+            warn(&format!("--edges changes nothing: integrator {integrator} samples them"));
         }
         if args.simd.is_some() && args.backend != "wide" {
             warn(&format!("--simd changes nothing: backend {} uses no vector instructions", args.backend));

@@ -43,6 +43,7 @@ fn as_json(job: &Job, times: &FrameTimes, frame: &Frame) -> Result<Value> {
         "samples": job.view.samples,
         "pattern": job.view.pattern.name(),
         "filter": job.view.filter.name(),
+        "edges": job.view.edges.name(),
         "seed": job.view.seed,
         "max_depth": job.view.max_depth,
         "frames": times.frames,

@@ -3,6 +3,7 @@
 use catoptra_core::Raster;
 use catoptra_core::glam::DVec3;
 
+use crate::edges::EdgeList;
 use crate::{Snapshot, View};
 
 /// What a backend is given: a snapshot, and from where it is looked at.
@@ -18,6 +19,8 @@ pub struct Frame<'a> {
     pub(crate) eye: DVec3,
     /// Whether the eye, and so every ray of the view, stays outside all convex solids.
     pub(crate) outside_solids: bool,
+    /// The outlines that are seen, where they are to be shown exactly.
+    pub(crate) edges: Option<&'a EdgeList>,
 }
 
 impl<'a> Frame<'a> {
@@ -36,7 +39,7 @@ impl<'a> Frame<'a> {
         // One sample is seen from the middle of the lens.
         let lens = raster.lens.filter(|_| view.samples > 1);
         let raster = Raster { eye: raster.eye - snapshot.frame(), lens, ..raster };
-        Self { snapshot, view, raster, eye, outside_solids: false }
+        Self { snapshot, view, raster, eye, outside_solids: false, edges: None }
     }
 
     /// Whether all rays of the view start at the eye.

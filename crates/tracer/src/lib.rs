@@ -29,6 +29,7 @@ pub mod backend;
 mod control;
 mod cull;
 mod display;
+mod edges;
 mod film;
 mod filter;
 mod frame;
@@ -71,6 +72,6 @@ pub use render::{Cancelled, render};
 pub use snapshot::{
     Changed, Extraction, Hit, Needs, PartDiff, Presence, Prim, ShapeDiff, Snapshot, SnapshotDiff, SurfaceId,
 };
-pub use stats::{LampStats, Rays, Skipped, Stats, Tests};
+pub use stats::{EdgePixels, LampStats, Rays, Skipped, Stats, Tests};
 pub use target::{Reached, Scale, Target, render_until};
-pub use view::{Region, Size, Skip, View};
+pub use view::{Edges, Region, Size, Skip, View};

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::edges::EdgeList;
 use crate::{Backend, Control, Film, Frame, Pool, Snapshot, Stats, View};
 
 /// The render was asked to stop; the film holds some new tiles and some old ones.
@@ -32,6 +33,8 @@ pub fn render(
     let goes_on = first == 0 || film.tiles_mut().iter().all(|tile| tile.holds(first));
     assert!(goes_on, "the film holds the samples before number {first}");
     let frame = Frame::new(snapshot, view);
+    let edges = EdgeList::for_view(snapshot, view, &frame.raster);
+    let frame = Frame { edges: edges.as_ref(), ..frame };
     let tiles = film.tiles_mut();
     control.start(tiles.len());
     let trace = |tile: &mut crate::Tile| {

@@ -102,12 +102,45 @@ pub struct View {
     pub filter: Filter,
     /// The most that a channel of one sample counts; brighter ones are cut off, which darkens the picture. Infinite for all.
     pub clamp: f32,
+    /// How pixels are shown that outlines cross.
+    pub edges: Edges,
     /// Whether the film is to tell [standard errors](crate::Film::standard_error); the picture's bits do not depend on it.
     pub moments: bool,
     /// Which work that cannot matter is left out; the picture's bits do not depend on it.
     pub skip: Skip,
     /// Vector instructions to trace with; without, the best that the CPU has. The picture's bits do not depend on them.
     pub instructions: Option<Instructions>,
+}
+
+/// How pixels are shown that the outlines of things cross.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Edges {
+    /// As any other: by their samples.
+    #[default]
+    Off,
+    /// By the area of each part that outlines divide them into, and what its centroid shows. Under
+    /// [`Whitted`](Integrator::Whitted) alone; other integrators sample them.
+    Exact,
+}
+
+impl Edges {
+    /// Both ways.
+    pub const ALL: &'static [Self] = &[Self::Off, Self::Exact];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::Exact => "exact",
+        }
+    }
+
+    /// The way of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|edges| edges.name() == name)
+    }
 }
 
 /// Work that is left out because it cannot matter. Switched off, the same bits are computed the long way.
@@ -154,6 +187,7 @@ impl View {
             pattern: Pattern::ALL[0],
             filter: Filter::ALL[0],
             clamp: f32::INFINITY,
+            edges: Edges::Off,
             moments: false,
             skip: Skip::ALL,
             instructions: None,
@@ -185,6 +219,11 @@ impl View {
         let all = self.samples.max(1);
         let range = self.range.clone().unwrap_or(0..all);
         range.start.min(all)..range.end.min(all)
+    }
+
+    /// The side of the square of a pixel that each of its samples stands for.
+    pub(crate) fn side_of_sample(&self) -> f64 {
+        1.0 / f64::from(self.samples.max(1)).sqrt()
     }
 
     /// Rays to a lamp from a point that one sample leads to, where it has no closed form.

@@ -16,6 +16,7 @@ const LAYERS: &[&[&str]] = &[
     &["lamps"],
     &["cull"],
     &["rays", "frame"],
+    &["edges"],
     &["snapshot"],
     &["kernel"],
     &["accel"],

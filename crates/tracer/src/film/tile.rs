@@ -45,6 +45,27 @@ pub struct Tile {
 type Light = [u32; 3];
 
 impl Tile {
+    /// One without pixels, to hold the light of single rays.
+    pub(crate) fn without_pixels() -> Self {
+        Self {
+            x: 0,
+            y: 0,
+            width: 0,
+            height: 0,
+            sums: Default::default(),
+            depth: Column::default(),
+            surface: Column::default(),
+            totals: None,
+            counts: Counts::Uniform(1),
+            goals: None,
+            replicates: None,
+            deviations: None,
+            entities: Arc::default(),
+            blank: None,
+            before: None,
+        }
+    }
+
     /// A black one without samples, where there is memory for it.
     pub(super) fn new(x: u32, y: u32, width: u32, height: u32) -> Option<Self> {
         let pixels = (width.div_ceil(BLOCK) * height.div_ceil(BLOCK)) as usize * BLOCK_PIXELS;
@@ -66,6 +87,36 @@ impl Tile {
             blank: Some([0; 3]),
             before: None,
         })
+    }
+
+    /// Makes room for the light of so many single rays, and clears it: each has the pixel of its number.
+    pub(crate) fn hold_rays(&mut self, count: usize) {
+        for light in &mut self.sums {
+            if light.len() < count {
+                light.resize(count, 0.0);
+            }
+            light[..count].fill(0.0);
+        }
+    }
+
+    /// Says what a pixel shows in all, where that is known without an error.
+    pub(crate) fn set_radiance(&mut self, i: usize, light: [f64; 3]) -> u64 {
+        let samples = f64::from(self.counts.of(i));
+        if let Some(deviations) = &mut self.deviations {
+            deviations[i] = 0.0;
+        }
+        let mut not_finite = 0;
+        let light = light.map(|light| {
+            not_finite += u64::from(!(light as f32).is_finite());
+            if (light as f32).is_finite() { light } else { f64::from(finite(light as f32)) }
+        });
+        match &mut self.totals {
+            Some(totals) => {
+                totals.iter_mut().zip(light).for_each(|(total, light)| total[i] = light * samples)
+            }
+            None => self.sums.iter_mut().zip(light).for_each(|(sum, light)| sum[i] = light as f32),
+        }
+        not_finite
     }
 
     /// Says that some samples of a view are about to be traced, and what surfaces are called from now on.
@@ -214,6 +265,11 @@ impl Tile {
     pub(crate) fn goes_blank(&mut self, light: [f32; 3]) -> bool {
         self.blank = Some(light.map(f32::to_bits));
         self.blank == self.before
+    }
+
+    /// Whether it is known that no pixel shows a surface.
+    pub(crate) fn is_blank(&self) -> bool {
+        self.blank.is_some()
     }
 
     /// Blocks across.

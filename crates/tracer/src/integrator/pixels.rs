@@ -5,6 +5,7 @@ use catoptra_core::lobe::point_of_disk;
 
 use super::walker::{CameraRay, Walker};
 use super::{Integrate, IntegratorVisitor, Search, visit};
+use crate::edges::{EdgeList, EdgeRoom};
 use crate::film::NOTHING;
 use crate::sample::Sample;
 use crate::sampler::{Sampler, pairs, share};
@@ -31,14 +32,35 @@ impl<S: Search> IntegratorVisitor for Pixels<'_, S> {
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
             trace_pixel::<I, S>(&mut walker, tile, x, y);
         }
+        if let Some(edges) = frame.edges {
+            show_pieces::<I, S>(&mut walker, edges, tile);
+        }
         walker.stats
     }
+}
+
+/// Shows the pixels of a tile that outlines cross, in place of what their samples have shown.
+fn show_pieces<I: Integrate, S: Search>(walker: &mut Walker<'_, S>, edges: &EdgeList, tile: &mut Tile) {
+    let (frame, mut room) = (walker.frame, EdgeRoom::default());
+    let shown = edges.show(frame.view, tile, &mut room, |places, light| {
+        light.clear();
+        for at in 0..places.len() {
+            let (x, y) = (places.x[at], places.y[at]);
+            let sampler = Sampler::new(frame.view.seed, x as u32, y as u32);
+            let ray = frame.raster.ray(x, y);
+            let side = Some(places.side[at]);
+            light.push(I::gather(walker, &CameraRay { ray, sampler, sample: 0, side }).0.to_array());
+        }
+    });
+    walker.stats.edges += shown.pixels;
+    walker.stats.not_finite += shown.not_finite;
 }
 
 /// Adds up the samples of a pixel.
 fn trace_pixel<I: Integrate, S: Search>(walker: &mut Walker<'_, S>, tile: &mut Tile, x: u32, y: u32) {
     let (frame, i) = (walker.frame, tile.index(x, y));
     let [column, row] = [tile.x + x, tile.y + y];
+    let side = frame.edges.map(|_| frame.view.side_of_sample());
     for number in frame.view.traced_samples() {
         if !tile.is_active(i, number) {
             break;
@@ -48,7 +70,7 @@ fn trace_pixel<I: Integrate, S: Search>(walker: &mut Walker<'_, S>, tile: &mut T
         let [right, down] = sample.place(sampler);
         let at = [f64::from(column) + right, f64::from(row) + down];
         let ray = camera_ray(frame, at, &sample, sampler);
-        let (light, first) = I::gather(walker, &CameraRay { ray, sampler, sample: sample.index });
+        let (light, first) = I::gather(walker, &CameraRay { ray, sampler, sample: sample.index, side });
         walker.stats.not_finite += tile.add_sample(i, light, number, frame.view);
         if sample.kept {
             let distance = |hit: Hit| (hit.crossing.t * ray.direction.length()) as f32;

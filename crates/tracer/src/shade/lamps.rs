@@ -235,11 +235,7 @@ impl<'a, S: Simd> Shader<'a, S> {
                 front,
             },
             material: &snapshot.materials()[snapshot.prims()[surface.prim as usize].material as usize],
-            drawn: Drawn {
-                sampler: Sampler::new(self.view.seed, x, y),
-                sample: self.sample,
-                depth: at.depth,
-            },
+            drawn: Drawn { sampler: self.sample.sampler(x, y), sample: self.sample.index, depth: at.depth },
         }
     }
 

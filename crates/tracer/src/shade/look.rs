@@ -61,7 +61,8 @@ impl<S: Simd> Shader<'_, S> {
     fn base(&mut self, batch: &impl Batch<S>, slot: usize, mask: M<S>, material: usize) -> F3<S> {
         let snapshot = self.search.snapshot;
         let row = &snapshot.material_rows()[material];
-        if row.is_pattern {
+        let footprint = if row.is_pattern { batch.footprint(self.s, self.chunk.at[slot]) } else { None };
+        if row.is_pattern && footprint.is_none() {
             outlined(
                 self.s,
                 #[inline(always)]
@@ -70,12 +71,25 @@ impl<S: Simd> Shader<'_, S> {
         }
         let ambient = F3::of(F::splat(self.s, 0.0), snapshot.ambient_light());
         let irradiance = self.chunk.irradiance[slot];
-        let (mut shown, share) = row.material.visit_lobes(
-            #[inline(always)]
-            || self.shading_point(slot),
-            #[inline(always)]
-            |lobes| (lobes.without_glossy(ambient, irradiance), lobes.share),
-        );
+        let (mut shown, share) = match footprint {
+            Some(footprint) => outlined(
+                self.s,
+                #[inline(always)]
+                || {
+                    row.material.visit_mean_lobes(
+                        (&self.shading_point(slot), &footprint),
+                        #[inline(always)]
+                        |lobes| (lobes.without_glossy(ambient, irradiance), lobes.share),
+                    )
+                },
+            ),
+            None => row.material.visit_lobes(
+                #[inline(always)]
+                || self.shading_point(slot),
+                #[inline(always)]
+                |lobes| (lobes.without_glossy(ambient, irradiance), lobes.share),
+            ),
+        };
         if self.chunk.glossy[slot] {
             shown = shown + self.chunk.specular[slot];
         }

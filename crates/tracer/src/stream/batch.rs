@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use catoptra_core::material::Footprint;
 use catoptra_core::{Constant3, Lane, LaneMask};
 use fearless_simd::Simd;
 
@@ -39,6 +40,10 @@ pub(crate) trait Batch<S: Simd> {
 
     /// How much of the light that arrives along the packet that starts with ray `at` counts, per channel.
     fn weights(&self, s: S, at: usize) -> F3<S>;
+
+    /// The squares of the picture that the rays of the packet that starts with ray `at` stand for; `None` where they are
+    /// lines of sight and no more.
+    fn footprint(&self, s: S, at: usize) -> Option<Footprint<F<S>>>;
 
     /// Pixels of the packet that starts with ray `at`, by their places in the tile's columns.
     fn pixels(&self, s: S, at: usize) -> U<S>;
@@ -146,6 +151,11 @@ impl<'a, S: Simd> Batch<S> for Part<'a, S> {
     }
 
     #[inline(always)]
+    fn footprint(&self, s: S, at: usize) -> Option<Footprint<F<S>>> {
+        self.camera.footprint(s, at)
+    }
+
+    #[inline(always)]
     fn pixels(&self, s: S, at: usize) -> U<S> {
         U::counted(s, at as u32)
     }
@@ -188,6 +198,11 @@ impl<S: Simd> Batch<S> for Queue {
     #[inline(always)]
     fn weights(&self, s: S, at: usize) -> F3<S> {
         Queue::weights(self, s, at)
+    }
+
+    #[inline(always)]
+    fn footprint(&self, s: S, at: usize) -> Option<Footprint<F<S>>> {
+        Queue::footprint(self, s, at)
     }
 
     #[inline(always)]

@@ -5,6 +5,7 @@
 //! without rounding.
 
 use catoptra_core::lobe::point_of_disk;
+use catoptra_core::material::Footprint;
 use catoptra_core::{Raster, Ray, Span};
 use fearless_simd::Simd;
 
@@ -94,6 +95,8 @@ pub(crate) struct CameraPackets<'a, S: Simd> {
     y: u32,
     pub(crate) width: u32,
     pub(crate) height: u32,
+    /// What the sides of the square that a sample stands for add to its direction, where looks are averaged over it.
+    sides: Option<[F3<S>; 2]>,
 }
 
 /// The lens in registers.
@@ -168,6 +171,14 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
             y: tile.y,
             width: tile.width,
             height: tile.height,
+            sides: match frame.edges {
+                Some(_) => {
+                    let share = frame.view.side_of_sample();
+                    let (across, down) = (raster.across * share, raster.down * share);
+                    Some([narrow3(splat_wide(s, across)), narrow3(splat_wide(s, down))])
+                }
+                None => None,
+            },
         }
     }
 
@@ -355,6 +366,17 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
             leaving: Leaving::nothing(s),
             live: self.live_lanes(s, at),
         }
+    }
+}
+
+impl<S: Simd> CameraPackets<'_, S> {
+    /// The squares that the rays of a packet stand for, where looks are averaged over them.
+    #[inline(always)]
+    pub(crate) fn footprint(&self, s: S, at: usize) -> Option<Footprint<F<S>>> {
+        let [across, down] = self.sides?;
+        let length = F::load(s, &self.rays.inverse_length[at..]);
+        let direction = load3(s, &self.rays.direction, at);
+        Some(Footprint { direction, sides: [across.scale(length), down.scale(length)] })
     }
 }
 

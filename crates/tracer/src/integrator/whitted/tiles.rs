@@ -11,6 +11,7 @@ use std::cell::RefCell;
 
 use fearless_simd::{Level, Simd};
 
+use super::pieces::PieceRoom;
 use super::streams::Bounce;
 use crate::cull::{Candidates, Frustum, Planner, PointBounds, TilePlan, quarters};
 use crate::kernel::mesh::Visits;
@@ -46,6 +47,7 @@ struct Room {
     visits: Visits,
     rays: CameraRays,
     lamps: LampRoom,
+    pieces: PieceRoom,
     /// [`Registers`] of the kind of instructions that were used last.
     registers: Option<Box<dyn Any>>,
 }
@@ -96,7 +98,7 @@ impl Work for TraceTile<'_> {
 #[inline(always)]
 fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
     let (snapshot, view) = (frame.snapshot, frame.view);
-    let Room { next, bounce, found, visible, plan, points, visits, rays, lamps, registers } = room;
+    let Room { next, bounce, found, visible, plan, points, visits, rays, lamps, pieces, registers } = room;
     let mut own = Registers::take(s, registers.take());
     let Registers { chunk, seen, sent } = &mut *own;
     for queue in [&mut *next, &mut bounce.stream] {
@@ -126,6 +128,10 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
         }
         tile.take_sample(number, view);
     }
+    if let Some(edges) = frame.edges {
+        let [all, within, ..] = visible;
+        tracer.show_pieces(edges, [all, within], (pieces, bounce), tile);
+    }
     let stats = tracer.shader.search.stats;
     *registers = Some(own);
     stats
@@ -134,7 +140,7 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
 /// What tracing a tile keeps at hand.
 pub(super) struct TileTracer<'a, S: Simd> {
     pub(super) s: S,
-    frame: &'a Frame<'a>,
+    pub(super) frame: &'a Frame<'a>,
     pub(super) planner: Planner<'a>,
     pub(super) shader: Shader<'a, S>,
     /// What the rays of the batch under way have met.
