@@ -102,7 +102,7 @@ impl Camera {
     /// A radius that is negative or not finite, a focus that is not greater than 0 or not finite, a lens without focus or
     /// target.
     pub fn with_lens(self, radius: f64, focus: Option<f64>) -> Result<Self, InvalidPart> {
-        if !(radius >= 0.0 && radius <= LARGEST) {
+        if !(0.0..=LARGEST).contains(&radius) {
             return Err(InvalidPart::new(LENS_RADIUS, "must be a finite number of at least 0", radius));
         }
         if let Some(focus) = focus.filter(|focus| !(*focus > 0.0 && *focus <= LARGEST)) {

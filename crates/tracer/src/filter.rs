@@ -31,7 +31,7 @@ macro_rules! filters {
             }
 
             /// From the middle of a pixel, in pixels, so far that the share `u` of the filter lies before it.
-            fn from_middle(self, u: f64) -> f64 {
+            fn end_of_share(self, u: f64) -> f64 {
                 match self { $(Self::$variant => { let place: fn(f64) -> f64 = $place; place(u) })+ }
             }
         }
@@ -63,7 +63,7 @@ impl Filter {
     pub(crate) fn place(self, number: f64) -> f64 {
         match self {
             Self::Box => number,
-            _ => 0.5 + (self.from_middle(number) / SAMPLE_STEP).round() * SAMPLE_STEP,
+            _ => 0.5 + (self.end_of_share(number) / SAMPLE_STEP).round() * SAMPLE_STEP,
         }
     }
 

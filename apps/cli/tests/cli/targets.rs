@@ -48,7 +48,7 @@ fn targets_that_cannot_be_judged_are_refused() {
     let folder = folder();
     let with = |options: &[&'static str]| [&["render", "scene.kdl", "-o", "a.png"], options].concat();
     assert_refused(folder.path(), &with(&["--max-error", "0"]), &["greater than 0"]);
-    assert_refused(folder.path(), &with(&["--time", "-1"]), &["--time"]);
+    assert_refused(folder.path(), &with(&["--time", "0"]), &["greater than 0"]);
     assert_refused(folder.path(), &with(&["--exposure", "auto"]), &["stops"]);
     assert_refused(folder.path(), &with(&["--max-error", "0.1", "--samples", "16"]), &["64 samples or more"]);
     assert_refused(folder.path(), &with(&["--max-error", "0.1", "--pattern", "sobol"]), &["owen"]);
