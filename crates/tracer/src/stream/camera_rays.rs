@@ -1,5 +1,6 @@
 //! The camera's rays through a tile, made block by block.
 
+use catoptra_core::glam::DVec3;
 use catoptra_core::material::Footprint;
 use catoptra_core::{Raster, Ray, Span};
 use fearless_simd::Simd;
@@ -57,7 +58,7 @@ pub(crate) struct CameraPackets<'a, S: Simd> {
     pub(crate) width: u32,
     pub(crate) height: u32,
     /// What the sides of the square that a sample stands for add to its direction, where looks are averaged over it.
-    sides: Option<[F3<S>; 2]>,
+    pub(crate) sides: Option<[DVec3; 2]>,
     /// Whether pixels hold nothing yet.
     pub(crate) fresh: bool,
     /// Whether the hits of this sample are kept as the pixels' surfaces and depths.
@@ -104,14 +105,9 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
             y: tile.y,
             width: tile.width,
             height: tile.height,
-            sides: match frame.edges {
-                Some(_) => {
-                    let share = 1.0 / f64::from(frame.view.grid);
-                    let (across, down) = (raster.across * share, raster.down * share);
-                    Some([narrow3(splat_wide(s, across)), narrow3(splat_wide(s, down))])
-                }
-                None => None,
-            },
+            sides: frame
+                .edges
+                .map(|_| [raster.across, raster.down].map(|side| side / f64::from(frame.view.grid))),
             fresh: (column, row) == (0, 0),
             kept: (column, row) == (frame.view.grid / 2, frame.view.grid / 2),
         }
@@ -198,13 +194,14 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
 }
 
 impl<S: Simd> CameraPackets<'_, S> {
-    /// The squares that the rays of a packet stand for, where looks are averaged over them.
+    /// The squares that the rays of a packet stand for.
     #[inline(always)]
-    pub(crate) fn footprint(&self, s: S, at: usize) -> Option<Footprint<F<S>>> {
-        let [across, down] = self.sides?;
+    pub(crate) fn footprint(&self, s: S, at: usize) -> Footprint<F<S>> {
+        let [across, down] = self.sides.unwrap_or_default();
+        let (across, down) = (narrow3(splat_wide(s, across)), narrow3(splat_wide(s, down)));
         let length = F::load(s, &self.rays.inverse_length[at..]);
         let direction = load3(s, &self.rays.direction, at);
-        Some(Footprint { direction, sides: [across.scale(length), down.scale(length)] })
+        Footprint { direction, sides: [across.scale(length), down.scale(length)] }
     }
 }
 
