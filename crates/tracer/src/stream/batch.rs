@@ -41,9 +41,11 @@ pub(crate) trait Batch<S: Simd> {
     /// How much of the light that arrives along the packet that starts with ray `at` counts, per channel.
     fn weights(&self, s: S, at: usize) -> F3<S>;
 
-    /// The squares of the picture that the rays of the packet that starts with ray `at` stand for; `None` where they are
-    /// lines of sight and no more.
-    fn footprint(&self, s: S, at: usize) -> Option<Footprint<F<S>>>;
+    /// Whether the rays stand for squares of the picture; else they are lines of sight and no more.
+    fn has_footprints(&self) -> bool;
+
+    /// The squares that the rays of the packet that starts with ray `at` stand for; points where they stand for none.
+    fn footprint(&self, s: S, at: usize) -> Footprint<F<S>>;
 
     /// Pixels of the packet that starts with ray `at`, by their places in the tile's columns.
     fn pixels(&self, s: S, at: usize) -> U<S>;
@@ -151,7 +153,12 @@ impl<'a, S: Simd> Batch<S> for Part<'a, S> {
     }
 
     #[inline(always)]
-    fn footprint(&self, s: S, at: usize) -> Option<Footprint<F<S>>> {
+    fn has_footprints(&self) -> bool {
+        self.camera.sides.is_some()
+    }
+
+    #[inline(always)]
+    fn footprint(&self, s: S, at: usize) -> Footprint<F<S>> {
         self.camera.footprint(s, at)
     }
 
@@ -201,7 +208,12 @@ impl<S: Simd> Batch<S> for Queue {
     }
 
     #[inline(always)]
-    fn footprint(&self, s: S, at: usize) -> Option<Footprint<F<S>>> {
+    fn has_footprints(&self) -> bool {
+        Queue::has_footprints(self)
+    }
+
+    #[inline(always)]
+    fn footprint(&self, s: S, at: usize) -> Footprint<F<S>> {
         Queue::footprint(self, s, at)
     }
 

@@ -4,6 +4,7 @@
 //! asked for. Else the places of the tile's pixels, and those on the lens, are kept in columns: as `f32`, which holds both
 //! without rounding.
 
+use catoptra_core::glam::DVec3;
 use catoptra_core::lobe::point_of_disk;
 use catoptra_core::material::Footprint;
 use catoptra_core::{Raster, Ray, Span};
@@ -96,7 +97,7 @@ pub(crate) struct CameraPackets<'a, S: Simd> {
     pub(crate) width: u32,
     pub(crate) height: u32,
     /// What the sides of the square that a sample stands for add to its direction, where looks are averaged over it.
-    sides: Option<[F3<S>; 2]>,
+    pub(crate) sides: Option<[DVec3; 2]>,
 }
 
 /// The lens in registers.
@@ -171,14 +172,9 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
             y: tile.y,
             width: tile.width,
             height: tile.height,
-            sides: match frame.edges {
-                Some(_) => {
-                    let share = frame.view.side_of_sample();
-                    let (across, down) = (raster.across * share, raster.down * share);
-                    Some([narrow3(splat_wide(s, across)), narrow3(splat_wide(s, down))])
-                }
-                None => None,
-            },
+            sides: frame
+                .edges
+                .map(|_| [raster.across, raster.down].map(|side| side * frame.view.side_of_sample())),
         }
     }
 
@@ -370,13 +366,14 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
 }
 
 impl<S: Simd> CameraPackets<'_, S> {
-    /// The squares that the rays of a packet stand for, where looks are averaged over them.
+    /// The squares that the rays of a packet stand for.
     #[inline(always)]
-    pub(crate) fn footprint(&self, s: S, at: usize) -> Option<Footprint<F<S>>> {
-        let [across, down] = self.sides?;
+    pub(crate) fn footprint(&self, s: S, at: usize) -> Footprint<F<S>> {
+        let [across, down] = self.sides.unwrap_or_default();
+        let (across, down) = (narrow3(splat_wide(s, across)), narrow3(splat_wide(s, down)));
         let length = F::load(s, &self.rays.inverse_length[at..]);
         let direction = load3(s, &self.rays.direction, at);
-        Some(Footprint { direction, sides: [across.scale(length), down.scale(length)] })
+        Footprint { direction, sides: [across.scale(length), down.scale(length)] }
     }
 }
 

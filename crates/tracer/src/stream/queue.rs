@@ -92,14 +92,20 @@ impl Queue {
         }
     }
 
+    /// Whether the rays are the camera's.
+    #[inline(always)]
+    pub(crate) fn has_footprints(&self) -> bool {
+        self.axes.is_some()
+    }
+
     /// The squares that camera rays stand for.
     #[inline(always)]
-    pub(crate) fn footprint<S: Simd>(&self, s: S, at: usize) -> Option<Footprint<F<S>>> {
-        let [across, down] = self.axes?;
-        let side = F::load(s, &self.side[at..]);
+    pub(crate) fn footprint<S: Simd>(&self, s: S, at: usize) -> Footprint<F<S>> {
+        let [across, down] = self.axes.unwrap_or_default();
         let (across, down) = (narrow3(splat_wide(s, across)), narrow3(splat_wide(s, down)));
+        let side = F::load(s, &self.side[at..]);
         let (_, direction) = self.precise(s, at);
-        Some(Footprint { direction: narrow3(direction), sides: [across.scale(side), down.scale(side)] })
+        Footprint { direction: narrow3(direction), sides: [across.scale(side), down.scale(side)] }
     }
 
     /// Appends the lanes where the mask holds.
