@@ -33,6 +33,7 @@ mod film;
 mod frame;
 mod instructions;
 mod integrator;
+mod irradiance;
 mod kernel;
 mod lamps;
 mod lanes;
@@ -44,6 +45,7 @@ pub mod query;
 #[cfg(test)]
 mod random;
 mod rays;
+mod receiver;
 mod render;
 mod sampler;
 mod search;
@@ -60,9 +62,11 @@ pub use display::Display;
 pub use film::{Film, NoRoom, Tile};
 pub use frame::Frame;
 pub use instructions::Instructions;
+pub use irradiance::irradiance_at;
 pub use pattern::Pattern;
 pub use pick::{Pick, pick};
 pub use pool::{NoPool, Pool};
+pub use receiver::{InvalidReceiver, Irradiance, ProbeOptions, Receiver};
 pub use render::{Cancelled, render};
 pub use snapshot::{
     Changed, Extraction, Hit, Needs, PartDiff, Presence, Prim, ShapeDiff, Snapshot, SnapshotDiff, SurfaceId,

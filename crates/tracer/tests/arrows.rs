@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// The modules of the crate from top to bottom. Modules of one row stand side by side and do not use each other.
 const LAYERS: &[&[&str]] = &[
-    &["render", "query", "pick"],
+    &["render", "query", "pick", "irradiance"],
     &["backend"],
     &["integrator"],
     &["shade"],
@@ -20,7 +20,7 @@ const LAYERS: &[&[&str]] = &[
     &["accel"],
     &["display"],
     &["film"],
-    &["view"],
+    &["view", "receiver"],
     &["pattern"],
     &["sampler", "instructions", "stats", "control", "pool"],
     &["lanes", "random"],

@@ -11,11 +11,15 @@
 //! 3. On each piece, arcs of round outlines are found by subtraction of intervals (`round.rs`, `pair.rs`).
 //! 4. A plane that parts lamp and blocker tells which is in front (`place.rs`, `sight.rs`); where there is none, there is
 //!    no closed form.
+//!
+//! A blocker on which the eye lies but for rounding (`held.rs`) is treated as left there: a flat piece hides nothing, a ball what
+//! lies on its side of the plane that touches it at the eye.
 
 mod angle;
 mod blocker;
 mod cone;
 mod conic;
+mod held;
 mod lamp;
 mod pair;
 mod place;
@@ -28,6 +32,7 @@ mod view;
 use glam::DVec3;
 
 pub use blocker::Blocker;
+pub use held::facet_holds;
 pub use lamp::Lamp;
 pub(crate) use lamp::Outline;
 
@@ -36,7 +41,8 @@ use round::Curves;
 use sight::{Seen, Sight};
 use view::View;
 
-/// Whether the point lies on a blocker's own surface.
+/// Whether the point is known to lie on a blocker's own surface. A blocker that holds the point within
+/// [`HELD_WITHIN`](crate::numeric::HELD_WITHIN) is treated as left whatever this says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Leaving {
     /// It does not.
