@@ -101,7 +101,7 @@ impl Job {
 }
 
 /// Reads a scene; the meshes of one from standard input lie in the current folder.
-fn load(path: &Path) -> Result<(Scene, SceneFile)> {
+pub(crate) fn load(path: &Path) -> Result<(Scene, SceneFile)> {
     Ok(if path == Path::new(STANDARD) {
         catoptra_scene::load_from(std::io::stdin().lock(), Path::new("<stdin>"), Path::new(""))?
     } else {
@@ -127,7 +127,7 @@ fn warn_of_idle(args: &JobArgs) {
     }
 }
 
-fn file_name(path: &Path) -> String {
+pub(crate) fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
