@@ -11,5 +11,6 @@ mod printing;
 mod probe;
 mod program;
 mod render;
+mod targets;
 mod usage;
 mod warnings;

@@ -14,6 +14,9 @@
 //!
 //! A blocker on which the eye lies but for rounding (`held.rs`) is treated as left there: a flat piece hides nothing, a ball what
 //! lies on its side of the plane that touches it at the eye.
+//!
+//! Values are known to 10⁻¹² (tests hold them against quadrature), those of a polygon that spans few radians, δ, also to
+//! 10⁻¹⁵/δ of themselves, as its edges' shares cancel; an open disk or sphere to 10⁻¹⁴ of itself, however small.
 
 mod angle;
 mod blocker;

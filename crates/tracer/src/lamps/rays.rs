@@ -5,7 +5,7 @@ use catoptra_core::lamp_points::{LampPoint, LampPoints};
 use catoptra_core::{Lobes, Ray, Rgb, ShadingPoint, Span, Triple};
 
 use super::{Gathered, LitPoint};
-use crate::sampler::{Sampler, share};
+use crate::sampler::{Sampler, pairs, share};
 use crate::snapshot::{LampRow, LampTree, Lamps};
 
 /// Rays from a point to a lamp.
@@ -35,6 +35,8 @@ pub(crate) struct LampRay {
     pub(crate) share: f64,
     /// The solid angle that it stands for if it were the only one, sr.
     pub(crate) solid: f64,
+    /// Whether it runs above the surface itself, and not only above the normal to shade with.
+    pub(crate) above_ground: bool,
 }
 
 /// Which random numbers rays are drawn from.
@@ -42,14 +44,11 @@ pub(crate) struct LampRay {
 pub(crate) struct Drawn {
     /// Those of the pixel.
     pub(crate) sampler: Sampler<u32>,
-    /// Which of the pixel's camera rays led to the point.
+    /// The number in its sequence of the camera ray that led to the point.
     pub(crate) sample: u32,
     /// How many reflections it came by.
     pub(crate) depth: u32,
 }
-
-/// The first pair of sample dimensions for lamps; those below are for what happens before.
-const FIRST_PAIR: u32 = 64;
 
 /// How far apart the pairs of two depths lie: more lamps than this share some.
 const PAIRS_PER_DEPTH: u32 = 1 << 16;
@@ -58,7 +57,7 @@ impl Drawn {
     /// The pair of sample dimensions of a lamp.
     pub(crate) fn pair_of(&self, lamp: usize) -> u32 {
         let pair = (lamp as u32).wrapping_add(self.depth.wrapping_mul(PAIRS_PER_DEPTH));
-        pair.wrapping_add(FIRST_PAIR)
+        pair.wrapping_add(pairs::LAMPS)
     }
 }
 
@@ -73,6 +72,7 @@ impl LampRay {
             cosine,
             share: cosine.max(0.0) * solid,
             solid,
+            above_ground: direction.dot(at.ground) > 0.0,
         }
     }
 }
@@ -119,7 +119,7 @@ pub(crate) fn picked<'a>(
     count: u32,
 ) -> impl Iterator<Item = PickedRay<'a>> {
     let (at, drawn) = (*at, *drawn);
-    let pair = drawn.depth.wrapping_mul(PAIRS_PER_DEPTH).wrapping_add(FIRST_PAIR);
+    let pair = drawn.depth.wrapping_mul(PAIRS_PER_DEPTH).wrapping_add(pairs::LAMPS);
     (0..count).filter_map(move |k| {
         let number = drawn.sample.wrapping_mul(count).wrapping_add(k);
         let [pick, _] = drawn.sampler.pair(number, pair).map(share);
@@ -152,7 +152,7 @@ pub(crate) fn follow_picked<'a>(
 ) -> Shone {
     let mut shone = Shone { irradiance: Rgb::BLACK, glossy: Rgb::BLACK };
     for picked in rays {
-        if is_blocked(&picked) {
+        if is_blocked(&picked) || !picked.ray.above_ground {
             continue;
         }
         let PickedRay { lamp, ray } = picked;
@@ -173,7 +173,7 @@ pub(crate) fn follow(
 ) -> (Found, Rgb) {
     let (mut found, mut shown) = (Found::default(), Triple::splat(0.0));
     for lamp_ray in rays.above() {
-        let open = !is_blocked(&lamp_ray);
+        let open = !is_blocked(&lamp_ray) && lamp_ray.above_ground;
         found.add(lamp_ray.share, open);
         if open && let Some(glossy) = lobes.glossy(at, lamp_ray.direction.into(), lamp_ray.cosine) {
             shown = glossy.scale(lamp_ray.solid / f64::from(rays.count)) + shown;

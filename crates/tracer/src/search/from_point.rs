@@ -37,6 +37,12 @@ impl FromPoint {
         self.length
     }
 
+    /// The way of a segment.
+    pub(crate) fn to(&self, at: usize) -> DVec3 {
+        let [x, y, z] = &self.to;
+        DVec3::new(x[at], y[at], z[at])
+    }
+
     /// Adds the way to another point, of which things block the share `end`.
     pub(crate) fn push(&mut self, to: DVec3, end: f64) {
         self.make_room();
@@ -92,8 +98,7 @@ impl<S: Simd> PreciseRays<S> for FromPoint {
     const FROM_ORIGIN: bool = true;
 
     fn ray(&self, at: usize) -> Ray {
-        let [x, y, z] = &self.to;
-        Ray::new(self.origin, DVec3::new(x[at], y[at], z[at]))
+        Ray::new(self.origin, self.to(at))
     }
 
     fn span(&self, at: usize) -> Span {

@@ -108,7 +108,7 @@ fn between<S: Simd>(share: F<S>, a: F<S>, b: F<S>) -> F<S> {
 }
 
 /// Which share of all weights is that of rays that are not blocked.
-pub(super) fn open_share(weights: &Weights, blocked: &[bool]) -> f64 {
+pub(super) fn open_share(weights: &[f32], blocked: &[bool]) -> f64 {
     let (mut open, mut all) = (0.0, 0.0);
     for (weight, blocked) in weights.iter().zip(blocked) {
         let weight = f64::from(*weight);

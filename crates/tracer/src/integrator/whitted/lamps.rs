@@ -15,6 +15,7 @@ impl<S: Search> Walker<'_, S> {
         let at = LitPoint {
             point: surface.point,
             normal: surface.shading.normal.into(),
+            ground: surface.normal,
             surface: Some(surface.hit.surface),
         };
         let brdf = match lobes.diffuse {
@@ -24,7 +25,7 @@ impl<S: Search> Walker<'_, S> {
         let mut light = Rgb::BLACK;
         if let Some(tree) = &snapshot.lamps().tree {
             self.stats.lamps.sampled += 1;
-            let (origin, count) = (snapshot.origin_in_frame(), self.frame.view.lamp_rays);
+            let (origin, count) = (snapshot.origin_in_frame(), self.frame.view.lamp_rays_of_sample());
             let rays = picked(snapshot.lamps(), tree, &at, origin, drawn, count);
             let shone = follow_picked(rays, &surface.shading, lobes, |ray| {
                 self.is_blocked(&ray.ray, ray.lamp, surface)
@@ -40,7 +41,7 @@ impl<S: Search> Walker<'_, S> {
             let shown = match seen {
                 Gathered::Exactly(irradiance) if !glossy => brdf * irradiance,
                 _ => {
-                    let rays = LampRays::new(lamp, number, &at, drawn, self.frame.view.lamp_rays);
+                    let rays = LampRays::new(lamp, number, &at, drawn, self.frame.view.lamp_rays_of_sample());
                     let (found, shown) =
                         follow(&rays, &surface.shading, lobes, |ray| self.is_blocked(ray, lamp, surface));
                     shown + brdf * found.of(seen)

@@ -4,6 +4,7 @@
 
 mod lamps;
 mod paths;
+mod pieces;
 mod receivers;
 mod streams;
 mod tally;

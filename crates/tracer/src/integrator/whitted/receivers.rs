@@ -40,7 +40,7 @@ impl<'a> Receivers<'a> {
     /// The irradiance at a point of the snapshot's frame with a unit normal; `number` makes its random choices its own.
     pub(crate) fn irradiance(&mut self, point: DVec3, normal: DVec3, number: u32) -> Irradiance {
         let snapshot = self.snapshot;
-        let at = LitPoint { point, normal, surface: None };
+        let at = LitPoint { point, normal, ground: normal, surface: None };
         snapshot.find_holding(point, &mut self.held);
         let mut mean = snapshot.ambient() * PI;
         for light in snapshot.lights() {
