@@ -9,8 +9,9 @@ use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 
 use crate::lab::LabArgs;
+use crate::probe::ProbeArgs;
 
-/// Renders scenes on the CPU, says what they cost, and compares pictures.
+/// Renders scenes on the CPU, says what they cost, measures their light, and compares pictures.
 #[derive(Parser)]
 #[command(name = "catoptra", version, propagate_version = true, after_help = EXIT_CODES)]
 pub(crate) struct Cli {
@@ -27,6 +28,8 @@ pub(crate) enum Command {
     Render(RenderArgs),
     /// Say what a scene needs, which kernels run and what work is skipped
     Explain(ExplainArgs),
+    /// Measure how much light arrives at points of a scene, or on a plane
+    Probe(ProbeArgs),
     /// Measure how far a picture is from a reference
     Compare(CompareArgs),
     /// Measure how fast and how exact tracing is

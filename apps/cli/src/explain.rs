@@ -1,7 +1,7 @@
 //! `catoptra explain`: what does a scene need, what runs for it, and which work was skipped as it could not matter?
 
 use catoptra_core::{Integrator, Light};
-use catoptra_tracer::{EdgePixels, Edges, Needs, Skipped, Stats};
+use catoptra_tracer::{EdgePixels, Edges, LampStats, Needs, Skipped, Stats};
 use miette::Result;
 use serde_json::{Map, Value, json};
 
@@ -62,6 +62,18 @@ const NO_REFLECTION_RAY: &[Reason] = &[
 const NO_OCCLUSION_RAY: &[Reason] =
     &[("they would go below the surface, to where a smooth normal leads", |skipped| skipped.below_surface)];
 
+/// How the light of a lamp at a point was found: its words, and at how many points.
+type LampClass = (&'static str, fn(&LampStats) -> u64);
+
+const LAMP_CLASSES: &[LampClass] = &[
+    ("see all of it: closed form", |lamps| lamps.open),
+    ("see it past one ball: closed form", |lamps| lamps.past_a_ball),
+    ("see some of it past other shapes, or several: closed form", |lamps| lamps.partly),
+    ("see none of it past what stands between: closed form", |lamps| lamps.dark),
+    ("face away from it, or it from them", |lamps| lamps.facing_away),
+    ("ask by rays", |lamps| lamps.sampled),
+];
+
 /// What is known of a scene after a frame.
 struct Found<'a> {
     job: &'a Job,
@@ -91,6 +103,10 @@ impl Found<'_> {
             "shapes": by_kind(&needs.shapes),
             "materials": by_kind(&needs.materials),
             "lights": by_kind(&needs.lights),
+            "shining_shapes": by_kind(&needs.shining_shapes),
+            "lamp_outlines": needs.outlines,
+            "lamps_picked": needs.picks_lamps,
+            "endless_lamps": needs.endless_lamps,
             "ambient_lights": self.ambient,
             "shadowing_lights": needs.shadowing_lights,
             "shapes_without_end": needs.unbounded,
@@ -108,7 +124,7 @@ impl Found<'_> {
         let samples = counted(u64::from(job.view.samples), "sample");
         format!(
             "{} through camera \"{}\" at {}x{}, {samples} a pixel\n\n\
-             The scene holds\n{}\nWhat runs\n{}\nOne frame traced\n{}\nIt did not trace\n{}\nHow sure it is\n{}",
+             The scene holds\n{}\nWhat runs\n{}\nOne frame traced\n{}\nIt did not trace\n{}\n{}How sure it is\n{}",
             job.scene_name,
             job.camera_name,
             size.width,
@@ -117,6 +133,7 @@ impl Found<'_> {
             lines(&self.runs()),
             lines(&self.traced()),
             lines(&self.skipped()),
+            self.lamplight(),
             lines(&self.certainty()),
         )
     }
@@ -141,6 +158,14 @@ impl Found<'_> {
             list(&needs.lights),
             needs.shadowing_lights
         ));
+        if !needs.shining_shapes.is_empty() {
+            let shapes = all_counted(&needs.shining_shapes, "shape");
+            lines.push(format!("  {shapes} of a material that shines{}", list(&needs.shining_shapes)));
+        }
+        if needs.endless_lamps > 0 {
+            let shapes = counted(needs.endless_lamps as u64, "shape");
+            lines.push(format!("  {shapes} without an end shine but light nothing"));
+        }
         if self.ambient > 0 {
             lines.push(format!("{}: costs nothing", counted(self.ambient as u64, "ambient light")));
         }
@@ -192,6 +217,7 @@ impl Found<'_> {
         let mut lines = vec![
             counted(rays.primary, "primary ray"),
             counted(rays.shadow, "shadow ray"),
+            format!("{} to points of lamps", counted(rays.lamp, "ray")),
             counted(rays.reflection, "reflection ray"),
             counted(rays.occlusion, "occlusion ray"),
             format!("{} against shapes and triangles, {}", counted(tests.shapes, "test"), each(tests.shapes)),
@@ -245,6 +271,28 @@ impl Found<'_> {
             lines.push(format!("  {:>12} ({:>6})  {words}", thousands(count), percent(count, possible)));
         }
         lines
+    }
+
+    /// How light from surfaces was found; nothing where there is none.
+    fn lamplight(&self) -> String {
+        let outlines = self.needs.outlines as u64;
+        if outlines == 0 {
+            return String::new();
+        }
+        let of_lamps = |class: &LampClass| (class.0, class.1(&self.stats.lamps));
+        let counts: Vec<(&str, u64)> =
+            LAMP_CLASSES.iter().map(of_lamps).filter(|(_, count)| *count > 0).collect();
+        let asked: u64 = counts.iter().map(|(_, count)| count).sum();
+        let whom = match outlines {
+            1 => "a lamp".to_owned(),
+            _ if self.needs.picks_lamps => format!("some of {} lamps, picked at random", thousands(outlines)),
+            _ => format!("each of {} lamps and faces of lamps", thousands(outlines)),
+        };
+        let mut text = vec![format!("{} asked {whom}", counted(asked, "point"))];
+        for (words, count) in counts {
+            text.push(format!("  {:>12} ({:>6})  {words}", thousands(count), percent(count, asked)));
+        }
+        format!("Light from surfaces\n{}\n", lines(&text))
     }
 
     fn certainty(&self) -> Vec<String> {

@@ -163,7 +163,7 @@ pub(crate) struct Frame {
 }
 
 /// Reads a scene; the meshes of one from standard input lie in the current folder.
-fn load(path: &Path) -> Result<(Scene, SceneFile)> {
+pub(crate) fn load(path: &Path) -> Result<(Scene, SceneFile)> {
     Ok(if path == Path::new(STANDARD) {
         catoptra_scene::load_from(std::io::stdin().lock(), Path::new("<stdin>"), Path::new(""))?
     } else {
@@ -192,7 +192,7 @@ fn check_grid(view: &View) -> Result<()> {
     ))
 }
 
-fn file_name(path: &Path) -> String {
+pub(crate) fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 

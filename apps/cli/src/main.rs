@@ -15,6 +15,7 @@ mod memory;
 mod names;
 mod output;
 mod pool;
+mod probe;
 mod progress;
 mod render;
 #[cfg(unix)]
@@ -74,6 +75,7 @@ fn run(command: Command) -> Result<Outcome> {
         Command::Render(args) => render::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Probe(args) => probe::run(&args),
         Command::Lab(args) => lab::run(&args),
     }
 }

@@ -4,10 +4,12 @@ use std::io::{self, Cursor, Seek, Write};
 use std::path::Path;
 
 use catoptra_scene::atomic;
-use catoptra_scene::image::write_png_rows;
+use catoptra_scene::image::{write_png, write_png_rows};
 use catoptra_tracer::{Film, Size, Tone};
 use exr::prelude::WritableImage;
 use miette::{IntoDiagnostic, Report, Result, miette};
+
+use crate::probe::Map;
 
 /// Kinds of picture files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +50,11 @@ pub(crate) fn write_film(path: &Path, film: &Film, tone: Tone) -> Result<()> {
         }
         Format::Exr => write_exr(path, film).map_err(|error| unwritable(path, &error)),
     }
+}
+
+/// Writes a drawn picture as a PNG.
+pub(crate) fn write_map(path: &Path, map: &Map) -> Result<()> {
+    write_png(path, map.width as u32, map.height as u32, &map.bytes).into_diagnostic()
 }
 
 /// An EXR is written with jumps back to its start. Where bytes go straight out, it is made in memory first.

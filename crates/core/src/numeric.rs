@@ -19,6 +19,15 @@ pub const RIGHT_ANGLE_TOLERANCE: f64 = 1e-9;
 /// size, √3 of it in length: 5.2, and the products that follow stay below 8.
 pub const EDGE_ROUNDING: f64 = 8.0 * UNIT_ROUNDOFF_F64;
 
+/// How far from a surface, in parts of the sum of both coordinates' sizes, a point still counts as lying on it, for what it
+/// sees: 2⁻⁴⁰, 8,192 roundings; of a room some picometres, below the size of an atom.
+///
+/// A corner that someone wrote down is off by a rounding or two. A point where a ray meets a surface is off along the ray by
+/// some 8 roundings over the cosine under which it arrives, and by as much from *another* surface that meets the first one
+/// there: so cosines down to a thousandth are covered. Without that, points where two walls meet lie behind one of them by
+/// chance.
+pub const HELD_WITHIN: f64 = 1.0 / (1_u64 << 40) as f64;
+
 /// Error of an edge value `(a × b) · d` in `f64`, relative to R² |d|₁, where R bounds the coordinates of the corners a and
 /// b as seen from the origin.
 ///

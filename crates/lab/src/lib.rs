@@ -17,6 +17,7 @@
 
 pub mod adversary;
 mod clock;
+pub mod closed_forms;
 pub mod metrics;
 mod mismatch;
 pub mod oracle;

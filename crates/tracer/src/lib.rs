@@ -35,6 +35,7 @@ mod filter;
 mod frame;
 mod instructions;
 mod integrator;
+mod irradiance;
 mod kernel;
 mod lamps;
 mod lanes;
@@ -46,6 +47,7 @@ pub mod query;
 #[cfg(test)]
 mod random;
 mod rays;
+mod receiver;
 mod render;
 mod sample;
 mod sampler;
@@ -65,9 +67,11 @@ pub use film::{Film, NoRoom, Tile};
 pub use filter::Filter;
 pub use frame::Frame;
 pub use instructions::Instructions;
+pub use irradiance::irradiance_at;
 pub use pattern::Pattern;
 pub use pick::{Pick, pick};
 pub use pool::{NoPool, Pool};
+pub use receiver::{InvalidReceiver, Irradiance, ProbeOptions, Receiver};
 pub use render::{Cancelled, render};
 pub use snapshot::{
     Changed, Extraction, Hit, Needs, PartDiff, Presence, Prim, ShapeDiff, Snapshot, SnapshotDiff, SurfaceId,

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// The modules of the crate from top to bottom. Modules of one row stand side by side and do not use each other.
 const LAYERS: &[&[&str]] = &[
     &["target"],
-    &["render", "query", "pick"],
+    &["render", "query", "pick", "irradiance"],
     &["backend"],
     &["integrator"],
     &["shade"],
@@ -23,7 +23,7 @@ const LAYERS: &[&[&str]] = &[
     &["display"],
     &["film"],
     &["sample"],
-    &["view"],
+    &["view", "receiver"],
     &["pattern", "filter"],
     &["sampler", "instructions", "stats", "control", "pool"],
     &["lanes", "random"],

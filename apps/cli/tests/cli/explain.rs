@@ -46,3 +46,41 @@ fn a_scene_that_is_not_there_is_refused() {
     let folder = folder();
     assert_refused(folder.path(), &["explain", "nowhere.kdl"], &["nowhere.kdl"]);
 }
+
+#[test]
+fn light_from_surfaces_is_told_by_how_it_was_found() {
+    let folder = folder();
+    let scene = r#"
+camera "c" { eye 0 3 8; target 0 1 0 }
+matte "grey" { color 0.5 }
+emissive "glow" { radiance 1 }
+plane "floor" material="grey"
+sphere "ball" material="grey" { center 0 1 0; radius 1 }
+box "ember" material="glow" { min 3 0 0; max 4 1 1 }
+rectangle-light "lamp" { corner -1 5 -1; edge-u 2 0 0; edge-v 0 0 2; radiance 5 }
+"#;
+    std::fs::write(folder.path().join("area.kdl"), scene).unwrap();
+    let arguments = ["explain", "area.kdl", "--size", "64x48"];
+    let ran = catoptra(folder.path(), &arguments);
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+    for words in [
+        "1 light: 1 rectangle-light; shadows are thrown by 1",
+        "1 shape of a material that shines: 1 box",
+        "2 materials: 1 emissive, 1 matte",
+        "Light from surfaces",
+        "asked each of 7 lamps and faces of lamps",
+        "see all of it: closed form",
+        "past one ball: closed form",
+        "0 rays to points of lamps",
+    ] {
+        assert!(ran.out.contains(words), "no `{words}` in\n{}", ran.out);
+    }
+    let ran = catoptra(folder.path(), &[&arguments[..], &["--json"]].concat());
+    let found: Value = serde_json::from_str(&ran.out).unwrap();
+    assert_eq!(
+        (&found["lights"]["rectangle-light"], &found["shining_shapes"]["box"]),
+        (&1.into(), &1.into())
+    );
+    assert_eq!((&found["lamp_outlines"], &found["materials"]["emissive"]), (&7.into(), &1.into()));
+    assert!(found["counts"]["lamps"]["open"].as_u64().unwrap() > 0);
+}

@@ -8,6 +8,7 @@ mod input;
 mod lab;
 #[cfg(unix)]
 mod printing;
+mod probe;
 mod program;
 mod render;
 mod targets;

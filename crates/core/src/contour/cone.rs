@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::blocker::Solid;
+use super::held;
 use super::lamp::{Flat, unit};
 use super::place::rounding;
 use super::view::View;
@@ -48,11 +49,11 @@ impl Cone {
         }
     }
 
-    /// The cone of a flat polygon in front of the eye; `None` where it is seen edge-on.
+    /// The cone of a flat polygon in front of the eye; `None` where that lies in its plane.
     pub(super) fn of_polygon(eye: DVec3, flat: &Flat) -> Option<Self> {
         let corners = flat.corners();
         let towards = flat.normal.dot(corners[0] - eye);
-        if !(towards.abs() > rounding(corners[0], eye)) {
+        if !(towards.abs() > held::reach(eye, corners[0])) {
             return None;
         }
         let mut cone = Self::EVERYTHING;
@@ -96,10 +97,10 @@ impl Cone {
     }
 }
 
-/// Whether the outer side of a face is seen from the eye, beyond rounding.
+/// Whether the outer side of a face is seen from the eye, which does not lie in its plane.
 pub(super) fn looks_at(eye: DVec3, face: &Flat) -> bool {
     let corner = face.corners()[0];
-    face.normal.dot(eye - corner) > rounding(corner, eye)
+    face.normal.dot(eye - corner) > held::reach(eye, corner)
 }
 
 /// How corners lie to a lamp's plane; within rounding they lie in it.

@@ -12,6 +12,9 @@
 //! 4. A plane that parts lamp and blocker tells which is in front (`place.rs`, `sight.rs`); where there is none, there is
 //!    no closed form.
 //!
+//! A blocker on which the eye lies but for rounding (`held.rs`) is treated as left there: a flat piece hides nothing, a ball what
+//! lies on its side of the plane that touches it at the eye.
+//!
 //! Values are known to 10⁻¹² (tests hold them against quadrature), those of a polygon that spans few radians, δ, also to
 //! 10⁻¹⁵/δ of themselves, as its edges' shares cancel; an open disk or sphere to 10⁻¹⁴ of itself, however small.
 
@@ -19,6 +22,7 @@ mod angle;
 mod blocker;
 mod cone;
 mod conic;
+mod held;
 mod lamp;
 mod pair;
 mod place;
@@ -31,6 +35,7 @@ mod view;
 use glam::DVec3;
 
 pub use blocker::Blocker;
+pub use held::facet_holds;
 pub use lamp::Lamp;
 pub(crate) use lamp::Outline;
 
@@ -39,7 +44,8 @@ use round::Curves;
 use sight::{Seen, Sight};
 use view::View;
 
-/// Whether the point lies on a blocker's own surface.
+/// Whether the point is known to lie on a blocker's own surface. A blocker that holds the point within
+/// [`HELD_WITHIN`](crate::numeric::HELD_WITHIN) is treated as left whatever this says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Leaving {
     /// It does not.

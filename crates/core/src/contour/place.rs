@@ -152,7 +152,7 @@ fn is_inside_ball(outline: &Outline, point: DVec3) -> bool {
 }
 
 /// The point of a lamp that is nearest to another; of a sphere's surface.
-fn nearest_on_lamp(lamp: &Lamp, x: DVec3) -> DVec3 {
+pub(super) fn nearest_on_lamp(lamp: &Lamp, x: DVec3) -> DVec3 {
     match &lamp.outline {
         Outline::Polygon(flat) => flat.nearest(x),
         Outline::Disk(disk) => disk.nearest(x),

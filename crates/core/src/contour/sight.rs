@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::blocker::{Blocker, Kind, Solid};
 use super::cone::{Cone, Heights, looks_at};
 use super::conic::{Conic, Cut};
+use super::held;
 use super::lamp::{Flat, Lamp, Round};
 use super::place::{self, Place, Within, rounding};
 use super::view::View;
@@ -49,11 +50,11 @@ impl Sight<'_> {
     }
 
     fn hide_plane(&mut self, base: DVec3, normal: DVec3) -> Answer {
-        let off = rounding(base, self.eye);
         let above = normal.dot(self.eye - base);
-        if !(above.abs() > off) {
+        if !(above.abs() > held::reach(self.eye, base)) {
             return Ok(Seen::Something);
         }
+        let off = rounding(base, self.eye);
         let up = normal * above.signum();
         let [least, most] =
             [-self.lamp.most_along(-up), self.lamp.most_along(up)].map(|at| at - up.dot(base));
@@ -75,12 +76,14 @@ impl Sight<'_> {
     fn hide_sphere(&mut self, center: DVec3, radius: f64, leaving: Leaving) -> Answer {
         let from_eye = center - self.eye;
         let is_own = leaving != Leaving::Nothing;
+        let is_held = !is_own && held::on_sphere(self.eye, center, radius);
         if is_own && self.view.normal.dot(from_eye) <= 0.0 {
             return Ok(Seen::Something);
         }
-        if is_own || from_eye.length() <= radius {
+        if is_own || is_held || from_eye.length() <= radius {
             return match place::held_by_ball(self.lamp, center, radius) {
                 Within::All => Ok(Seen::Something),
+                Within::Nothing if is_held => Ok(self.hide_side(from_eye)),
                 Within::Nothing => Ok(Seen::Nothing),
                 Within::Part => Err(NoClosedForm::PartlyWithin),
             };
@@ -93,10 +96,23 @@ impl Sight<'_> {
         self.hide_round(conic, place)
     }
 
+    /// Hides what lies on one side of a plane through the eye, given by a vector to that side.
+    fn hide_side(&mut self, side: DVec3) -> Seen {
+        let mut cone = Cone::EVERYTHING;
+        cone.push_any(side);
+        match cone.planes() {
+            // The horizon hides as much already.
+            &[side] if held::are_parallel(side, self.view.normal) && side.dot(self.view.normal) < 0.0 => {
+                Seen::Something
+            }
+            _ => self.take(&cone),
+        }
+    }
+
     fn hide_disk(&mut self, disk: &Round) -> Answer {
         let center = disk.center - self.eye;
         let towards = disk.normal.dot(center);
-        if !(towards.abs() > rounding(disk.center, self.eye)) {
+        if !(towards.abs() > held::reach(self.eye, disk.center)) {
             return Ok(Seen::Something);
         }
         let conic = Conic::rim(self.view.normal, center, disk.normal * towards.signum(), disk.radius);
@@ -146,10 +162,13 @@ impl Sight<'_> {
             return self.hide_solid_from_outside(solid);
         }
         // From within, or on a face: all but the face that holds the eye.
+        let eye = self.eye;
+        let holds_eye =
+            |face: &Flat| face.normal.dot(eye - face.corners()[0]) >= -held::reach(eye, face.corners()[0]);
         for (i, face) in solid.faces.iter().enumerate() {
-            let corner = face.corners()[0];
-            let holds_eye = face.normal.dot(self.eye - corner) >= -rounding(corner, self.eye);
-            if left.is_none() && holds_eye && face.normal.dot(self.view.normal) > 0.0 {
+            // Where the horizon is the face's plane, the solid lies below it.
+            let up = face.normal.dot(self.view.normal) > 0.0;
+            if left.is_none() && up && held::are_parallel(face.normal, self.view.normal) && holds_eye(face) {
                 return Ok(Seen::Something);
             }
             if left != Some(i) && self.hide_polygon(face)? == Seen::Nothing {

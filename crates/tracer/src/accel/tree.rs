@@ -1,5 +1,6 @@
 //! The tree of boxes itself, and how one `f64` ray walks it.
 
+use catoptra_core::glam::DVec3;
 use catoptra_core::numeric::gamma_f64;
 use catoptra_core::{Aabb, Ray, Span};
 
@@ -63,6 +64,19 @@ impl Box32 {
     }
 }
 
+impl Box32 {
+    /// Its largest coordinate.
+    pub(crate) fn largest(&self) -> f64 {
+        self.min.iter().chain(&self.max).map(|v| f64::from(v.abs())).fold(0.0, f64::max)
+    }
+
+    /// Whether a point lies in the box, or at most `reach` beside it along each axis.
+    pub(crate) fn is_near(&self, point: DVec3, reach: f64) -> bool {
+        (0..3)
+            .all(|i| point[i] >= f64::from(self.min[i]) - reach && point[i] <= f64::from(self.max[i]) + reach)
+    }
+}
+
 impl From<Aabb> for Box32 {
     /// Rounded outwards.
     fn from(b: Aabb) -> Self {
@@ -104,6 +118,23 @@ pub(crate) struct Tree {
 pub(crate) const MAX_DEPTH: usize = 64;
 
 impl Tree {
+    /// Calls `visit` with the items whose boxes hold a point, or are at most `reach` beside it.
+    pub(crate) fn around(&self, point: DVec3, reach: f64, mut visit: impl FnMut(u32)) {
+        let mut stack: Vec<u32> = (!self.nodes.is_empty()).then_some(0).into_iter().collect();
+        while let Some(at) = stack.pop() {
+            let node = &self.nodes[at as usize];
+            if !node.bounds.is_near(point, reach) {
+                continue;
+            }
+            if node.count == 0 {
+                stack.extend([node.link, at + 1]);
+            } else {
+                let first = node.link as usize;
+                self.order[first..first + node.count as usize].iter().for_each(|item| visit(*item));
+            }
+        }
+    }
+
     /// Calls `visit` with the items whose boxes the ray may meet on the stretch that is left; `visit` answers how
     /// far it is still worth looking.
     pub(crate) fn walk(&self, ray: &Ray, span: Span, mut visit: impl FnMut(u32) -> f64) {

@@ -1,5 +1,6 @@
 //! The tree over a mesh's triangles: eight boxes a node, triangles in blocks of eight, and how one `f64` ray walks it.
 
+use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Span};
 
 use super::{Box32, MAX_DEPTH};
@@ -99,6 +100,25 @@ impl WideTree {
     /// Bytes of nodes and blocks.
     pub(crate) fn bytes(&self) -> usize {
         size_of_val(&self.nodes[..]) + size_of_val(&self.blocks[..])
+    }
+
+    /// Calls `visit` with the triangles whose boxes hold a point, or are at most `reach` beside it, perhaps more than once.
+    pub(crate) fn around(&self, point: DVec3, reach: f64, mut visit: impl FnMut(u32)) {
+        let mut stack = vec![0_u32];
+        while let Some(at) = stack.pop() {
+            let node = &self.nodes[at as usize];
+            for child in 0..usize::from(node.children) {
+                if !node.bounds_of(child).is_near(point, reach) {
+                    continue;
+                }
+                let first = node.link[child];
+                if node.count[child] == 0 {
+                    stack.push(first);
+                } else {
+                    (first..first + u32::from(node.count[child])).for_each(|slot| visit(self.facet(slot)));
+                }
+            }
+        }
     }
 
     /// Calls `visit` with the triangles whose boxes the ray may meet on the stretch that is left; `visit` answers how

@@ -3,6 +3,7 @@
 //! An integrator says what light arrives along a camera ray. A new one is its name in `catoptra_core`'s list, one file
 //! here, its `mod` line and its name in the list below.
 
+mod lamp_sight;
 mod occlusion;
 mod pixels;
 mod search;
@@ -15,6 +16,7 @@ use crate::{Frame, Hit, Stats, Tile};
 pub(crate) use pixels::trace_pixels;
 pub(crate) use search::{Exhaustive, Search, Trees};
 use walker::{CameraRay, Walker};
+pub(crate) use whitted::Receivers;
 
 /// What an integrator implements.
 pub(crate) trait Integrate {

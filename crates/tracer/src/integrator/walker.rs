@@ -1,11 +1,11 @@
 //! The state of an integrator that follows one path at a time in `f64`, and the surfaces that its rays hit.
 
-use catoptra_core::contour::Scratch;
 use catoptra_core::glam::DVec3;
 use catoptra_core::material::Footprint;
 use catoptra_core::{Material, Raster, Ray, ShadingPoint};
 
 use super::Search;
+use super::lamp_sight::LampSight;
 use crate::sampler::Sampler;
 use crate::{Frame, Hit, Stats};
 
@@ -26,9 +26,7 @@ pub(crate) struct Walker<'a, S> {
     pub(super) frame: &'a Frame<'a>,
     pub(super) stats: Stats,
     /// Room for light from surfaces.
-    pub(super) scratch: Scratch,
-    /// Room for the shapes that may stand in its way.
-    pub(super) blockers: Vec<u32>,
+    pub(super) sight: LampSight,
 }
 
 /// A hit of a ray, with what shading needs of the surface.
@@ -46,8 +44,7 @@ pub(super) struct SurfaceHit<'a> {
 impl<'a, S: Search> Walker<'a, S> {
     /// Of a frame, with nothing counted yet.
     pub(super) fn new(search: &'a S, frame: &'a Frame<'a>) -> Self {
-        let (stats, scratch) = (Stats::default(), Scratch::default());
-        Self { search, frame, stats, scratch, blockers: Vec::new() }
+        Self { search, frame, stats: Stats::default(), sight: LampSight::default() }
     }
 
     /// The square of the picture that a ray from the camera stands for.

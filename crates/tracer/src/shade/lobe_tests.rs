@@ -5,7 +5,7 @@ use catoptra_core::lobe::{Diffuse, Phong, PhongModel, PhongShape};
 use catoptra_core::{Scatter, ShadingPoint, Triple};
 use fearless_simd::{Level, Simd};
 
-use crate::lanes::{F, F3, Work, at_level};
+use crate::lanes::{F, F3, M, Work, at_level};
 use crate::random::Random;
 
 /// How far directions may differ: where 1 − x² is taken of an x near 1, half of the digits are lost.
@@ -21,6 +21,7 @@ fn narrow_point<S: Simd>(s: S, at: &ShadingPoint<f64>) -> ShadingPoint<F<S>> {
         normal: narrow(s, at.normal),
         to_viewer: narrow(s, at.to_viewer),
         distance: F::splat(s, at.distance as f32),
+        front: M::splat(s, at.front),
     }
 }
 

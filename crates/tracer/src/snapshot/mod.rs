@@ -4,6 +4,7 @@ mod columns;
 mod diff;
 mod extract;
 mod extraction;
+mod held;
 mod index;
 mod lamp_tree;
 mod lamps;

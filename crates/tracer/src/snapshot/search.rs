@@ -69,12 +69,21 @@ impl Snapshot {
 
     /// As [`occluded`](Self::occluded).
     pub(crate) fn is_occluded_on(&self, segment: &RaySegment<'_>) -> bool {
-        if self.index.unbounded.iter().any(|&prim| self.cross(prim, segment).is_some()) {
+        self.any_in_the_way(segment, |prim| self.cross(prim, segment).is_some())
+    }
+
+    /// Whether a shape that a segment may meet blocks it.
+    pub(super) fn any_in_the_way(
+        &self,
+        segment: &RaySegment<'_>,
+        mut blocks: impl FnMut(u32) -> bool,
+    ) -> bool {
+        if self.index.unbounded.iter().any(|&prim| blocks(prim)) {
             return true;
         }
         let mut found = false;
         self.index.tree.walk(&self.box_ray(segment), segment.span, |item| {
-            found = found || self.cross(self.index.bounded[item as usize], segment).is_some();
+            found = found || blocks(self.index.bounded[item as usize]);
             if found { f64::NEG_INFINITY } else { segment.span.max }
         });
         found
@@ -165,7 +174,7 @@ impl Snapshot {
     }
 
     /// Where a ray crosses one shape; meshes by their tree.
-    fn cross(&self, prim: u32, segment: &RaySegment<'_>) -> Option<Hit> {
+    pub(super) fn cross(&self, prim: u32, segment: &RaySegment<'_>) -> Option<Hit> {
         let leaving = leaving_facet(prim, segment.leaving);
         let crossing = match (&*self.shape(segment, prim), self.prims[prim as usize].mesh) {
             (Shape::Mesh(mesh), Some(tree)) => {

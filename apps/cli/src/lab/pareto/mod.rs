@@ -3,6 +3,7 @@
 mod averages;
 mod closed_forms;
 mod cutoffs;
+mod known_light;
 mod occlusion;
 mod page;
 mod pictures;
@@ -100,6 +101,7 @@ pub(crate) fn run(args: &ParetoArgs) -> Result<Outcome> {
         print(&format!("{}: {:.1} s\n", names.join(", "), started.elapsed().as_secs_f64()))?;
         questions.extend(answered);
     }
+    let closed_forms = known_light::markdown(&lab)?;
     std::fs::create_dir_all(folder)
         .into_diagnostic()
         .wrap_err_with(|| format!("the folder {} cannot be made", folder.display()))?;
@@ -107,7 +109,7 @@ pub(crate) fn run(args: &ParetoArgs) -> Result<Outcome> {
         write_file(&folder.join(format!("{}.svg", question.name)), question.svg()?.as_bytes())?;
     }
     write_file(&folder.join(TABLE), page::csv(&questions).as_bytes())?;
-    write_file(&folder.join(PAGE), page::markdown(&questions, &lab).as_bytes())?;
+    write_file(&folder.join(PAGE), (page::markdown(&questions, &lab) + &closed_forms).as_bytes())?;
     print(&format!("written to {}\n", folder.display()))?;
     Ok(Outcome::Done)
 }

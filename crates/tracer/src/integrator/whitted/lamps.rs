@@ -3,10 +3,9 @@
 use catoptra_core::{Lobes, Rgb};
 
 use super::paths::rgb;
-use crate::cull::PointBounds;
 use crate::integrator::Search;
 use crate::integrator::walker::{SurfaceHit, Walker};
-use crate::lamps::{Drawn, Gathered, LampRay, LampRays, LitPoint, follow, follow_picked, gather, picked};
+use crate::lamps::{Drawn, Gathered, LampRay, LampRays, LitPoint, follow, follow_picked, picked};
 use crate::snapshot::LampRow;
 
 impl<S: Search> Walker<'_, S> {
@@ -34,7 +33,7 @@ impl<S: Search> Walker<'_, S> {
             light += shone.glossy + brdf * shone.irradiance;
         }
         for (number, lamp) in snapshot.lamps().asked().iter().enumerate() {
-            let seen = self.gather(lamp, &at);
+            let seen = self.sight.gather(self.search, snapshot, lamp, &at, &mut self.stats.lamps);
             if seen == Gathered::Exactly(0.0) {
                 continue;
             }
@@ -51,19 +50,6 @@ impl<S: Search> Walker<'_, S> {
             light += shown * lamp.radiance.rgb();
         }
         light
-    }
-
-    fn gather(&mut self, lamp: &LampRow, at: &LitPoint) -> Gathered {
-        let snapshot = self.frame.snapshot;
-        self.blockers.clear();
-        if lamp.shadow {
-            let prim = at.surface.map_or(0, |surface| surface.prim);
-            let here = PointBounds::at(prim, at.point - snapshot.origin_in_frame());
-            self.search.find_blockers(snapshot, lamp, &here, &mut self.blockers);
-            self.blockers.sort_unstable();
-        }
-        let blockers = self.blockers.iter().copied();
-        gather(snapshot, lamp, blockers, at, &mut self.scratch, &mut self.stats.lamps)
     }
 
     fn is_blocked(&mut self, ray: &LampRay, lamp: &LampRow, surface: &SurfaceHit<'_>) -> bool {

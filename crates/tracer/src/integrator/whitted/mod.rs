@@ -5,7 +5,9 @@
 mod lamps;
 mod paths;
 mod pieces;
+mod receivers;
 mod streams;
+mod tally;
 mod tiles;
 
 use catoptra_core::Rgb;
@@ -13,6 +15,7 @@ use catoptra_core::Rgb;
 use super::walker::{CameraRay, Walker};
 use super::{Integrate, Search};
 use crate::{Frame, Hit, Stats, Tile};
+pub(crate) use receivers::Receivers;
 
 /// See the file's head.
 pub(super) struct Whitted;
