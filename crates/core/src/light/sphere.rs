@@ -7,7 +7,7 @@ use super::{Arrival, Emitter, nothing_arrives};
 use crate::geometry::{Geometry, Sphere};
 use crate::lane::Constant3;
 use crate::part::Given;
-use crate::{Field, InvalidPart, Lane, Part, Placement, Triple, Values};
+use crate::{Field, InvalidPart, Lane, Part, Placement, Triple, Value, Values};
 
 /// A sphere that shines to its outside.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,6 +72,10 @@ impl Emitter for SphereLight {
 
     fn lamp(&self) -> Option<Lamp> {
         Some(self.shining.on(self.surface.clone()))
+    }
+
+    fn equivalent(&self, field: &str) -> Option<Value> {
+        self.shining.equivalent(field, area(&self.surface))
     }
 
     fn shadow(&self) -> bool {
