@@ -95,6 +95,9 @@ impl Found<'_> {
             "triangles": needs.triangles,
             "tree_bytes": needs.tree_bytes,
             "reflects": needs.reflects,
+            "lamps": needs.lamps,
+            "lamps_are_picked": needs.lamps_are_picked,
+            "endless_lamps": needs.endless_lamps,
             "counts": self.stats,
         })
     }
@@ -137,6 +140,9 @@ impl Found<'_> {
             list(&needs.lights),
             needs.shadowing_lights
         ));
+        if needs.lamps > 0 {
+            lines.push(format!("{} that shine", counted(needs.lamps as u64, "surface")));
+        }
         if self.ambient > 0 {
             lines.push(format!("{}: costs nothing", counted(self.ambient as u64, "ambient light")));
         }

@@ -1,6 +1,6 @@
 //! Counts of what a snapshot holds: shapes, materials, lights, triangles.
 
-use catoptra_core::{Light, Material};
+use catoptra_core::{EntityId, Light, Material};
 use serde::Serialize;
 
 use super::Snapshot;
@@ -30,6 +30,12 @@ pub struct Needs {
     pub shadowing_lights: usize,
     /// Whether there is ambient light.
     pub ambient: bool,
+    /// Surfaces that light others: flat and round ones each, of others every facet or triangle.
+    pub lamps: usize,
+    /// Whether these are so many that every point asks some of them, picked at random.
+    pub lamps_are_picked: bool,
+    /// Shapes that shine and light nothing, as they have no end.
+    pub endless_lamps: usize,
 }
 
 impl Snapshot {
@@ -50,7 +56,21 @@ impl Snapshot {
             reflects: self.has_mirrors,
             shadowing_lights: self.lights.iter().filter(|l| l.shadow()).count(),
             ambient: self.ambient.max_channel() > 0.0,
+            lamps: self.lamps().rows.len(),
+            lamps_are_picked: self.picked_lamps().is_some(),
+            endless_lamps: self.endless_lamps().count(),
         }
+    }
+
+    /// How many surfaces light others, where these are so many that every point asks some of them, picked at random.
+    #[must_use]
+    pub fn picked_lamps(&self) -> Option<usize> {
+        self.lamps().tree.as_ref().map(|_| self.lamps().rows.len())
+    }
+
+    /// Shapes that shine and light nothing, as they have no end.
+    pub fn endless_lamps(&self) -> impl Iterator<Item = EntityId> {
+        self.lamps().endless.iter().map(|&prim| self.entities()[prim as usize])
     }
 }
 
