@@ -146,7 +146,7 @@ fn edges_that_coincide_count_once() {
     let (left, right) = (ceiling([low, mid], 1.5, z), ceiling([mid, high], 1.5, z));
     let whole = open(at, DVec3::Y, &lamp);
     close(over(&[left.clone(), right.clone()]), 0.0, 1e-15);
-    close(over(&[left.clone(), left.clone()]), over(&[left.clone()]), 1e-15);
+    close(over(&[left.clone(), left.clone()]), over(std::slice::from_ref(&left)), 1e-15);
     close(over(&[left]) + over(&[right]), whole, 1e-15);
     close(over(&[ceiling([low, high], 1.5, z)]), 0.0, 1e-15);
     close(over(&[ceiling([high, high + 1.0], 1.5, z)]), whole, 1e-15);

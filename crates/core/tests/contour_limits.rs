@@ -66,7 +66,7 @@ fn close(given: f64, truth: f64, off: f64) {
 #[test]
 fn values_are_exact_to_1e_12() {
     let mut tried = 0;
-    for (room, value) in rooms(60, 3) {
+    for (room, value) in rooms(100, 3) {
         let swept = Swept::of(&room.lamp, true);
         let rule = Rule::new(room.point, room.normal, &swept, &room.shapes);
         // Kinks that the rule finds with difficulty show by its own two answers.

@@ -29,8 +29,7 @@ impl Trial {
     }
 
     fn value(&self, scratch: &mut Scratch) -> Option<(f64, f64)> {
-        let swept = Swept::of(&self.lamp, self.two_sided);
-        let lamp = swept.lamp(&self.lamp);
+        let lamp = Lamp::of(&self.lamp, 0)?.with_two_sides(self.two_sided);
         let whole = open(self.point, self.normal, &lamp);
         Some((past(self.point, self.normal, &lamp, &self.shapes, scratch)?, whole))
     }
@@ -49,29 +48,27 @@ fn past(at: DVec3, normal: DVec3, lamp: &Lamp, shapes: &[Shape], scratch: &mut S
 
 #[test]
 fn closed_forms_are_those_of_quadrature() {
-    let count: u64 = std::env::var("TRIALS").ok().and_then(|v| v.parse().ok()).unwrap_or(100);
-    let first: u64 = std::env::var("FIRST").ok().and_then(|v| v.parse().ok()).unwrap_or(0);
-    let off: f64 = std::env::var("OFF").ok().and_then(|v| v.parse().ok()).unwrap_or(1e-9);
     let mut scratch = Scratch::default();
-    let (mut worst, mut given_up, mut hidden) = (0.0_f64, 0, 0);
-    for seed in first..first + count {
+    let (mut given_up, mut hidden) = (0, 0);
+    for seed in 0..250 {
         let trial = Trial::new(seed, 8);
         let Some((value, whole)) = trial.value(&mut scratch) else {
             given_up += 1;
             continue;
         };
-        let truth = trial.truth(off / 10.0, 4);
-        let truth = if (value - truth).abs() > off { trial.truth(off / 10.0, 1000) } else { truth };
+        // Few stripes may miss what is thin.
+        let error = |stripes: u32| (value - trial.truth(1e-9, stripes)).abs();
+        assert!(error(4) <= 1e-8 || error(1000) <= 1e-8, "{seed}: {value} of {whole}");
         hidden += u32::from(value < 0.99 * whole);
-        let error = (value - truth).abs();
-        if error > worst {
-            worst = error;
-            println!("{seed}: {value} {truth} of {whole}: {error:e}");
-        }
-        if error > off {
-            println!("BAD {seed}: {value} {truth} of {whole}: {error:e} {:?}", trial.lamp);
-        }
     }
-    println!("worst {worst:e}, without closed form {given_up}, hidden {hidden}");
-    assert!(worst <= off, "{worst:e}");
+    assert!(given_up < 25 && hidden > 100, "{given_up} without closed form, {hidden} hidden");
+}
+
+#[test]
+fn many_configurations_stay_in_bounds() {
+    let mut scratch = Scratch::default();
+    for seed in 1000..21_000 {
+        let Some((value, whole)) = Trial::new(seed, 8).value(&mut scratch) else { continue };
+        assert!((0.0..=whole).contains(&value), "{seed}: {value} of {whole}");
+    }
 }

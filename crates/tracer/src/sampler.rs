@@ -4,7 +4,9 @@
 //! Sobol's first two dimensions, scrambled by Owen's method with a hash and used again for every pair of dimensions, with
 //! the samples in another order each time (Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020).
 
-use crate::lanes::{HALVES, Word};
+use fearless_simd::Simd;
+
+use crate::lanes::{HALVES, U, Word};
 
 /// The numbers of one pixel, or of a register of pixels.
 #[derive(Debug, Clone, Copy)]
@@ -29,6 +31,14 @@ impl<W: Word> Sampler<W> {
         let key = mixed(self.pixel.plus_number(pair.wrapping_mul(GOLDEN)));
         let shuffled = scrambled_reversed(sample.reversed(), key).reversed();
         sobol(shuffled, [mixed(key.plus_number(1)), mixed(key.plus_number(2))])
+    }
+}
+
+impl Sampler<u32> {
+    /// The same pixel's numbers in every lane.
+    #[inline(always)]
+    pub(crate) fn in_lanes<S: Simd>(self, s: S) -> Sampler<U<S>> {
+        Sampler { pixel: U::splat(s, self.pixel) }
     }
 }
 
@@ -73,11 +83,11 @@ const GOLDEN: u32 = 0x9e37_79b9;
 mod tests {
     use std::collections::HashSet;
 
-    use fearless_simd::{Simd, dispatch};
+    use fearless_simd::dispatch;
 
     use super::*;
     use crate::Instructions;
-    use crate::lanes::{F, U};
+    use crate::lanes::F;
     use crate::random::Random;
 
     fn shares(pixel: [u32; 2], sample: u32, pair: u32) -> [f64; 2] {

@@ -21,6 +21,8 @@ pub(super) enum Kind {
     Disk(Round),
     Polygon(Flat),
     Solid(Solid),
+    /// What lies below a plane through the eye, whose unit normal this is.
+    Ground(DVec3),
 }
 
 /// A closed convex solid with flat faces.
@@ -68,11 +70,22 @@ impl Blocker {
     }
 }
 
+impl Blocker {
+    /// All that lies below the surface of the given unit normal which the point itself lies on: where a surface is shaded with
+    /// another normal than its own, it blocks what comes from below.
+    #[must_use]
+    pub fn ground(normal: DVec3) -> Self {
+        let kind = Kind::Ground(normal);
+        Self { bound: kind.bound(), kind }
+    }
+}
+
 impl Kind {
     /// A ball round it.
     fn bound(&self) -> (DVec3, f64) {
         match self {
             Self::Plane(point, _) => (*point, f64::INFINITY),
+            Self::Ground(_) => (DVec3::ZERO, f64::INFINITY),
             Self::Sphere(center, radius) => (*center, *radius),
             Self::Disk(disk) => (disk.center, disk.radius),
             Self::Polygon(flat) => ball_round(flat.corners()),

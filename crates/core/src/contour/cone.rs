@@ -36,14 +36,15 @@ impl Cone {
     }
 
     /// Adds the plane through an edge as seen from the eye, the cone to the left of it; none where the eye looks along the edge.
+    #[inline]
     fn push_edge(&mut self, from: DVec3, to: DVec3) {
-        let plane = from.cross(to - from);
+        let along = to - from;
+        let plane = from.cross(along);
         // Three roundings in each coordinate of the product.
-        let certain = 3.0 * UNIT_ROUNDOFF_F64 * from.length() * (to - from).length();
-        if plane.length() > certain
-            && let Some(plane) = unit(plane)
-        {
-            self.push(plane);
+        let certain = 3.0 * UNIT_ROUNDOFF_F64;
+        let length2 = plane.length_squared();
+        if length2 > certain * certain * from.length_squared() * along.length_squared() {
+            self.push(plane / length2.sqrt());
         }
     }
 
@@ -80,9 +81,12 @@ impl Cone {
     /// The cone of a convex solid that does not hold the eye: between faces that look at it and faces that look away.
     pub(super) fn of_solid(eye: DVec3, solid: &Solid) -> Self {
         let mut cone = Self::EVERYTHING;
-        let looks = |face: usize| looks_at(eye, &solid.faces[face]);
+        let mut looking = [false; 6];
+        for (looks, face) in looking.iter_mut().zip(&solid.faces) {
+            *looks = looks_at(eye, face);
+        }
         for edge in &solid.edges {
-            let [first, second] = edge.faces.map(looks);
+            let [first, second] = edge.faces.map(|face| looking[face]);
             if first != second {
                 let [a, b] = [edge.from - eye, edge.to - eye];
                 if second { cone.push_edge(a, b) } else { cone.push_edge(b, a) }

@@ -139,7 +139,8 @@ impl Conic {
     pub(super) fn cut(&self, plane: DVec3) -> Cut {
         let middle = plane.dot(self.center);
         let (x, y) = (plane.dot(self.across[0]) * self.radius, plane.dot(self.across[1]) * self.radius);
-        let reach = (x * x + y * y).sqrt();
+        let reach2 = x * x + y * y;
+        let reach = if middle * middle < reach2 { reach2.sqrt() } else { 0.0 };
         if !(middle.abs() < reach) {
             return if middle > 0.0 { Cut::Within } else { Cut::Outside };
         }

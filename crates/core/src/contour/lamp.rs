@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::{Shape, TriangleMesh};
+use crate::Shape;
 
 /// A surface that shines alike everywhere and in all directions.
 #[derive(Debug, Clone, PartialEq)]
@@ -103,7 +103,7 @@ impl Lamp {
     pub fn of(shape: &Shape, facet: u32) -> Option<Self> {
         match shape {
             Shape::Mesh(mesh) if (facet as usize) < mesh.triangles().triangles().len() => {
-                Self::polygon(&triangle(mesh.triangles(), facet).map(|p| mesh.placement().point(p)))
+                Self::polygon(&mesh.triangles().corners(facet).map(|p| mesh.placement().point(p)))
             }
             Shape::Cuboid(_) => super::blocker::box_face(shape, facet).and_then(|face| Self::polygon(&face)),
             Shape::Tetrahedron(solid) if facet < 4 => Self::polygon(&solid.face(facet)),
@@ -182,8 +182,4 @@ impl Lamp {
         };
         if self.two_sided { 2.0 * one_side } else { one_side }
     }
-}
-
-fn triangle(mesh: &TriangleMesh, number: u32) -> [DVec3; 3] {
-    mesh.corners(number)
 }

@@ -11,6 +11,9 @@
 //! 3. On each piece, arcs of round outlines are found by subtraction of intervals (`round.rs`, `pair.rs`).
 //! 4. A plane that parts lamp and blocker tells which is in front (`place.rs`, `sight.rs`); where there is none, there is
 //!    no closed form.
+//!
+//! Values are known to 10⁻¹² (tests hold them against quadrature), those of a polygon that spans few radians, δ, also to
+//! 10⁻¹⁵/δ of themselves, as its edges' shares cancel; an open disk or sphere to 10⁻¹⁴ of itself, however small.
 
 mod angle;
 mod blocker;

@@ -55,45 +55,72 @@ impl Wave {
 }
 
 /// Sign changes of a polynomial, lowest coefficient first, on −1..=1, where it has the values `ends`: between the sign
-/// changes of its derivative it is monotonous, and so on down to a line.
-fn roots(quartic: [f64; 5], ends: [f64; 2]) -> ([f64; 4], usize) {
-    let mut stops = ([0.0; 4], 0);
-    for degree in 1..=4_usize {
-        // The derivative that is of this degree.
-        let mut p = quartic;
-        for taken in 0..4 - degree {
-            for k in 0..4 - taken {
-                p[k] = p[k + 1] * (k + 1) as f64;
-            }
-            p[4 - taken] = 0.0;
+/// changes of its derivative it is monotonous, and so is that between those of its own.
+fn roots(p: [f64; 5], ends: [f64; 2]) -> ([f64; 4], usize) {
+    let first = [p[1], 2.0 * p[2], 3.0 * p[3], 4.0 * p[4]];
+    let (turns, count) = quadratic([first[1], 2.0 * first[2], 3.0 * first[3]]);
+    let first_ends = [-1.0, 1.0].map(|t| horner(&first, t));
+    let (stops, count) = between::<4, 3>(&first, &turns[..count], first_ends);
+    between::<5, 4>(&p, &stops[..count], ends)
+}
+
+/// Sign changes of a polynomial on −1..=1 that is monotonous between the given places, which are in order.
+fn between<const N: usize, const M: usize>(p: &[f64; N], stops: &[f64], ends: [f64; 2]) -> ([f64; M], usize) {
+    let (mut found, mut count) = ([0.0; M], 0);
+    let mut from = (-1.0, ends[0]);
+    for k in 0..=stops.len() {
+        let to = match stops.get(k) {
+            Some(&t) => (t, horner(p, t)),
+            None => (1.0, ends[1]),
+        };
+        if (from.1 > 0.0) != (to.1 > 0.0) {
+            found[count] = bracketed(p, from, to);
+            count += 1;
         }
-        let p = &p[..=degree];
-        let value = |t: f64| p.iter().rev().fold(0.0, |sum, c| sum * t + c);
-        let mut found = ([0.0; 4], 0);
-        let mut from = (-1.0, if degree == 4 { ends[0] } else { value(-1.0) });
-        let last = (1.0, if degree == 4 { ends[1] } else { value(1.0) });
-        let inner = stops.0.iter().take(stops.1).map(|&t| (t, value(t)));
-        for to in inner.chain([last]) {
-            if (from.1 > 0.0) != (to.1 > 0.0) {
-                found.0[found.1] = bracketed(p, from, to);
-                found.1 += 1;
-            }
-            from = to;
-        }
-        stops = found;
+        from = to;
     }
-    stops
+    (found, count)
+}
+
+#[inline]
+fn horner<const N: usize>(p: &[f64; N], t: f64) -> f64 {
+    let mut sum = p[N - 1];
+    for k in (0..N - 1).rev() {
+        sum = sum * t + p[k];
+    }
+    sum
+}
+
+/// Roots of a quadratic polynomial within −1..=1, in order.
+fn quadratic([c, b, a]: [f64; 3]) -> ([f64; 2], usize) {
+    let root2 = b * b - 4.0 * a * c;
+    if !(root2 >= 0.0) {
+        return ([0.0; 2], 0);
+    }
+    let q = -(b + root2.sqrt().copysign(b)) / 2.0;
+    let (mut found, mut count) = ([0.0; 2], 0);
+    for t in [q / a, c / q] {
+        if t.abs() < 1.0 {
+            found[count] = t;
+            count += 1;
+        }
+    }
+    found[..count].sort_unstable_by(f64::total_cmp);
+    (found, count)
 }
 
 /// How often a bracket is narrowed: Newton's steps settle within a few, and 60 halvings leave nothing of it.
 const STEPS: usize = 60;
 
 /// The one sign change between two places with different signs, by Newton's steps where they stay within, halving otherwise.
-fn bracketed(p: &[f64], mut from: (f64, f64), mut to: (f64, f64)) -> f64 {
+fn bracketed<const N: usize>(p: &[f64; N], mut from: (f64, f64), mut to: (f64, f64)) -> f64 {
     let mut t = (from.0 + to.0) / 2.0;
     for _ in 0..STEPS {
-        let (value, slope) =
-            p.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * t + c, slope * t + value));
+        let (mut value, mut slope) = (p[N - 1], 0.0);
+        for k in (0..N - 1).rev() {
+            slope = slope * t + value;
+            value = value * t + p[k];
+        }
         if value == 0.0 {
             return t;
         }

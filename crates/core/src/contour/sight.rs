@@ -40,6 +40,11 @@ impl Sight<'_> {
             (Kind::Polygon(flat), _) => self.hide_polygon(flat),
             (Kind::Sphere(center, radius), _) => self.hide_sphere(*center, *radius, leaving),
             (Kind::Solid(solid), _) => self.hide_solid(solid, leaving),
+            (Kind::Ground(normal), _) => {
+                let mut cone = Cone::EVERYTHING;
+                cone.push_any(-*normal);
+                Ok(self.take(&cone))
+            }
         }
     }
 
@@ -99,7 +104,12 @@ impl Sight<'_> {
     }
 
     fn hide_round(&mut self, conic: Conic, place: Place) -> Answer {
-        if place != Place::Never && self.scratch.curves.meets_lamp(self.view.outline(), &conic) {
+        // Of a polygon, pieces that no outline meets give the same bits whether one is listed or not.
+        let is_certain = place == Place::InFront && self.view.round.is_none();
+        if place == Place::Never {
+            return Ok(Seen::Something);
+        }
+        if is_certain || self.scratch.curves.meets_lamp(self.view.outline(), &conic) {
             if place == Place::Unknown {
                 return Err(NoClosedForm::Touches);
             }

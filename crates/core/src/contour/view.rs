@@ -28,7 +28,7 @@ const WINDOW: f64 = 1.25;
 
 impl View {
     /// `None` where nothing of the lamp's lit side lies above the horizon.
-    #[inline]
+    #[inline(always)]
     pub(super) fn of(point: DVec3, normal: DVec3, lamp: &Lamp) -> Option<Self> {
         match &lamp.outline {
             Outline::Polygon(flat) => {
@@ -62,7 +62,7 @@ impl View {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn new(normal: DVec3, away: DVec3, from_eye: &[DVec3], round: Option<Conic>) -> Option<Self> {
         let none = Corner { at: DVec3::ZERO, edge: DVec3::ZERO };
         let (mut corners, mut count) = ([none; 5], from_eye.len());
@@ -117,8 +117,10 @@ impl View {
     #[inline]
     pub(super) fn may_meet(&self, point: DVec3, blocker: &Blocker) -> bool {
         let (center, radius) = (blocker.bound.0 - point, blocker.bound.1);
-        if matches!(blocker.kind, Kind::Plane(..)) {
-            return true;
+        match blocker.kind {
+            Kind::Plane(..) => return true,
+            Kind::Ground(normal) => return self.outline().iter().any(|corner| normal.dot(corner.at) < 0.0),
+            _ => {}
         }
         let is_beyond = self.is_flat && self.away.dot(center) - radius >= self.height;
         !is_beyond

@@ -1,6 +1,6 @@
 //! Light that arrives from everywhere alike.
 
-use super::{Arrival, Emitter, nothing_arrives};
+use super::{Arrival, Emitter, LightVisitor, nothing_arrives};
 use crate::part::Given;
 use crate::{Constant3, Field, FieldKind, InvalidPart, Lane, Part, Placement, Rgb, Triple, Value, Values};
 
@@ -45,6 +45,9 @@ impl Emitter for AmbientLight {
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
         nothing_arrives(point)
     }
+
+    #[inline(always)]
+    fn accept(&self, _: impl LightVisitor) {}
 
     fn color(&self) -> &Constant3 {
         &self.radiance

@@ -61,7 +61,8 @@ pub trait Emitter {
     /// What would arrive at `point`.
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L>;
 
-    /// Calls a visitor with this light, or with what it is without something that it lacks.
+    /// Calls a visitor with this light, or with what it is without something that it lacks; a light that arrives from no one
+    /// direction calls none.
     #[inline(always)]
     fn accept(&self, visitor: impl LightVisitor)
     where

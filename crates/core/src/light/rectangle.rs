@@ -1,7 +1,7 @@
 //! Light from a flat rectangle.
 
 use super::shining::{Lamp, Shining};
-use super::{Arrival, Emitter, nothing_arrives};
+use super::{Arrival, Emitter, LightVisitor, nothing_arrives};
 use crate::geometry::{Geometry, Rectangle};
 use crate::lane::Constant3;
 use crate::part::Given;
@@ -59,6 +59,9 @@ impl Emitter for RectangleLight {
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
         nothing_arrives(point)
     }
+
+    #[inline(always)]
+    fn accept(&self, _: impl LightVisitor) {}
 
     fn color(&self) -> &Constant3 {
         self.shining.radiance()

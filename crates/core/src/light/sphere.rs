@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::shining::{Lamp, Shining};
-use super::{Arrival, Emitter, nothing_arrives};
+use super::{Arrival, Emitter, LightVisitor, nothing_arrives};
 use crate::geometry::{Geometry, Sphere};
 use crate::lane::Constant3;
 use crate::part::Given;
@@ -58,6 +58,9 @@ impl Emitter for SphereLight {
     fn arriving<L: Lane>(&self, point: Triple<L>) -> Arrival<L> {
         nothing_arrives(point)
     }
+
+    #[inline(always)]
+    fn accept(&self, _: impl LightVisitor) {}
 
     fn color(&self) -> &Constant3 {
         self.shining.radiance()

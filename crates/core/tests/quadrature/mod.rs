@@ -3,7 +3,6 @@
 //! A lamp is swept by lines. On each line every plane and quadric of a blocker gives the places where visibility may change;
 //! between two of them one exact ray tells. Across the lines the rule halves its steps until it is as exact as asked.
 
-use catoptra_core::contour::Lamp;
 use catoptra_core::geometry::{Cuboid, Disk, Rectangle, Sphere, Tetrahedron, Triangle};
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Geometry, Ray, Shape, Span};
@@ -74,12 +73,6 @@ impl Swept {
             Shape::Sphere(s) => Self::Sphere { center: s.center(), radius: s.radius() },
             _ => panic!("not a lamp of this test"),
         }
-    }
-
-    pub(crate) fn lamp(&self, shape: &Shape) -> Lamp {
-        let two_sided =
-            matches!(self, Self::Flat { two_sided: true, .. } | Self::Disk { two_sided: true, .. });
-        Lamp::of(shape, 0).unwrap().with_two_sides(two_sided)
     }
 }
 
@@ -170,8 +163,8 @@ impl<'a> Rule<'a> {
         let mut sum = 0.0;
         for pair in stops.windows(2) {
             if pair[1] > pair[0] && self.is_seen(start + along * ((pair[0] + pair[1]) / 2.0), lit) {
-                for k in 0..2 {
-                    let step = (pair[1] - pair[0]) / 2.0;
+                for k in 0..4 {
+                    let step = (pair[1] - pair[0]) / 4.0;
                     let a = pair[0] + step * f64::from(k);
                     for (x, w) in self.gauss.0.iter().zip(&self.gauss.1) {
                         let d = from + along * (a + step * x);

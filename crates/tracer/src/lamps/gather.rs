@@ -19,6 +19,8 @@ pub(crate) struct LitPoint {
     pub(crate) point: DVec3,
     /// Unit normal to shade with, on the viewer's side.
     pub(crate) normal: DVec3,
+    /// The surface's own, on the same side.
+    pub(crate) ground: DVec3,
     /// What it lies on; nothing for a point in space.
     pub(crate) surface: Option<SurfaceId>,
 }
@@ -46,7 +48,8 @@ pub(crate) fn gather(
         stats.facing_away += 1;
         return Gathered::Exactly(0.0);
     }
-    let seen = blockers(snapshot, lamp, shapes, at)
+    let ground = Blocker::ground(at.ground);
+    let seen = blockers(snapshot, lamp, shapes, at, &ground)
         .and_then(|blockers| contour::visible(at.point, at.normal, &lamp.outline, &blockers, scratch).ok());
     let Some(seen) = seen else {
         stats.sampled += 1;
@@ -69,8 +72,12 @@ fn blockers<'a>(
     lamp: &LampRow,
     shapes: impl Iterator<Item = u32>,
     at: &LitPoint,
+    ground: &'a Blocker,
 ) -> Option<ArrayVec<(&'a Blocker, Leaving), MOST_BLOCKERS>> {
     let mut blockers = ArrayVec::new();
+    if at.ground != at.normal {
+        blockers.push((ground, Leaving::Nothing));
+    }
     for prim in shapes {
         let leaving = match at.surface {
             Some(surface) if surface.prim == prim => Leaving::Facet(surface.facet),

@@ -91,6 +91,12 @@ impl<L: Lane> Outline<L> {
         (sum * sum.number(0.5)).max(sum.number(0.0))
     }
 
+    /// Inward normals of the planes through the point that bound what is seen of it.
+    #[inline(always)]
+    pub(crate) fn planes(&self) -> [Triple<L>; MOST] {
+        self.edges.map(|edge| edge.pole)
+    }
+
     /// Where a ball may hide any of it: no edge's plane has the ball on its other side.
     #[inline(always)]
     pub(crate) fn may_be_hidden_by(&self, ball: &BallOutline<L>) -> L::Mask {

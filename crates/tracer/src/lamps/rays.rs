@@ -35,6 +35,8 @@ pub(crate) struct LampRay {
     pub(crate) share: f64,
     /// The solid angle that it stands for if it were the only one, sr.
     pub(crate) solid: f64,
+    /// Whether it runs above the surface itself, and not only above the normal to shade with.
+    pub(crate) above_ground: bool,
 }
 
 /// Which random numbers rays are drawn from.
@@ -54,6 +56,14 @@ const FIRST_PAIR: u32 = 64;
 /// How far apart the pairs of two depths lie: more lamps than this share some.
 const PAIRS_PER_DEPTH: u32 = 1 << 16;
 
+impl Drawn {
+    /// The pair of sample dimensions of a lamp.
+    pub(crate) fn pair_of(&self, lamp: usize) -> u32 {
+        let pair = (lamp as u32).wrapping_add(self.depth.wrapping_mul(PAIRS_PER_DEPTH));
+        pair.wrapping_add(FIRST_PAIR)
+    }
+}
+
 impl LampRay {
     fn new(at: &LitPoint, LampPoint { to, end, solid }: LampPoint) -> Self {
         let direction = to.normalize_or_zero();
@@ -65,6 +75,7 @@ impl LampRay {
             cosine,
             share: cosine.max(0.0) * solid,
             solid,
+            above_ground: direction.dot(at.ground) > 0.0,
         }
     }
 }
@@ -72,13 +83,12 @@ impl LampRay {
 impl LampRays {
     /// As many as `count` from a point to the lamp of a number.
     pub(crate) fn new(lamp: &LampRow, number: usize, at: &LitPoint, drawn: &Drawn, count: u32) -> Self {
-        let pair = (number as u32).wrapping_add(drawn.depth.wrapping_mul(PAIRS_PER_DEPTH));
         Self {
             points: LampPoints::new(&lamp.outline, at.point, at.normal),
             at: *at,
             sampler: drawn.sampler,
             first: drawn.sample.wrapping_mul(count),
-            pair: pair.wrapping_add(FIRST_PAIR),
+            pair: drawn.pair_of(number),
             count,
         }
     }
@@ -145,7 +155,7 @@ pub(crate) fn follow_picked<'a>(
 ) -> Shone {
     let mut shone = Shone { irradiance: Rgb::BLACK, glossy: Rgb::BLACK };
     for picked in rays {
-        if is_blocked(&picked) {
+        if is_blocked(&picked) || !picked.ray.above_ground {
             continue;
         }
         let PickedRay { lamp, ray } = picked;
@@ -166,7 +176,7 @@ pub(crate) fn follow(
 ) -> (Found, Rgb) {
     let (mut found, mut shown) = (Found::default(), Triple::splat(0.0));
     for lamp_ray in rays.above() {
-        let open = !is_blocked(&lamp_ray);
+        let open = !is_blocked(&lamp_ray) && lamp_ray.above_ground;
         found.add(lamp_ray.share, open);
         if open && let Some(glossy) = lobes.glossy(at, lamp_ray.direction.into(), lamp_ray.cosine) {
             shown = glossy.scale(lamp_ray.solid / f64::from(rays.count)) + shown;

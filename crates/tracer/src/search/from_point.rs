@@ -9,7 +9,7 @@ use crate::SurfaceId;
 use crate::cull::Candidates;
 use crate::film::NOTHING;
 use crate::kernel::{Leaving, Target};
-use crate::lanes::{Column, D, D3, F, M, U, load_wide3, narrow3, splat_wide};
+use crate::lanes::{Column, D, D3, F, M, MOST_LANES, U, load_wide3, narrow3, splat_wide, store_wide3};
 use crate::numeric::{END_ERROR, POINT_ERROR};
 
 /// Segments from a point, column by column, with room for a packet more than there are.
@@ -37,19 +37,39 @@ impl FromPoint {
         self.length
     }
 
+    /// The way of a segment.
+    pub(crate) fn to(&self, at: usize) -> DVec3 {
+        let [x, y, z] = &self.to;
+        DVec3::new(x[at], y[at], z[at])
+    }
+
     /// Adds the way to another point, of which things block the share `end`.
     pub(crate) fn push(&mut self, to: DVec3, end: f64) {
-        const LANES: usize = crate::lanes::MOST_LANES;
-        if self.end.len() < self.length + 2 * LANES {
-            let room = (self.length + 2 * LANES).next_power_of_two();
-            self.to.iter_mut().for_each(|column| column.resize(room, 0.0));
-            self.end.resize(room, 0.0);
-        }
+        self.make_room();
         for (column, way) in self.to.iter_mut().zip(to.to_array()) {
             column[self.length] = way;
         }
         self.end[self.length] = end;
         self.length += 1;
+    }
+
+    /// Adds the ways of the first lanes.
+    #[inline(always)]
+    pub(crate) fn push_lanes<S: Simd>(&mut self, to: D3<S>, end: f64, lanes: usize) {
+        self.make_room();
+        store_wide3(to, &mut self.to, self.length);
+        self.end[self.length..self.length + lanes].fill(end);
+        self.length += lanes;
+    }
+
+    /// Room for a packet beyond the one that may be added next.
+    fn make_room(&mut self) {
+        let needed = self.length + 2 * MOST_LANES;
+        if self.end.len() < needed {
+            let room = needed.next_power_of_two();
+            self.to.iter_mut().for_each(|column| column.resize(room, 0.0));
+            self.end.resize(room, 0.0);
+        }
     }
 
     #[inline(always)]
@@ -78,8 +98,7 @@ impl<S: Simd> PreciseRays<S> for FromPoint {
     const FROM_ORIGIN: bool = true;
 
     fn ray(&self, at: usize) -> Ray {
-        let [x, y, z] = &self.to;
-        Ray::new(self.origin, DVec3::new(x[at], y[at], z[at]))
+        Ray::new(self.origin, self.to(at))
     }
 
     fn span(&self, at: usize) -> Span {

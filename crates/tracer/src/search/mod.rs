@@ -14,6 +14,7 @@ mod refine;
 mod self_hit;
 mod surface;
 mod to_light;
+mod view_cones;
 mod walk;
 
 use fearless_simd::Simd;
@@ -29,6 +30,7 @@ pub(crate) use packet::{Packet, PreciseRays, drift, kernel_rays, nearly_unit_ray
 pub(crate) use refine::Refined;
 pub(crate) use surface::Surface;
 pub(crate) use to_light::ToLight;
+pub(crate) use view_cones::ViewCones;
 
 /// Searches a snapshot with packets of rays.
 pub(crate) struct Searcher<'a, S: Simd> {

@@ -7,6 +7,7 @@ use catoptra_core::{Lane, LaneMask, Material, Rgb, ShadingPoint, Shape};
 use fearless_simd::Simd;
 
 use super::Shader;
+use super::lamp_rays::{QuadRays, Weights, open_share};
 use crate::cull::Candidates;
 use crate::lamps::{
     BallOutline, Drawn, Gathered, LampRay, LampRays, LitPoint, Outline, follow, follow_picked, gather, picked,
@@ -14,7 +15,7 @@ use crate::lamps::{
 use crate::lanes::{D3, F, F3, M, U, narrow3, outlined, splat_wide, widen3};
 use crate::numeric::{CUT_MARGIN, SMALL_LAMP};
 use crate::sampler::Sampler;
-use crate::search::{FromPoint, Refined};
+use crate::search::{FromPoint, Refined, ViewCones};
 use crate::snapshot::{FlatLamp, LampRow, LampTree};
 use crate::stream::Batch;
 use crate::{SurfaceId, Tile};
@@ -26,6 +27,8 @@ pub(crate) struct LampRoom {
     /// Rays from a point to lamps, and whether each is blocked.
     rays: FromPoint,
     blocked: Vec<bool>,
+    /// How much would arrive along each.
+    weights: Weights,
     /// Every shape.
     all: Candidates,
 }
@@ -88,20 +91,30 @@ impl<'a, S: Simd> Shader<'a, S> {
             return;
         }
         let lamp = &self.search.snapshot.lamps().rows[number];
-        let (mut seen, mut answered) = (F::splat(self.s, 0.0), M::splat(self.s, false));
+        let none = M::splat(self.s, false);
+        let mut found = FoundInLanes { seen: F::splat(self.s, 0.0), answered: none, sampled: none };
         if let Some(flat) = &lamp.flat
             && !self.chunk.glossy[at.slot]
         {
-            (seen, answered) = self.seen_of_flat(at, lamp, flat, number);
+            found = self.seen_of_flat(at, lamp, flat, number);
         }
-        for lane in (lit & !answered).lanes() {
+        let FoundInLanes { mut seen, answered, sampled } = found;
+        for lane in sampled.lanes() {
+            let open = f64::from(seen.lane(lane));
+            let found = match &lamp.flat {
+                Some(flat) => self.sample_in_lane(at, lane, flat, number, open, tile),
+                None => None,
+            };
+            seen.set(lane, found.unwrap_or_else(|| self.seen_in_lane(at, lane, lamp, number, tile)) as f32);
+        }
+        for lane in (lit & !answered & !sampled).lanes() {
             seen.set(lane, self.seen_in_lane(at, lane, lamp, number, tile) as f32);
         }
         let radiance = F3::of(seen, &lamp.radiance);
         self.chunk.irradiance[at.slot] = radiance.scale_add(seen, self.chunk.irradiance[at.slot]);
     }
 
-    /// What a packet sees of a flat lamp with straight edges under unit radiance, and the lanes for which that is known.
+    /// What a packet sees of a flat lamp with straight edges under unit radiance, where lanes can tell.
     #[inline(always)]
     fn seen_of_flat(
         &mut self,
@@ -109,22 +122,19 @@ impl<'a, S: Simd> Shader<'a, S> {
         lamp: &LampRow,
         flat: &FlatLamp,
         number: usize,
-    ) -> (F<S>, M<S>) {
+    ) -> FoundInLanes<S> {
         let (s, slot, point) = (self.s, at.slot, at.refined.point);
-        let lit = self.chunk.lit[slot];
-        let none = M::splat(s, false);
-        if self.search.snapshot.columns().smooth {
-            return (F::splat(s, 0.0), none);
-        }
+        let (zero, none) = (F::splat(s, 0.0), M::splat(s, false));
         let from_point = |to: DVec3| narrow3(splat_wide(s, to) - point);
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| from_point(flat.corners()[i % flat.corners().len()]));
-        let zero = F::splat(s, 0.0);
-        let own = flat.normal.as_vec3();
-        let above = -(a.x * F::splat(s, own.x) + a.y * F::splat(s, own.y) + a.z * F::splat(s, own.z));
+        let own = narrow3(splat_wide(s, flat.normal));
+        let above = -a.dot(own);
         let (front, behind) = (zero.less(above), above.less(zero));
         let faced = if flat.two_sided { front | behind } else { front };
+        let smooth = self.search.snapshot.columns().smooth;
+        let ground = self.chunk.normal[slot];
+        let normal = if smooth { self.chunk.smooth[slot] } else { ground };
         // As seen from outside the sphere of directions, corners run counter-clockwise for a point behind the lamp.
-        let normal = self.chunk.normal[slot];
         let outline = if flat.corners().len() == 4 {
             let (second, last) = (F3::select(front, d, b), F3::select(front, b, d));
             Outline::new(&[a, second, c, last], normal, normal)
@@ -132,23 +142,31 @@ impl<'a, S: Simd> Shader<'a, S> {
             let (second, last) = (F3::select(front, c, b), F3::select(front, b, c));
             Outline::new(&[a, second, last], normal, normal)
         };
-        let away = from_point(lamp.ball.center);
-        let small = away.dot(away) * F::splat(s, SMALL_LAMP * SMALL_LAMP);
-        let radius = F::splat(s, lamp.ball.radius as f32);
-        let mut answered = lit & !(radius * radius).less(small);
+        let mut answered = self.chunk.lit[slot] & !is_small(from_point(lamp.ball.center), lamp.ball.radius);
+        if smooth {
+            // Two normals have two horizons: lanes know of those that cut nothing off.
+            let below = |v: F3<S>| v.dot(normal).less(zero) | v.dot(ground).less(zero);
+            answered = answered & !(below(a) | below(b) | below(c) | below(d));
+        }
         let open = F::pick(faced, outline.open(), zero);
         let seeing = answered & zero.less(open);
-        let (mut hidden, mut touched) = (zero, none);
+        let (mut hidden, mut touched, mut sampled) = (zero, none, none);
+        let snapshot = self.search.snapshot;
         for at_blocker in 0..self.plan.lamps[number].blockers.len() {
             let prim = self.plan.lamps[number].blockers[at_blocker];
-            let Shape::Sphere(ball) = &self.search.snapshot.prims()[prim as usize].shape else {
-                return (zero, none);
-            };
-            let center = ball.center() - self.search.snapshot.origin_in_frame();
             let own = self.chunk.best[slot].prim.is(prim);
-            if own.any() && !self.search.outside {
-                return (zero, none);
-            }
+            let ball = match &snapshot.prims()[prim as usize].shape {
+                Shape::Sphere(ball) if self.search.outside || !own.any() => ball,
+                Shape::Mesh(_) => {
+                    let [e, f, g, h, i] = outline.planes();
+                    let cones =
+                        ViewCones { tip: point, planes: [e, f, g, h, i, ground], lanes: seeing & !sampled };
+                    sampled = sampled | self.search.reaches_into(prim, &cones);
+                    continue;
+                }
+                _ => return FoundInLanes { seen: zero, answered: none, sampled: none },
+            };
+            let center = ball.center() - snapshot.origin_in_frame();
             let towards = from_point(center);
             let radius = F::splat(s, ball.radius() as f32);
             let inside = towards.dot(towards).less(radius * radius * F::splat(s, 1.0 + CUT_MARGIN));
@@ -162,17 +180,33 @@ impl<'a, S: Simd> Shader<'a, S> {
             let cut = height.abs() < 1.0 + f64::from(CUT_MARGIN);
             let before = if height > 0.0 { front } else { behind };
             answered = answered & !(met & (inside | touched | M::splat(s, cut)));
-            let hides = met & before & answered;
             touched = touched | met;
-            hidden = F::pick(hides, outline.hidden_by(&seen, normal), hidden);
+            hidden = F::pick(met & before, outline.hidden_by(&seen, normal), hidden);
         }
-        let seen = (open - hidden).max(zero);
+        let sampled = sampled & answered;
+        let seen = F::pick(sampled, open, (open - hidden).max(zero));
+        let answered = answered & !sampled;
         let stats = &mut self.search.stats.lamps;
         stats.facing_away += (answered & !seeing).count();
-        let past = answered & touched;
-        stats.past_a_ball += past.count();
+        stats.past_a_ball += (answered & seeing & touched).count();
         stats.open += (answered & seeing & !touched).count();
-        (seen, answered)
+        stats.sampled += sampled.count();
+        FoundInLanes { seen, answered, sampled }
+    }
+
+    /// What a point sees of a rectangle that would give `open` if nothing blocked it; `None` if it is none.
+    fn sample_in_lane(
+        &mut self,
+        at: &LitPacket<S>,
+        lane: usize,
+        flat: &FlatLamp,
+        number: usize,
+        open: f64,
+        tile: &Tile,
+    ) -> Option<f64> {
+        let here = self.point_in_lane(at, lane, tile);
+        let rays = QuadRays::new(flat, here.shading.position.into(), here.lit.normal)?;
+        Some(open * self.open_share(&rays, &here, number))
     }
 
     /// A point of a packet, in `f64`.
@@ -183,11 +217,17 @@ impl<'a, S: Simd> Shader<'a, S> {
         let best = &self.chunk.best[slot];
         let surface = SurfaceId { prim: best.prim.lane(lane), facet: best.facet.lane(lane) };
         let position = vector(at.refined.point);
-        let normal = vector(at.refined.shading) * if front { 1.0 } else { -1.0 };
+        let side = if front { 1.0 } else { -1.0 };
+        let [normal, ground] = [at.refined.shading, at.refined.normal].map(|normal| vector(normal) * side);
         let to_viewer = vector(widen3(self.chunk.to_viewer[slot]));
         let [x, y] = tile.place_of(at.pixels.lane(lane) as usize);
         LanePoint {
-            lit: LitPoint { point: position + snapshot.origin_in_frame(), normal, surface: Some(surface) },
+            lit: LitPoint {
+                point: position + snapshot.origin_in_frame(),
+                normal,
+                ground,
+                surface: Some(surface),
+            },
             shading: ShadingPoint {
                 position: position.into(),
                 normal: normal.into(),
@@ -223,6 +263,11 @@ impl<'a, S: Simd> Shader<'a, S> {
         if let (Gathered::Exactly(seen), false) = (gathered, glossy) {
             return seen;
         }
+        if let (Gathered::UpTo(open), false, Some(flat)) = (gathered, glossy, &lamp.flat)
+            && let Some(rays) = QuadRays::new(flat, here.shading.position.into(), here.lit.normal)
+        {
+            return open * self.open_share(&rays, &here, number);
+        }
         let rays = LampRays::new(lamp, number, &here.lit, &here.drawn, self.view.lamp_rays);
         if !open {
             self.aim(rays.above(), &here.lit);
@@ -235,6 +280,27 @@ impl<'a, S: Simd> Shader<'a, S> {
             self.add_glossy(at.slot, lane, shown * lamp.radiance.rgb());
         }
         found.of(gathered)
+    }
+
+    /// Which share of what would arrive from a rectangle does arrive.
+    fn open_share(&mut self, rays: &QuadRays, here: &LanePoint<'_>, number: usize) -> f64 {
+        let room = &mut *self.lamp_room;
+        room.rays.start(here.lit.point, self.search.snapshot.origin_in_frame(), here.lit.surface);
+        let (count, pair) = (self.view.lamp_rays, here.drawn.pair_of(number));
+        outlined(
+            self.s,
+            #[inline(always)]
+            || rays.aim(self.s, &here.drawn, pair, count, &mut room.rays, &mut room.weights),
+        );
+        self.search.stats.rays.lamp += room.rays.len() as u64;
+        self.trace(Some(number));
+        let LampRoom { rays, weights, blocked, .. } = &mut *self.lamp_room;
+        if here.lit.ground != here.lit.normal {
+            for (i, blocked) in blocked.iter_mut().enumerate() {
+                *blocked |= !(rays.to(i).dot(here.lit.ground) > 0.0);
+            }
+        }
+        open_share(weights, blocked)
     }
 
     /// Adds what lamps that a tree picks contribute to a point.
@@ -287,6 +353,22 @@ impl<'a, S: Simd> Shader<'a, S> {
     fn add_glossy(&mut self, slot: usize, lane: usize, light: Rgb) {
         add_in_lane(&mut self.chunk.specular[slot], lane, light);
     }
+}
+
+/// What lanes know of a lamp.
+struct FoundInLanes<S: Simd> {
+    /// Irradiance under unit radiance, where it is known; where rays are needed, what it would be if all were open.
+    seen: F<S>,
+    answered: M<S>,
+    /// Lanes that need rays.
+    sampled: M<S>,
+}
+
+/// Where a lamp is so small, seen from a point, that `f32` does not do.
+#[inline(always)]
+fn is_small<S: Simd>(away: F3<S>, radius: f64) -> M<S> {
+    let radius = away.x.number(radius);
+    (radius * radius).less(away.dot(away) * away.x.number(f64::from(SMALL_LAMP * SMALL_LAMP)))
 }
 
 /// A point of a packet, in `f64`.

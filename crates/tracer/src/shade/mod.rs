@@ -5,6 +5,7 @@ mod direct_light;
 mod filled;
 mod groups;
 mod hits;
+mod lamp_rays;
 mod lamps;
 #[cfg(test)]
 mod lobe_tests;

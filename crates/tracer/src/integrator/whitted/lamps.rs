@@ -16,6 +16,7 @@ impl<S: Search> Walker<'_, S> {
         let at = LitPoint {
             point: surface.point,
             normal: surface.shading.normal.into(),
+            ground: surface.normal,
             surface: Some(surface.hit.surface),
         };
         let brdf = match lobes.diffuse {
