@@ -73,8 +73,10 @@ fn the_size_of_the_tiles_does_not_matter() {
 #[test]
 fn every_kind_of_instructions_gives_the_same_bits() {
     for (name, scene) in scenes() {
-        for (grid, pattern) in [(1, Pattern::Grid), (3, Pattern::Grid), (3, Pattern::Sobol)] {
-            let view = View { grid, pattern, ..view(&scene) };
+        for (samples, pattern) in
+            [(1, Pattern::Owen), (9, Pattern::Grid), (3, Pattern::Sobol), (3, Pattern::Owen)]
+        {
+            let view = View { samples, pattern, ..view(&scene) };
             let usual = traced(&scene, "wide", &view, Film::new(ODD), 2);
             for instructions in Instructions::all() {
                 let view = View { instructions: Some(instructions), ..view.clone() };
@@ -82,7 +84,7 @@ fn every_kind_of_instructions_gives_the_same_bits() {
                 assert_same_bits(
                     &usual,
                     &forced,
-                    &format!("{name} with {instructions:?}, {grid} x {grid} by {pattern:?}"),
+                    &format!("{name} with {instructions:?}, {samples} by {pattern:?}"),
                 );
             }
         }
@@ -98,7 +100,7 @@ fn a_crop_has_the_bits_of_the_whole_picture() {
     ];
     for (name, scene) in scenes() {
         for backend in ["wide", "scalar"] {
-            let view = View { grid: 3, pattern: Pattern::Sobol, ..view(&scene) };
+            let view = View { samples: 7, ..view(&scene) };
             let whole = traced(&scene, backend, &view, Film::new(ODD), 2);
             for crop in crops {
                 let view = View { crop: Some(crop), ..view.clone() };
@@ -142,11 +144,11 @@ fn a_film_that_is_traced_over_has_the_bits_of_a_new_one() {
         (ball("0.1 0.2 0.3", -9.0), "wide", 1),
         (ball("0 0 0", -9.0), "wide", 1),
     ];
-    for (turn, (scene, backend, grid)) in turns.iter().enumerate() {
-        let view = View { grid: *grid, ..view(scene) };
+    for (turn, (scene, backend, samples)) in turns.iter().enumerate() {
+        let view = View { samples: *samples, ..view(scene) };
         film = traced(scene, backend, &view, film, 2);
         let new = traced(scene, backend, &view, small_tiles(), 2);
-        assert_same_bits(&new, &film, &format!("turn {turn}, by {backend}, grid {grid}"));
+        assert_same_bits(&new, &film, &format!("turn {turn}, by {backend}, {samples} samples"));
     }
 }
 
@@ -161,13 +163,13 @@ fn work_left_out_changes_no_bit() {
         Skip { hidden: true, blank: true, ..Skip::NOTHING },
     ];
     for (name, scene) in scenes() {
-        for grid in [1, 2] {
-            let view = View { grid, ..view(&scene) };
+        for samples in [1, 4] {
+            let view = View { samples, ..view(&scene) };
             let usual = traced(&scene, "wide", &view, Film::new(ODD), 2);
             for skip in skips {
                 let view = View { skip, ..view.clone() };
                 let long = traced(&scene, "wide", &view, Film::new(ODD), 2);
-                assert_same_bits(&usual, &long, &format!("{name}, grid {grid}, with {skip:?}"));
+                assert_same_bits(&usual, &long, &format!("{name}, {samples} samples, with {skip:?}"));
             }
         }
     }

@@ -4,7 +4,7 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Edit, Light, Material, Placement, Scene, Value};
 use catoptra_lab::scenes::placed_mesh;
 use catoptra_tests::{film, load, parsed};
-use catoptra_tracer::{Display, Film, Size};
+use catoptra_tracer::{Film, Size, Tone};
 
 const SEED: [&str; 8] = ["planes", "directional", "point", "spot", "many", "material", "depth", "tetra"];
 
@@ -65,7 +65,7 @@ fn scaled(mut scene: Scene, factor: f64) -> Scene {
 
 /// On how many pixels two films differ as they are displayed, and by how many steps at most.
 fn difference(reference: &Film, test: &Film) -> (usize, u8) {
-    let [a, b] = [reference, test].map(|film| Display::Srgb.rgb8(film));
+    let [a, b] = [reference, test].map(|film| Tone::default().rgb8(film));
     let pixels = a.chunks(3).zip(b.chunks(3));
     let steps = pixels.map(|(a, b)| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0));
     steps.fold((0, 0), |(count, most), step| (count + usize::from(step > 0), most.max(step)))

@@ -22,7 +22,7 @@ const SAME: Size = Size::new(24, 24);
 /// show it to a rounding of `f32`.
 #[track_caller]
 fn assert_sees(scene: &Scene, expected: f64, what: &str) {
-    let view = View { pattern: Pattern::Sobol, ..View::of(scene, camera_of(scene), SAME) }.with_samples(16);
+    let view = View { pattern: Pattern::Sobol, samples: 16, ..View::of(scene, camera_of(scene), SAME) };
     assert_eq!(view.integrator, Integrator::Occlusion, "{what}");
     for backend in backends() {
         let film = traced(scene, backend.name(), &view, Film::new(SAME), 1);
@@ -194,7 +194,7 @@ fn view(scene: &Scene) -> View {
     View {
         integrator: Integrator::Occlusion,
         occlusion_distance: 3.0,
-        grid: 2,
+        samples: 4,
         moments: true,
         ..View::of(scene, camera_of(scene), ODD)
     }

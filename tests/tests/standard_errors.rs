@@ -2,17 +2,17 @@
 
 use catoptra_core::{Rgb, Scene};
 use catoptra_tests::{assert_same_bits, camera_of, parsed, shipped_scenes, traced};
-use catoptra_tracer::{Film, Pattern, Region, Size, View, backends};
+use catoptra_tracer::{Film, Region, Size, View, backends};
 
 /// Every pixel sees the same, give or take a millimetre.
 const SAME: Size = Size::new(24, 24);
 
-const GRID: u32 = 4;
+const SAMPLES: u32 = 16;
 
 /// With 16 samples a pixel and what they tell of its error.
 fn view(scene: &Scene, size: Size) -> View {
     let view = View::of(scene, camera_of(scene), size);
-    View { grid: GRID, pattern: Pattern::Sobol, moments: true, ..view }
+    View { samples: SAMPLES, moments: true, ..view }
 }
 
 fn places(film: &Film) -> impl Iterator<Item = (u32, u32)> {
@@ -50,7 +50,7 @@ fn the_standard_error_of_a_share_of_the_sky_is_that_of_its_formula() {
         let ball = format!(r#"sphere "ball" material="grey" {{ center 0 {height:?} 0; radius {radius:?} }}"#);
         let scene = floor(&ball);
         let seen = 1.0 - (radius / height).powi(2);
-        let n = f64::from(GRID * GRID);
+        let n = f64::from(SAMPLES);
         for backend in backends() {
             let film = traced(&scene, backend.name(), &view(&scene, SAME), Film::new(SAME), 1);
             let found = mean_of(errors(&film).into_iter().map(|error| error * error));
@@ -128,7 +128,7 @@ fn the_error_is_that_of_luminance() {
         sphere "ball" material="black" { center 0 0 -3; radius 0.7 }
         "#,
     );
-    let (size, n) = (Size::new(31, 23), f64::from(GRID * GRID));
+    let (size, n) = (Size::new(31, 23), f64::from(SAMPLES));
     for backend in backends() {
         let film = traced(&scene, backend.name(), &view(&scene, size), Film::new(size), 1);
         let luminance = Rgb::new(0.25, 0.5, 0.125).luminance();
@@ -148,8 +148,8 @@ fn the_error_is_that_of_luminance() {
 fn asking_for_errors_changes_no_bit_of_the_picture() {
     let size = Size::new(61, 39);
     for (name, scene) in shipped_scenes() {
-        for grid in [1, 3] {
-            let view = View { grid, ..view(&scene, size) };
+        for samples in [1, 9] {
+            let view = View { samples, ..view(&scene, size) };
             for backend in ["wide", "scalar"] {
                 let [with, without] = [true, false].map(|moments| {
                     let view = View { moments, ..view.clone() };
@@ -161,7 +161,11 @@ fn asking_for_errors_changes_no_bit_of_the_picture() {
                 assert_eq!(bits(&with), bits(&without), "{name} by {backend}");
                 assert_eq!(with.depths(), without.depths(), "{name} by {backend}");
                 assert!(places(&without).all(|(x, y)| without.standard_error(x, y).is_none()));
-                assert_eq!(with.standard_error(7, 7).is_some(), grid > 1, "{name} by {backend}, grid {grid}");
+                assert_eq!(
+                    with.standard_error(7, 7).is_some(),
+                    samples > 1,
+                    "{name} by {backend}, {samples}"
+                );
             }
         }
     }

@@ -1,7 +1,9 @@
 //! Which commands, options and values are there?
 
 use std::path::PathBuf;
+use std::time::Duration;
 
+use catoptra_core::Settings;
 use catoptra_tracer::{Film, Region, Size};
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
@@ -51,12 +53,21 @@ pub(crate) struct JobArgs {
     /// Threads to trace with [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// Samples per pixel: a square number, 1, 4, 9 and so on
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = samples)]
-    pub(crate) samples: u32,
-    /// Where the samples lie in a pixel: grid or sobol [default: grid]
+    /// Samples per pixel [default: the scene's setting, or 1]
+    #[arg(long, value_name = "N", value_parser = samples)]
+    pub(crate) samples: Option<u32>,
+    /// Where the samples lie in a pixel: owen (in each by itself), sobol (in all alike) or grid [default: owen]
     #[arg(long, value_name = "NAME")]
     pub(crate) pattern: Option<String>,
+    /// How places in and round a pixel count: box, tent or blackman-harris [default: box]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) filter: Option<String>,
+    /// Cut off each sample's channels at this radiance, which tames rare bright ones and darkens the picture
+    #[arg(long, value_name = "L", value_parser = clamp)]
+    pub(crate) clamp: Option<f32>,
+    /// Pixels that edges cross: off (by their samples) or exact (by the area of each part) [default: off]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) edges: Option<String>,
     /// What random choices go by: another number makes other ones, the same one the same picture
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u32,
@@ -84,6 +95,16 @@ pub(crate) struct RenderArgs {
     /// Display transform of a .png: linear, srgb or filmic [default: srgb]
     #[arg(long, value_name = "NAME")]
     pub(crate) display: Option<String>,
+    /// Brighten a .png by so many stops, each a factor of 2 [default: the scene's setting, or 0]
+    #[arg(long, value_name = "STOPS", value_parser = exposure, allow_negative_numbers = true)]
+    pub(crate) exposure: Option<f64>,
+    /// Sample each pixel until its standard error is under E: of displayed values 0 to 1, of radiance for an .exr; --samples is
+    /// then the most [default: the scene's setting, or as many samples as are asked for]
+    #[arg(long, value_name = "E", value_parser = max_error)]
+    pub(crate) max_error: Option<f64>,
+    /// Sample for so many seconds, or until --max-error is reached
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub(crate) time: Option<Duration>,
     /// Time N frames after a warm-up: from snapshot to film, without files and parsing
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) repeat: Option<u32>,
@@ -187,18 +208,45 @@ fn tile(text: &str) -> Result<u32, String> {
     }
 }
 
-/// Reads a square number of samples.
+/// Reads a number of samples.
 fn samples(text: &str) -> Result<u32, String> {
-    let count: u32 = text.parse().map_err(|_| "samples are a whole number".to_owned())?;
-    let side = count.isqrt();
-    if !(1..=64).contains(&side) {
-        return Err("samples must be 1 to 4096".to_owned());
+    let most = Settings::MAX_SAMPLES;
+    match text.parse::<u32>() {
+        Ok(count) if (1..=most).contains(&count) => Ok(count),
+        _ => Err(format!("samples are a whole number from 1 to {most}")),
     }
-    if side * side != count {
-        let (below, above) = (side * side, (side + 1) * (side + 1));
-        return Err(format!("samples must be a square number: {below} or {above} is near"));
+}
+
+/// Reads a radiance to cut off at.
+fn clamp(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(most) if most > 0.0 && most.is_finite() => Ok(most),
+        _ => Err("a radiance to cut off at is a number greater than 0".to_owned()),
     }
-    Ok(count)
+}
+
+/// Reads an exposure in stops.
+fn exposure(text: &str) -> Result<f64, String> {
+    let most = Settings::MAX_EXPOSURE;
+    match text.parse::<f64>() {
+        Ok(stops) if stops.abs() <= most => Ok(stops),
+        _ => Err(format!("an exposure is a number of stops from -{most} to {most}")),
+    }
+}
+
+/// Reads a standard error to come under.
+fn max_error(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(error) if error > 0.0 && error.is_finite() => Ok(error),
+        _ => Err("an error to come under is a number greater than 0, such as 0.01".to_owned()),
+    }
+}
+
+/// Reads a time in seconds.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse::<f64>().ok().filter(|seconds| *seconds > 0.0);
+    let time = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    time.ok_or_else(|| "a time is a number of seconds greater than 0".to_owned())
 }
 
 /// Reads a limit: a number from 0 up.
@@ -248,11 +296,31 @@ mod tests {
     }
 
     #[test]
-    fn samples_are_squares_and_the_message_names_the_neighbours() {
-        assert_eq!(samples("16"), Ok(16));
-        assert!(samples("15").unwrap_err().contains("9 or 16"));
-        assert!(samples("0").is_err());
-        assert!(samples("4294967295").is_err());
+    fn samples_are_any_number_that_a_picture_may_have() {
+        assert_eq!([samples("1"), samples("15"), samples("65536")], [Ok(1), Ok(15), Ok(65_536)]);
+        for bad in ["0", "65537", "-1", "1.5", "4294967296", "x"] {
+            assert!(samples(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn targets_and_exposures_are_numbers_that_mean_something() {
+        assert_eq!((max_error("0.01"), exposure("-1.5")), (Ok(0.01), Ok(-1.5)));
+        assert_eq!(seconds("0.5"), Ok(Duration::from_millis(500)));
+        for bad in ["0", "-1", "inf", "NaN", "x", ""] {
+            assert!(max_error(bad).is_err() && seconds(bad).is_err(), "{bad}");
+        }
+        for bad in ["33", "NaN", "inf", "auto"] {
+            assert!(exposure(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_clamp_leaves_some_light() {
+        assert_eq!(clamp("2.5"), Ok(2.5));
+        for bad in ["0", "-1", "inf", "NaN", "x"] {
+            assert!(clamp(bad).is_err(), "{bad}");
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! `catoptra explain`: what does a scene need, what runs for it, and which work was skipped as it could not matter?
 
 use catoptra_core::{Integrator, Light};
-use catoptra_tracer::{Needs, Skipped, Stats};
+use catoptra_tracer::{EdgePixels, Edges, Needs, Skipped, Stats};
 use miette::Result;
 use serde_json::{Map, Value, json};
 
@@ -16,12 +16,14 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<Outcome> {
     let means = Means::of(&args.job)?;
     check_heard()?;
     let job = Job::new(&args.job, means, &[])?;
+    job.warn_of_idle(&args.job);
     let control = interrupt::control();
     let mut film = job.film()?;
-    let Ok((_, stats)) = progress::while_showing(&control, || job.frame(&mut film, &control)) else {
+    let Ok((_, frame)) = progress::while_showing(&control, || job.frame(&mut film, &control)) else {
         return Ok(Outcome::Interrupted);
     };
-    let found = Found { needs: job.snapshot.needs(), ambient: ambient_lights(&job), job: &job, stats };
+    let found =
+        Found { needs: job.snapshot.needs(), ambient: ambient_lights(&job), job: &job, stats: frame.stats };
     print_answer(&if args.json { format!("{}\n", found.as_json()) } else { found.as_text() })?;
     Ok(Outcome::Done)
 }
@@ -76,8 +78,10 @@ impl Found<'_> {
             "camera": self.job.camera_name,
             "size": self.job.view.size,
             "crop": self.job.view.crop,
-            "samples": self.job.view.samples(),
+            "samples": self.job.view.samples,
             "pattern": self.job.view.pattern.name(),
+            "filter": self.job.view.filter.name(),
+            "edges": self.job.view.edges.name(),
             "seed": self.job.view.seed,
             "integrator": self.job.view.integrator.name(),
             "max_depth": self.job.view.max_depth,
@@ -104,7 +108,7 @@ impl Found<'_> {
 
     fn as_text(&self) -> String {
         let (job, size) = (self.job, self.job.view.size);
-        let samples = counted(u64::from(job.view.samples()), "sample");
+        let samples = counted(u64::from(job.view.samples), "sample");
         format!(
             "{} through camera \"{}\" at {}x{}, {samples} a pixel\n\n\
              The scene holds\n{}\nWhat runs\n{}\nOne frame traced\n{}\nIt did not trace\n{}\nHow sure it is\n{}",
@@ -191,14 +195,31 @@ impl Found<'_> {
     fn traced(&self) -> Vec<String> {
         let (rays, tests) = (&self.stats.rays, &self.stats.tests);
         let each = |count: u64| format!("{:.1} a ray", count as f64 / rays.total().max(1) as f64);
-        vec![
+        let mut lines = vec![
             counted(rays.primary, "primary ray"),
             counted(rays.shadow, "shadow ray"),
             counted(rays.reflection, "reflection ray"),
             counted(rays.occlusion, "occlusion ray"),
             format!("{} against shapes and triangles, {}", counted(tests.shapes, "test"), each(tests.shapes)),
             format!("{} against boxes of trees, {}", counted(tests.boxes, "test"), each(tests.boxes)),
-        ]
+        ];
+        lines.extend(self.edges());
+        lines
+    }
+
+    /// How pixels were shown that outlines cross.
+    fn edges(&self) -> Option<String> {
+        let EdgePixels { parted, quartered, sampled, pieces } = self.stats.edges;
+        (self.job.view.edges == Edges::Exact).then(|| {
+            format!(
+                "{} that outlines cross, by {}: {} parted by lines, {} quartered, {} sampled",
+                counted(parted + quartered + sampled, "pixel"),
+                counted(pieces, "ray"),
+                thousands(parted),
+                thousands(quartered),
+                thousands(sampled)
+            )
+        })
     }
 
     fn skipped(&self) -> Vec<String> {

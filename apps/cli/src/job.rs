@@ -4,11 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use catoptra_core::{Camera, EntityId, Role, Scene};
+use catoptra_core::{Camera, EntityId, Integrator, Role, Scene};
 use catoptra_scene::SceneFile;
 use catoptra_tracer::{
-    Backend, Cancelled, Control, Film, Instructions, Pattern, Pool, Region, Size, Snapshot, Stats, View,
-    render,
+    Backend, Cancelled, Control, Edges, Film, Filter, Instructions, Pattern, Pool, Reached, Region, Size,
+    Snapshot, Stats, Target, View, render, render_until,
 };
 use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
 
@@ -16,7 +16,7 @@ use crate::args::{JobArgs, STANDARD};
 use crate::console::warn;
 use crate::destination::{Input, Output, check_apart};
 use crate::memory;
-use crate::names::{find_backend, find_instructions, find_integrator, find_pattern};
+use crate::names::{find_backend, find_edges, find_filter, find_instructions, find_integrator, find_pattern};
 use crate::pool::{milliseconds_since, new_pool};
 use crate::suggest::unknown;
 use crate::words::thousands;
@@ -26,6 +26,8 @@ use crate::words::thousands;
 pub(crate) struct Means {
     backend: &'static dyn Backend,
     pattern: Pattern,
+    filter: Filter,
+    edges: Edges,
     instructions: Option<Instructions>,
 }
 
@@ -34,7 +36,9 @@ impl Means {
     pub(crate) fn of(args: &JobArgs) -> Result<Self> {
         Ok(Self {
             backend: find_backend(&args.backend)?,
+            edges: args.edges.as_deref().map(find_edges).transpose()?.unwrap_or_default(),
             pattern: args.pattern.as_deref().map(find_pattern).transpose()?.unwrap_or_default(),
+            filter: args.filter.as_deref().map(find_filter).transpose()?.unwrap_or_default(),
             instructions: args.simd.as_deref().map(find_instructions).transpose()?,
         })
     }
@@ -49,6 +53,8 @@ pub(crate) struct Job {
     /// How long it took to make the snapshot from the scene, trees included.
     pub(crate) build_ms: f64,
     pub(crate) view: View,
+    /// How sure its pixels are to be, where that says how many samples they get.
+    pub(crate) target: Option<Target>,
     /// Edge of the film's tiles, pixels.
     tile: u32,
     pub(crate) backend: &'static dyn Backend,
@@ -63,22 +69,26 @@ impl Job {
         memory::check_room(crop.map_or(args.size, |crop| crop.size))?;
         let (scene, file) = load(&args.scene)?;
         let camera_id = find_camera(&scene, args.camera.as_deref())?;
-        let view = View::of(&scene, placed_camera(&scene, camera_id)?, args.size).with_samples(args.samples);
+        let view = View::of(&scene, placed_camera(&scene, camera_id)?, args.size);
         let named = args.integrator.as_deref().map(find_integrator).transpose()?;
         let view = View {
             integrator: named.unwrap_or(view.integrator),
             max_depth: args.max_depth.unwrap_or(view.max_depth),
+            samples: args.samples.unwrap_or(view.samples),
             crop,
             pattern: means.pattern,
+            filter: means.filter,
+            clamp: args.clamp.unwrap_or(f32::INFINITY),
+            edges: means.edges,
             seed: args.seed,
             instructions: means.instructions,
             ..view
         };
+        check_grid(&view)?;
         let meshes = file.mesh_paths().map(|path| ("the mesh", path));
         let inputs: Vec<Input> =
             meshes.chain(file.profile_paths().map(|path| ("the profile", path))).collect();
         check_apart(outputs, &inputs)?;
-        warn_of_idle(args);
         let started = Instant::now();
         let snapshot = Arc::new(Snapshot::extract(&scene, &pool));
         let build_ms = milliseconds_since(started);
@@ -86,20 +96,72 @@ impl Job {
         let camera_name = scene.name(camera_id).unwrap_or_default();
         let scene_name = file_name(&args.scene);
         let (tile, backend) = (args.tile, means.backend);
-        Ok(Self { scene, scene_name, camera_name, snapshot, build_ms, view, tile, backend, pool })
+        Ok(Self {
+            scene,
+            scene_name,
+            camera_name,
+            snapshot,
+            build_ms,
+            view,
+            target: None,
+            tile,
+            backend,
+            pool,
+        })
+    }
+
+    /// Says which options change nothing.
+    pub(crate) fn warn_of_idle(&self, args: &JobArgs) {
+        if self.view.samples == 1 && self.target.is_none() {
+            let given = [("--pattern", args.pattern.is_some()), ("--filter", args.filter.is_some())];
+            for (option, _) in given.iter().filter(|(_, given)| *given) {
+                warn(&format!(
+                    "{option} changes nothing: the one sample of a pixel lies in its middle (--samples asks for more)"
+                ));
+            }
+            if self.view.camera.lens_radius() > 0.0 {
+                warn(
+                    "the camera's lens-radius changes nothing: one sample sees through its middle (--samples asks for more)",
+                );
+            }
+        }
+        if args.edges.is_some() && self.view.integrator != Integrator::Whitted {
+            let integrator = self.view.integrator.name();
+            warn(&format!("--edges changes nothing: integrator {integrator} samples them"));
+        }
+        if args.simd.is_some() && args.backend != "wide" {
+            warn(&format!("--simd changes nothing: backend {} uses no vector instructions", args.backend));
+        }
     }
 
     /// A film for its frames.
     pub(crate) fn film(&self) -> Result<Film> {
-        memory::film(self.view.region(), self.tile)
+        memory::film(self.view.region(), self.tile, self.target.is_some())
     }
 
-    /// Traces one frame; how long it took from snapshot to film, and what was done.
-    pub(crate) fn frame(&self, film: &mut Film, control: &Control) -> Result<(f64, Stats), Cancelled> {
+    /// Traces one frame; how long it took from snapshot to film, and what it came to.
+    pub(crate) fn frame(&self, film: &mut Film, control: &Control) -> Result<(f64, Frame), Cancelled> {
         let started = Instant::now();
-        let stats = render(self.backend, &self.snapshot, &self.view, film, &self.pool, control)?;
-        Ok((milliseconds_since(started), stats))
+        let (snapshot, view, pool) = (&self.snapshot, &self.view, &self.pool);
+        let frame = match &self.target {
+            None => {
+                let stats = render(self.backend, snapshot, view, film, pool, control)?;
+                Frame { stats, reached: None }
+            }
+            Some(target) => {
+                let reached = render_until(self.backend, snapshot, (view, target), film, pool, control)?;
+                Frame { stats: reached.stats, reached: Some(reached) }
+            }
+        };
+        Ok((milliseconds_since(started), frame))
     }
+}
+
+/// What a frame came to.
+pub(crate) struct Frame {
+    pub(crate) stats: Stats,
+    /// With a target, how near to it.
+    pub(crate) reached: Option<Reached>,
 }
 
 /// Reads a scene; the meshes of one from standard input lie in the current folder.
@@ -117,16 +179,19 @@ pub(crate) fn scene_input(scene: &Path) -> Input {
     ("the scene", scene.to_owned())
 }
 
-/// Says which options change nothing.
-fn warn_of_idle(args: &JobArgs) {
-    if args.pattern.is_some() && args.samples == 1 {
-        warn(
-            "--pattern changes nothing: the one sample of a pixel lies in its middle (--samples asks for more)",
-        );
+/// Refuses a grid of samples that is no square.
+fn check_grid(view: &View) -> Result<()> {
+    let side = view.samples.isqrt();
+    if view.pattern != Pattern::Grid || side * side == view.samples {
+        return Ok(());
     }
-    if args.simd.is_some() && args.backend != "wide" {
-        warn(&format!("--simd changes nothing: backend {} uses no vector instructions", args.backend));
-    }
+    Err(miette!(
+        help = "the patterns owen and sobol take any number",
+        "--pattern grid takes a square number of samples, not {}: {} or {} is near",
+        view.samples,
+        side * side,
+        (side + 1) * (side + 1)
+    ))
 }
 
 /// Says which surfaces do not light as one may expect.

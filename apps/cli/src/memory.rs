@@ -1,6 +1,6 @@
 //! How much memory is there for a picture, and how much has this process needed at the most?
 
-use catoptra_tracer::{Film, Size};
+use catoptra_tracer::{Film, Region, Size};
 use miette::{Report, Result, miette};
 
 use crate::words::bytes;
@@ -10,7 +10,12 @@ const BESIDE: u64 = 16 << 20;
 
 /// Refuses a picture that memory cannot hold: by what the system says is free, and by asking for as much at once.
 pub(crate) fn check_room(size: Size) -> Result<()> {
-    let needed = Film::bytes_of(size) + BESIDE;
+    check_bytes(size, Film::bytes_of(size))
+}
+
+/// Refuses a picture whose film takes more bytes than there are.
+fn check_bytes(size: Size, film: u64) -> Result<()> {
+    let needed = film + BESIDE;
     if let Some(free) = free_bytes().filter(|free| *free < needed) {
         return Err(too_large(size, needed, &format!("only {} is free", bytes(free))));
     }
@@ -19,8 +24,11 @@ pub(crate) fn check_room(size: Size) -> Result<()> {
     if reserved { Ok(()) } else { Err(too_large(size, needed, "the system does not give as much")) }
 }
 
-/// A film of a part of a picture.
-pub(crate) fn film(region: catoptra_tracer::Region, tile: u32) -> Result<Film> {
+/// A film of a part of a picture, which has errors to judge or not.
+pub(crate) fn film(region: Region, tile: u32, judged: bool) -> Result<Film> {
+    if judged {
+        check_bytes(region.size, Film::judged_bytes_of(region.size))?;
+    }
     Film::try_of_region(region, tile)
         .map_err(|_| too_large(region.size, Film::bytes_of(region.size), "less is left"))
 }

@@ -1,7 +1,7 @@
 //! What do names on the command line stand for? Unknown ones are refused, with what was perhaps meant.
 
 use catoptra_core::Integrator;
-use catoptra_tracer::{Backend, Instructions, Pattern, backend_named, backends};
+use catoptra_tracer::{Backend, Edges, Filter, Instructions, Pattern, backend_named, backends};
 use miette::{Result, miette};
 
 use crate::suggest::unknown;
@@ -18,6 +18,16 @@ pub(crate) fn find_integrator(name: &str) -> Result<Integrator> {
 pub(crate) fn find_pattern(name: &str) -> Result<Pattern> {
     let names: Vec<&str> = Pattern::ALL.iter().map(|pattern| pattern.name()).collect();
     Pattern::named(name).ok_or_else(|| unknown("pattern of samples", name, &names))
+}
+
+pub(crate) fn find_filter(name: &str) -> Result<Filter> {
+    let names: Vec<&str> = Filter::ALL.iter().map(|filter| filter.name()).collect();
+    Filter::named(name).ok_or_else(|| unknown("filter", name, &names))
+}
+
+pub(crate) fn find_edges(name: &str) -> Result<Edges> {
+    let names: Vec<&str> = Edges::ALL.iter().map(|edges| edges.name()).collect();
+    Edges::named(name).ok_or_else(|| unknown("way to show edges", name, &names))
 }
 
 /// The instructions of that name; an error where there are none such, or not on this CPU.

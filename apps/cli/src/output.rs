@@ -5,7 +5,7 @@ use std::path::Path;
 
 use catoptra_scene::atomic;
 use catoptra_scene::image::write_png_rows;
-use catoptra_tracer::{Display, Film, Size};
+use catoptra_tracer::{Film, Size, Tone};
 use exr::prelude::WritableImage;
 use miette::{IntoDiagnostic, Report, Result, miette};
 
@@ -40,11 +40,11 @@ impl Format {
 }
 
 /// Writes a film as the picture that the name asks for.
-pub(crate) fn write_film(path: &Path, film: &Film, display: Display) -> Result<()> {
+pub(crate) fn write_film(path: &Path, film: &Film, tone: Tone) -> Result<()> {
     let Size { width, height } = film.size();
     match Format::of(path)? {
         Format::Png => {
-            write_png_rows(path, width, height, |y, row| display.rgb8_row(film, y, row)).into_diagnostic()
+            write_png_rows(path, width, height, |y, row| tone.rgb8_row(film, y, row)).into_diagnostic()
         }
         Format::Exr => write_exr(path, film).map_err(|error| unwritable(path, &error)),
     }

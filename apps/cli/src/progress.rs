@@ -3,7 +3,7 @@
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
 
-use catoptra_tracer::Control;
+use catoptra_tracer::{Control, Progress};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 
@@ -31,6 +31,10 @@ pub(crate) fn while_showing<T>(control: &Control, work: impl FnOnce() -> T) -> T
                 if started.elapsed() >= PATIENCE {
                     let bar = bar.get_or_insert_with(|| new_bar(started.elapsed()));
                     bar.set_position((f64::from(control.progress()) * STEPS as f64) as u64);
+                    if let Some(Progress { samples, error, .. }) = control.reached() {
+                        bar.set_style(style(PASSES));
+                        bar.set_message(format!("{samples:.0} samples a pixel, errors up to {error:.1e}"));
+                    }
                 }
             }
             if let Some(bar) = bar {
@@ -43,13 +47,19 @@ pub(crate) fn while_showing<T>(control: &Control, work: impl FnOnce() -> T) -> T
     })
 }
 
+/// What is shown of one pass over a picture.
+const ONE: &str = "{elapsed_precise} {wide_bar} {percent}% (about {eta} left)";
+
+/// What is shown of passes until a picture is sure enough.
+const PASSES: &str = "{elapsed_precise} {wide_bar} {percent}% of a pass; {msg}";
+
 fn new_bar(elapsed: Duration) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(STEPS), ProgressDrawTarget::stderr()).with_elapsed(elapsed);
-    let style = ProgressStyle::with_template("{elapsed_precise} {wide_bar} {percent}% (about {eta} left)");
-    match style {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
-    }
+    bar.with_style(style(ONE))
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
 #[cfg(test)]
@@ -62,10 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bar_has_its_style() {
-        assert!(
-            ProgressStyle::with_template("{elapsed_precise} {wide_bar} {percent}% (about {eta} left)")
-                .is_ok()
-        );
+    fn bars_have_their_styles() {
+        assert!([ONE, PASSES].iter().all(|template| ProgressStyle::with_template(template).is_ok()));
     }
 }

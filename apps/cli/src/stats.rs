@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use catoptra_tracer::Stats;
+use catoptra_tracer::Reached;
 use miette::{IntoDiagnostic, Result};
 use serde_json::{Value, json};
 
-use crate::job::Job;
+use crate::job::{Frame, Job};
 use crate::memory::peak_bytes;
 use crate::output::write_file;
 
@@ -30,7 +30,7 @@ impl FrameTimes {
 /// The object that `--stats` writes.
 ///
 /// `frame_ms` is the time from snapshot to film, `build_ms` that from scene to snapshot; counts are of one frame.
-fn as_json(job: &Job, times: &FrameTimes, stats: &Stats) -> Result<Value> {
+fn as_json(job: &Job, times: &FrameTimes, frame: &Frame) -> Result<Value> {
     let mut object = json!({
         "scene": job.scene_name,
         "camera": job.camera_name,
@@ -40,8 +40,10 @@ fn as_json(job: &Job, times: &FrameTimes, stats: &Stats) -> Result<Value> {
         "threads": job.pool.threads(),
         "size": job.view.size,
         "crop": job.view.crop,
-        "samples": job.view.samples(),
+        "samples": job.view.samples,
         "pattern": job.view.pattern.name(),
+        "filter": job.view.filter.name(),
+        "edges": job.view.edges.name(),
         "seed": job.view.seed,
         "max_depth": job.view.max_depth,
         "frames": times.frames,
@@ -50,16 +52,29 @@ fn as_json(job: &Job, times: &FrameTimes, stats: &Stats) -> Result<Value> {
         "peak_memory_bytes": peak_bytes(),
     });
     if let (Value::Object(object), Value::Object(counts)) =
-        (&mut object, serde_json::to_value(stats).into_diagnostic()?)
+        (&mut object, serde_json::to_value(frame.stats).into_diagnostic()?)
     {
         object.extend(counts);
+        if let Some(reached) = &frame.reached {
+            object.extend([("reached".to_owned(), reached_as_json(job, reached))]);
+        }
     }
     Ok(object)
 }
 
+/// What a target has come to: the largest standard error of a pixel, and samples a pixel.
+fn reached_as_json(job: &Job, reached: &Reached) -> Value {
+    json!({
+        "max_error": job.target.and_then(|target| target.max_error),
+        "error": reached.error,
+        "samples": { "min": reached.fewest, "mean": reached.mean, "max": reached.most },
+        "pixels_above": reached.unfinished,
+    })
+}
+
 /// Writes the object, whole or not at all.
-pub(crate) fn write_stats(path: &Path, job: &Job, times: &FrameTimes, stats: &Stats) -> Result<()> {
-    let mut text = serde_json::to_string_pretty(&as_json(job, times, stats)?).into_diagnostic()?;
+pub(crate) fn write_stats(path: &Path, job: &Job, times: &FrameTimes, frame: &Frame) -> Result<()> {
+    let mut text = serde_json::to_string_pretty(&as_json(job, times, frame)?).into_diagnostic()?;
     text.push('\n');
     write_file(path, text.as_bytes())
 }

@@ -21,7 +21,7 @@ const USUAL_FOCUS: f64 = 10.0;
 
 /// Metres from the eye to what is looked at.
 pub(crate) fn focus(camera: &Camera) -> f64 {
-    camera.focus().unwrap_or(USUAL_FOCUS)
+    camera.target_distance().unwrap_or(USUAL_FOCUS)
 }
 
 /// The same view with its target at that distance in metres.
@@ -34,7 +34,9 @@ fn target(camera: &Camera) -> DVec3 {
 }
 
 fn looking(camera: &Camera, eye: DVec3, target: DVec3, up: DVec3) -> Camera {
-    Camera::look_at(eye, target, up, camera.fov()).unwrap_or_else(|_| camera.clone())
+    Camera::look_at(eye, target, up, camera.fov())
+        .and_then(|moved| moved.with_lens(camera.lens_radius(), camera.given_focus()))
+        .unwrap_or_else(|_| camera.clone())
 }
 
 fn moved(camera: &Camera, by: DVec3) -> Camera {

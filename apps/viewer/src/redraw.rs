@@ -135,8 +135,8 @@ impl App {
             screen.canvas.lay(&Pixels::default(), size);
             return;
         };
-        if shown.frame.display != self.viewer.settings.display {
-            shown.frame.encode(self.viewer.settings.display, &self.encoder);
+        if shown.frame.tone != self.viewer.tone() {
+            shown.frame.encode(self.viewer.tone(), &self.encoder);
         }
         let frame = &shown.frame;
         screen.canvas.lay(&frame.pixels, size);

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use catoptra_core::Camera;
-use catoptra_tracer::{Backend, Control, Display, Extraction, Film, Pool, Size, Snapshot, View, render};
+use catoptra_tracer::{Backend, Control, Extraction, Film, Pool, Size, Snapshot, Tone, View, render};
 
 use crate::canvas::Pixels;
 use crate::frame_worker::Tracing;
@@ -22,7 +22,7 @@ pub(crate) struct Request {
     /// From where, how large when traced in full, and what is shown.
     pub(crate) view: View,
     /// How radiance becomes colour.
-    pub(crate) display: Display,
+    pub(crate) tone: Tone,
 }
 
 /// A request with its scene frozen.
@@ -42,20 +42,20 @@ pub(crate) struct Frame {
     /// Width and height in pixels that the request asked for.
     pub(crate) size: (u32, u32),
     /// How radiance became colour.
-    pub(crate) display: Display,
+    pub(crate) tone: Tone,
     /// How many rays it took.
     pub(crate) rays: u64,
 }
 
 impl Frame {
     /// Encodes the film anew.
-    pub(crate) fn encode(&mut self, display: Display, pool: &Pool) {
+    pub(crate) fn encode(&mut self, tone: Tone, pool: &Pool) {
         let Size { width, height } = self.film.size();
         self.pixels.width = width;
         self.pixels.height = height;
         self.pixels.data.resize(width as usize * height as usize, 0);
-        display.encode(&self.film, pool, &mut self.pixels.data);
-        self.display = display;
+        tone.encode(&self.film, pool, &mut self.pixels.data);
+        self.tone = tone;
     }
 }
 
@@ -126,9 +126,8 @@ impl Tracing for PoolTracing {
             return None;
         };
         let rays = stats.rays.total();
-        let mut frame =
-            Frame { film, pixels, camera: view.camera, size: full, display: request.display, rays };
-        frame.encode(request.display, &self.pool);
+        let mut frame = Frame { film, pixels, camera: view.camera, size: full, tone: request.tone, rays };
+        frame.encode(request.tone, &self.pool);
         Some(frame)
     }
 }

@@ -8,7 +8,7 @@ use std::time::Instant;
 use catoptra_core::scene::{Edit, EntityId, SceneError, Subject};
 use catoptra_core::{Aabb, Camera, Integrator};
 use catoptra_raster::{Overlay, OverlayStyle};
-use catoptra_tracer::{Backend, Display, Extraction, Pick, Size, View, backends, pick};
+use catoptra_tracer::{Backend, Display, Extraction, Pick, Size, Tone, View, backends, pick};
 
 use crate::camera_control;
 use crate::document::Document;
@@ -196,7 +196,7 @@ impl Viewer {
         let seen = id.and_then(|id| scene.world_camera(id));
         self.through = seen.as_ref().and(id);
         match seen {
-            Some(camera) if camera.focus().is_none() => self.look(self.aimed(&camera)),
+            Some(camera) if camera.target_distance().is_none() => self.look(self.aimed(&camera)),
             Some(camera) => self.look(camera),
             None => self.frame(self.everything()),
         }
@@ -238,7 +238,7 @@ impl Viewer {
     /// What the worker is to trace now.
     pub(crate) fn request(&self) -> Request {
         let view = match self.document.scene().settings().integrator() {
-            Integrator::Whitted => self.view(),
+            Integrator::Whitted => self.view().with_samples(1),
             Integrator::Occlusion => self.view().with_samples(OCCLUSION_SAMPLES),
         };
         Request {
@@ -246,8 +246,13 @@ impl Viewer {
             latest: Arc::clone(&self.latest),
             backend: self.settings.backend,
             view,
-            display: self.settings.display,
+            tone: self.tone(),
         }
+    }
+
+    /// How radiance becomes colour: as the panel and the scene say.
+    pub(crate) fn tone(&self) -> Tone {
+        self.settings.display.exposed(self.document.scene().settings().exposure())
     }
 
     /// The overlays as seen by `camera` on a picture of that size.

@@ -1,19 +1,25 @@
-//! Where a picture is taken from: a perspective camera.
+//! Where a picture is taken from: a perspective camera, with a pinhole or a thin lens.
+//!
+//! A thin lens lets light in over a disk; of what lies in its plane of focus each point is seen in one place of the picture
+//! from all over the disk (Cook, Porter and Carpenter, "Distributed ray tracing", SIGGRAPH 1984).
 
 use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use crate::part::{Given, degrees};
+use crate::part::{Given, LARGEST, degrees};
 use crate::{Field, FieldKind, InvalidPart, Kind, Part, Placement, Ray, Value, Values};
 
-/// Perspective camera: every ray starts at the eye.
+/// Perspective camera: every ray starts at the eye, or on a lens round it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
     eye: DVec3,
     aim: Aim,
     up_hint: DVec3,
     fov: f64,
+    lens_radius: f64,
+    /// As it was given.
+    focus: Option<f64>,
     forward: DVec3,
     right: DVec3,
     up: DVec3,
@@ -28,11 +34,15 @@ pub enum Aim {
     Direction(DVec3),
 }
 
+const LENS_RADIUS: &str = "lens-radius";
+const FOCUS: &str = "focus";
+
 impl Default for Camera {
     /// At the origin, looking along −z with y up and a right angle of view.
     fn default() -> Self {
         let (eye, forward, right, up) = (DVec3::ZERO, -DVec3::Z, DVec3::X, DVec3::Y);
-        Self { eye, aim: Aim::Direction(forward), up_hint: up, fov: PI / 2.0, forward, right, up }
+        let aim = Aim::Direction(forward);
+        Self { eye, aim, up_hint: up, fov: PI / 2.0, lens_radius: 0.0, focus: None, forward, right, up }
     }
 }
 
@@ -80,7 +90,34 @@ impl Camera {
         if !(fov > 0.0 && fov < PI) {
             return Err(InvalidPart::new("fov", "must lie between 0 and 180 degrees", degrees(fov)));
         }
-        Ok(Self { eye, aim, up_hint: up, fov, forward, right, up: right.cross(forward) })
+        let up_hint = up;
+        let up = right.cross(forward);
+        Ok(Self { eye, aim, up_hint, fov, lens_radius: 0.0, focus: None, forward, right, up })
+    }
+
+    /// The same with a lens of that radius in metres (0 for a pinhole), sharp at `focus` metres along the view; without
+    /// `focus`, at the target.
+    ///
+    /// # Errors
+    /// A radius that is negative or not finite, a focus that is not greater than 0 or not finite, a lens without focus or
+    /// target.
+    pub fn with_lens(self, radius: f64, focus: Option<f64>) -> Result<Self, InvalidPart> {
+        if !(0.0..=LARGEST).contains(&radius) {
+            return Err(InvalidPart::new(LENS_RADIUS, "must be a finite number of at least 0", radius));
+        }
+        if let Some(focus) = focus.filter(|focus| !(*focus > 0.0 && *focus <= LARGEST)) {
+            return Err(InvalidPart::new(FOCUS, "must be a finite number greater than 0", focus));
+        }
+        let camera = Self { lens_radius: radius, focus, ..self };
+        if radius > 0.0 && camera.focus().is_none() {
+            return Err(InvalidPart::new(
+                FOCUS,
+                "must be given beside a lens-radius and a direction",
+                "left out",
+            )
+            .with_hint("write how far away things are sharp, such as focus 5, or give a target"));
+        }
+        Ok(camera)
     }
 
     /// Its position.
@@ -127,11 +164,30 @@ impl Camera {
 
     /// Distance to the target; `None` where only a direction was given.
     #[must_use]
-    pub fn focus(&self) -> Option<f64> {
+    pub fn target_distance(&self) -> Option<f64> {
         match self.aim {
             Aim::Target(target) => Some(target.distance(self.eye)),
             Aim::Direction(_) => None,
         }
+    }
+
+    /// Radius of the lens, metres; 0 for a pinhole.
+    #[must_use]
+    pub fn lens_radius(&self) -> f64 {
+        self.lens_radius
+    }
+
+    /// How far along the view things are sharp, metres: as it was given, or the distance to the target; `None` where neither
+    /// is known.
+    #[must_use]
+    pub fn focus(&self) -> Option<f64> {
+        self.focus.or_else(|| self.target_distance())
+    }
+
+    /// How far along the view things are sharp, metres, where that was given.
+    #[must_use]
+    pub fn given_focus(&self) -> Option<f64> {
+        self.focus
     }
 
     /// The same camera standing elsewhere, looking at what has moved with it.
@@ -144,7 +200,9 @@ impl Camera {
             Aim::Direction(direction) => Aim::Direction(placement.direction(direction)),
         };
         let up = upwards(self.forward, self.up_hint);
-        Self::new(placement.point(self.eye), aim, placement.direction(up), self.fov)
+        let camera = Self::new(placement.point(self.eye), aim, placement.direction(up), self.fov)?;
+        let scale = placement.scale();
+        camera.with_lens(self.lens_radius * scale, self.focus.map(|focus| focus * scale))
     }
 
     /// How ray directions follow from pixels, in a picture of `width` x `height` pixels:
@@ -155,7 +213,12 @@ impl Camera {
         let across = self.right * pixel;
         let down = self.up * -pixel;
         let corner = self.forward - across * (f64::from(width) / 2.0) - down * (f64::from(height) / 2.0);
-        Raster { eye: self.eye, corner, across, down }
+        let lens = self.focus().filter(|_| self.lens_radius > 0.0).map(|focus| Lens {
+            right: self.right * self.lens_radius,
+            up: self.up * self.lens_radius,
+            inverse_focus: focus.recip(),
+        });
+        Raster { eye: self.eye, corner, across, down, lens }
     }
 
     /// The ray through the point (x, y) of a picture, in pixels from the top left corner; the middle of the first
@@ -184,10 +247,23 @@ pub struct Raster {
     pub across: DVec3,
     /// Change of direction for one pixel down.
     pub down: DVec3,
+    /// What rays start on, where that is not the eye alone.
+    pub lens: Option<Lens>,
+}
+
+/// A disk round the eye, across the view.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lens {
+    /// From the eye to its rim on the right.
+    pub right: DVec3,
+    /// From the eye to its upper rim.
+    pub up: DVec3,
+    /// 1 over the distance along the view at which things are sharp.
+    pub inverse_focus: f64,
 }
 
 impl Raster {
-    /// The ray through (x, y), in pixels from the top left corner.
+    /// The ray from the eye through (x, y), in pixels from the top left corner.
     #[must_use]
     pub fn ray(&self, x: f64, y: f64) -> Ray {
         let along = |corner: f64, across: f64, down: f64| x.mul_add(across, y.mul_add(down, corner));
@@ -197,6 +273,27 @@ impl Raster {
             along(self.corner.z, self.across.z, self.down.z),
         );
         Ray::new(self.eye, direction)
+    }
+
+    /// The ray to where that from the eye is sharp, from a point of the lens: so many of its radii to the right and upwards.
+    /// Its direction has unit component along the view too. Without a lens, that from the eye.
+    #[must_use]
+    pub fn ray_from(&self, x: f64, y: f64, [right, up]: [f64; 2]) -> Ray {
+        let ray = self.ray(x, y);
+        let Some(lens) = self.lens else { return ray };
+        let along = |of_right: f64, of_up: f64| of_right.mul_add(right, of_up * up);
+        let aside = DVec3::new(
+            along(lens.right.x, lens.up.x),
+            along(lens.right.y, lens.up.y),
+            along(lens.right.z, lens.up.z),
+        );
+        let towards = |aside: f64, direction: f64| aside.mul_add(-lens.inverse_focus, direction);
+        let direction = DVec3::new(
+            towards(aside.x, ray.direction.x),
+            towards(aside.y, ray.direction.y),
+            towards(aside.z, ray.direction.z),
+        );
+        Ray::new(self.eye + aside, direction)
     }
 }
 
@@ -213,6 +310,14 @@ impl Part for Camera {
             .or(|| Value::Vector(DVec3::Y)),
         Field::required("fov", FieldKind::Angle, "°", "Field of view from the lower to the upper edge.")
             .or(|| Value::Number(PI / 4.0)),
+        Field::required(
+            LENS_RADIUS,
+            FieldKind::Number,
+            "m",
+            "Radius of the lens; 0 for a pinhole, which sees all sharp.",
+        )
+        .or(|| Value::Number(0.0)),
+        Field::required(FOCUS, FieldKind::Length, "m", "How far along the view things are sharp.").optional(),
     ];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
@@ -226,7 +331,9 @@ impl Part for Camera {
                 return Err(InvalidPart::new("target", "must be given, or direction", "missing"));
             }
         };
-        Self::new(given.point("eye")?, aim, given.direction("up")?, given.number("fov")?)
+        let focus = given.has(FOCUS).then(|| given.positive(FOCUS)).transpose()?;
+        Self::new(given.point("eye")?, aim, given.direction("up")?, given.number("fov")?)?
+            .with_lens(given.not_negative(LENS_RADIUS)?, focus)
     }
 
     fn values(&self) -> Values {
@@ -235,7 +342,12 @@ impl Part for Camera {
             Aim::Target(target) => values.with("target", Value::Vector(target)),
             Aim::Direction(direction) => values.with("direction", Value::Vector(direction)),
         };
-        values.with("up", Value::Vector(self.up_hint)).with("fov", Value::Number(self.fov))
+        let values = values.with("up", Value::Vector(self.up_hint)).with("fov", Value::Number(self.fov));
+        let values = values.with(LENS_RADIUS, Value::Number(self.lens_radius));
+        match self.focus {
+            Some(focus) => values.with(FOCUS, Value::Number(focus)),
+            None => values,
+        }
     }
 }
 
@@ -271,6 +383,51 @@ mod tests {
         let turned = Placement::IDENTITY.turned(DVec3::ZERO, DVec3::X, 0.3).unwrap();
         let up = down.placed(&turned).unwrap().up();
         assert!((up - turned.direction(-DVec3::Z)).length() < 1e-12, "{up}");
+    }
+
+    #[test]
+    fn rays_from_all_over_a_lens_meet_where_things_are_sharp() {
+        let camera = seed().with_lens(0.25, Some(3.0)).unwrap();
+        let raster = camera.raster(40, 30);
+        for (x, y) in [(20.0, 15.0), (0.5, 29.5), (33.0, 2.25)] {
+            let sharp = raster.ray(x, y).at(3.0);
+            for (right, up) in [(0.0, 0.0), (1.0, 0.0), (0.0, -1.0), (-0.6, 0.8)] {
+                let ray = raster.ray_from(x, y, [right, up]);
+                assert!((ray.at(3.0) - sharp).length() < 1e-12, "{x} {y} {right} {up}");
+                let from = ray.origin - camera.eye();
+                assert!((from - (camera.right() * right + camera.up() * up) * 0.25).length() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn a_lens_is_sharp_at_the_target_unless_told_otherwise() {
+        let camera = Camera::look_at(DVec3::ZERO, DVec3::X * 4.0, DVec3::Y, 1.0).unwrap();
+        let lens = |radius, focus| camera.clone().with_lens(radius, focus);
+        assert_eq!(lens(0.1, None).unwrap().focus(), Some(4.0));
+        assert_eq!(lens(0.1, Some(2.0)).unwrap().focus(), Some(2.0));
+        assert_eq!(lens(0.0, None).unwrap().raster(8, 8).lens, None);
+        let placement = Placement::IDENTITY.scaled(2.0).unwrap();
+        let placed = lens(0.1, Some(2.0)).unwrap().placed(&placement).unwrap();
+        assert_eq!((placed.lens_radius(), placed.focus()), (0.2, Some(4.0)));
+        for (radius, focus, field) in [
+            (-0.1, None, "lens-radius"),
+            (f64::NAN, None, "lens-radius"),
+            (f64::INFINITY, None, "lens-radius"),
+            (0.1, Some(0.0), "focus"),
+            (0.1, Some(f64::NAN), "focus"),
+        ] {
+            assert_eq!(lens(radius, focus).unwrap_err().field(), field, "{radius} {focus:?}");
+        }
+        assert_eq!(seed().with_lens(0.1, None).unwrap_err().field(), "focus");
+        assert!(seed().with_lens(0.0, None).is_ok());
+    }
+
+    #[test]
+    fn values_make_an_equal_camera() {
+        for camera in [seed(), seed().with_lens(0.1, Some(2.0)).unwrap()] {
+            assert_eq!((Camera::KIND.make)(&Part::values(&camera)).unwrap(), camera);
+        }
     }
 
     #[test]

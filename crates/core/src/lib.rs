@@ -30,7 +30,7 @@ pub mod ray;
 pub mod scene;
 
 pub use bounds::Aabb;
-pub use camera::{Aim, Camera, Raster};
+pub use camera::{Aim, Camera, Lens, Raster};
 pub use color::{Rgb, srgb_decoded, srgb_encoded};
 pub use error::InvalidPart;
 pub use geometry::{Geometry, Shape, TriangleMesh};

@@ -50,6 +50,57 @@ impl Display {
         }
     }
 
+    /// One channel before it is rounded to a byte: 0..=1, and 0 for NaN.
+    #[must_use]
+    pub fn value(self, light: f32) -> f64 {
+        match self {
+            Self::Linear => f64::from(within_range(light)),
+            Self::Srgb => srgb_curve(light),
+            Self::Filmic => srgb_curve(filmic(light)),
+        }
+    }
+
+    /// The same after light is brightened by so many stops, each a factor of 2.
+    #[must_use]
+    pub fn exposed(self, stops: f64) -> Tone {
+        Tone { display: self, gain: stops.exp2() as f32 }
+    }
+}
+
+/// How light becomes bytes: an exposure, then a display transform.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tone {
+    display: Display,
+    gain: f32,
+}
+
+impl Default for Tone {
+    fn default() -> Self {
+        Display::default().into()
+    }
+}
+
+impl From<Display> for Tone {
+    /// Light as it is.
+    fn from(display: Display) -> Self {
+        display.exposed(0.0)
+    }
+}
+
+impl Tone {
+    /// One channel.
+    #[must_use]
+    #[inline]
+    pub fn byte(self, light: f32) -> u8 {
+        self.display.byte(light * self.gain)
+    }
+
+    /// One channel before it is rounded to a byte: 0..=1.
+    #[must_use]
+    pub fn value(self, light: f32) -> f64 {
+        self.display.value(light * self.gain)
+    }
+
     /// All pixels as `0x00RRGGBB`, row by row.
     ///
     /// # Panics
@@ -123,9 +174,17 @@ fn srgb_byte(light: f32) -> u8 {
 }
 
 fn srgb_exact(light: f32) -> u8 {
-    let light = f64::from(light);
-    let curved = if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
-    (255.0 * curved).round().clamp(0.0, 255.0) as u8
+    (255.0 * srgb_curve(light)).round() as u8
+}
+
+/// Light that a display can show; none for NaN.
+fn within_range(light: f32) -> f32 {
+    if light > 0.0 { light.min(1.0) } else { 0.0 }
+}
+
+fn srgb_curve(light: f32) -> f64 {
+    let light = f64::from(within_range(light));
+    if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
 }
 
 #[cfg(test)]
@@ -153,7 +212,27 @@ mod tests {
         for display in Display::ALL {
             let bytes: Vec<u8> = (0..200).map(|i| display.byte(i as f32 / 100.0)).collect();
             assert!(bytes.is_sorted() && bytes[0] == 0, "{display:?}");
-            assert_eq!(display.byte(f32::NAN), 0);
+            assert_eq!((display.byte(f32::NAN), display.value(f32::NAN)), (0, 0.0));
+        }
+    }
+
+    #[test]
+    fn bytes_are_values_rounded() {
+        for (display, i) in Display::ALL.iter().flat_map(|display| (-5..300).map(move |i| (display, i))) {
+            let light = i as f32 / 200.0;
+            let off = display.value(light) * 255.0 - f64::from(display.byte(light));
+            assert!(off.abs() < 1.0 + 1e-6, "{display:?} {light}: {off}");
+        }
+    }
+
+    #[test]
+    fn a_stop_is_a_factor_of_two() {
+        for display in Display::ALL {
+            let (plain, brighter) = (display.exposed(0.0), display.exposed(1.0));
+            assert!((0..100).all(|i| {
+                let light = i as f32 / 100.0;
+                plain.byte(light) == display.byte(light) && brighter.byte(light) == display.byte(2.0 * light)
+            }));
         }
     }
 }

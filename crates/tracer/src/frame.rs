@@ -3,6 +3,7 @@
 use catoptra_core::Raster;
 use catoptra_core::glam::DVec3;
 
+use crate::edges::EdgeList;
 use crate::{Snapshot, View};
 
 /// What a backend is given: a snapshot, and from where it is looked at.
@@ -18,6 +19,8 @@ pub struct Frame<'a> {
     pub(crate) eye: DVec3,
     /// Whether the eye, and so every ray of the view, stays outside all convex solids.
     pub(crate) outside_solids: bool,
+    /// The outlines that are seen, where they are to be shown exactly.
+    pub(crate) edges: Option<&'a EdgeList>,
 }
 
 impl<'a> Frame<'a> {
@@ -25,14 +28,22 @@ impl<'a> Frame<'a> {
     #[must_use]
     pub fn new(snapshot: &'a Snapshot, view: &'a View) -> Self {
         let frame = Self::without_eye(snapshot, view);
-        Self { outside_solids: snapshot.columns().is_outside(frame.eye), ..frame }
+        let outside = frame.is_pinhole() && snapshot.columns().is_outside(frame.eye);
+        Self { outside_solids: outside, ..frame }
     }
 
     /// As [`new`](Self::new), without asking where the eye lies.
     pub(crate) fn without_eye(snapshot: &'a Snapshot, view: &'a View) -> Self {
         let raster = view.camera.raster(view.size.width, view.size.height);
         let eye = raster.eye - snapshot.origin();
-        let raster = Raster { eye: raster.eye - snapshot.frame(), ..raster };
-        Self { snapshot, view, raster, eye, outside_solids: false }
+        // One sample is seen from the middle of the lens.
+        let lens = raster.lens.filter(|_| view.samples > 1);
+        let raster = Raster { eye: raster.eye - snapshot.frame(), lens, ..raster };
+        Self { snapshot, view, raster, eye, outside_solids: false, edges: None }
+    }
+
+    /// Whether all rays of the view start at the eye.
+    pub(crate) fn is_pinhole(&self) -> bool {
+        self.raster.lens.is_none()
     }
 }

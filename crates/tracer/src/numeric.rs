@@ -20,6 +20,17 @@ pub(crate) const FAR: f64 = 8.0;
 /// pixels before it, below 2³², needs 52 bits at most, so it is the same however it is put together.
 pub(crate) const SAMPLE_STEP: f64 = 1.0 / (1_u32 << 20) as f64;
 
+/// Relative error of a sum of light in `f32`, for each of its terms: a rounding.
+pub(crate) const SUM_ERROR: f64 = U as f64;
+
+/// Share of a target below which an error that is judged by few samples is believed at once: what 16 means say is off by a
+/// factor of 3 in less than one case of 10⁶.
+pub(crate) const AT_ONCE: f64 = 1.0 / 3.0;
+
+/// How many times as many samples a pixel gets at most before its error is judged again: so much may be lost where the
+/// error was overrated.
+pub(crate) const MOST_GROWTH: u32 = 16;
+
 /// Whether results in `f32` carry error bounds, as they do in every ordinary build. Only a build that measures the cost
 /// of the bounds (the feature `trust-f32`) sets them all to zero and takes `f32` results as they are.
 pub(crate) const CERTAIN: bool = cfg!(not(feature = "trust-f32"));
@@ -78,6 +89,59 @@ pub(crate) const EDGE_ERROR: f32 = 24.0 * U;
 /// the few `f64` operations of those tests (below 2⁻⁴⁵) and of points that were rounded to `f32` (2⁻²² of their
 /// coordinates), with room to spare.
 pub(crate) const PLAN_MARGIN: f64 = 1.0 / (1_u64 << 18) as f64;
+
+/// Share by which the reach of an outline's function is widened before a square is said to be free of it: a dozen `f64`
+/// roundings of each value (2⁻⁴⁹), with room to spare, so that a square that holds another is never free where that one is
+/// not.
+pub(crate) const OUTLINE_MARGIN: f64 = 1.0 / (1_u64 << 40) as f64;
+
+/// Where a segment that runs behind the eye is cut off, as a share of the depth of its deeper end: what is nearer lies
+/// 2²⁰ times as far from the picture's middle as the eye sees that end to be off it.
+pub(crate) const NEAREST_SHARE: f64 = 1.0 / (1_u64 << 20) as f64;
+
+/// Most lines of one family between checkered squares that part a square: beyond, squares are so small that their mean is
+/// near.
+pub(crate) const MOST_LINES: f64 = 8.0;
+
+/// Most outlines of a frame: with so many, those in mirrors are no longer told apart.
+pub(crate) const MOST_OUTLINES: usize = 1 << 16;
+
+/// Most pairs of a flat surface and a body between it and a lamp: with more, shadows' edges are not told.
+pub(crate) const MOST_SHADOWS: usize = 1 << 16;
+
+/// How far four times what the middle of a pixel shows may be from the sum of what its corners do, as a share of the largest of
+/// them, for the pixel to be taken as one surface: a hundredth of that, which is less than an eye can tell.
+pub(crate) const DOUBT_CONTRAST: f64 = 4.0 / 100.0;
+
+/// Least share of light that mirrors must leave for outlines in them to be told: what is seen in fainter ones is left to a
+/// pixel's own sample.
+pub(crate) const LEAST_MIRRORED: f64 = 1.0 / 16.0;
+
+/// Most pieces of a pixel: one with more is sampled.
+pub(crate) const MOST_PIXEL_PIECES: usize = 64;
+
+/// Mirrors after one another in which outlines are told.
+pub(crate) const MIRRORS_DEEP: usize = 2;
+
+/// Largest area of a piece that is left with its neighbour, in quarters of a square: four of 2⁻²² change a pixel by a
+/// millionth of what they show at most.
+pub(crate) const LEAST_PIECE: f64 = 1.0 / (1_u64 << 22) as f64;
+
+/// Half the side, in pixels, of squares that are not quartered any further: what is told by a sample in the middle of one is
+/// 1/256 of a pixel.
+pub(crate) const FINEST_SQUARE: f64 = 1.0 / 32.0;
+
+/// Least share of its slope that an outline's function must keep all over a square for the outline to be replaced by a
+/// straight line there: it then turns by less than 60°.
+pub(crate) const MOST_BEND: f64 = 0.5;
+
+/// Places and weights of Gauss and Legendre's rule of four points on −1 to 1, exact for degree 7.
+pub(crate) const GAUSS_4: [(f64, f64); 4] = [
+    (-0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
+    (-0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
+    (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
+    (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
+];
 
 /// Share of the distance from a light by which points are taken to lie nearer to its cone than they do. `f32` knows the
 /// cosine of a point's angle to the axis to 20 u, below 2⁻¹⁹ (six roundings of each coordinate of a unit vector, whose

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::edges::EdgeList;
 use crate::{Backend, Control, Film, Frame, Pool, Snapshot, Stats, View};
 
 /// The render was asked to stop; the film holds some new tiles and some old ones.
@@ -17,7 +18,8 @@ pub struct Cancelled;
 /// [`Cancelled`] when `control` said so before the last tile was begun.
 ///
 /// # Panics
-/// A film of another part of the picture than the view's.
+/// A film of another part of the picture than the view's, or without the samples that the view [goes on](View::range)
+/// from.
 pub fn render(
     backend: &dyn Backend,
     snapshot: &Snapshot,
@@ -27,7 +29,12 @@ pub fn render(
     control: &Control,
 ) -> Result<Stats, Cancelled> {
     assert_eq!(film.region(), view.region(), "the film holds what the view shows");
+    let first = view.traced_samples().start;
+    let goes_on = first == 0 || film.tiles_mut().iter().all(|tile| tile.holds(first));
+    assert!(goes_on, "the film holds the samples before number {first}");
     let frame = Frame::new(snapshot, view);
+    let edges = EdgeList::for_view(snapshot, view, &frame.raster);
+    let frame = Frame { edges: edges.as_ref(), ..frame };
     let tiles = film.tiles_mut();
     control.start(tiles.len());
     let trace = |tile: &mut crate::Tile| {

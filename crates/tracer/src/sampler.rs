@@ -8,6 +8,18 @@ use fearless_simd::Simd;
 
 use crate::lanes::{HALVES, U, Word};
 
+/// The pairs of dimensions, by what is chosen with them: every kind of choice has one of its own.
+pub(crate) mod pairs {
+    /// The direction in which a surface looks for the sky.
+    pub(crate) const DIRECTION: u32 = 0;
+    /// Where in a pixel a sample lies.
+    pub(crate) const PLACE: u32 = 1;
+    /// Where on the lens a camera ray starts.
+    pub(crate) const LENS: u32 = 2;
+    /// Where on a lamp rays end: from here on one for every lamp and every reflection.
+    pub(crate) const LAMPS: u32 = 64;
+}
+
 /// The numbers of one pixel, or of a register of pixels.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sampler<W> {
@@ -48,14 +60,22 @@ pub(crate) fn share(bits: u32) -> f64 {
     f64::from(bits) / (1_u64 << 32) as f64
 }
 
+/// The seed of one of several sequences that know nothing of each other; of the first it is `seed` itself.
+#[inline(always)]
+pub(crate) fn seed_of_sequence(seed: u32, sequence: u32) -> u32 {
+    // Odd, so that no two of a seed's sequences are alike; far from any seed that is counted up.
+    seed.wrapping_add(sequence.wrapping_mul(GOLDEN))
+}
+
 /// Point number `index` of Sobol's first two dimensions, each scrambled with its own seed, as shares of 2³².
 #[inline(always)]
 pub(crate) fn sobol<W: Word>(index: W, [first, second]: [W; 2]) -> [W; 2] {
     // The first dimension is the index from its lowest bit on. Bit i of the second, from its highest one on, is the sum
     // of C(j, i) times bit j of the index: Pascal's triangle modulo 2, which falls into one step a halving.
-    let triangle = HALVES
-        .iter()
-        .fold(index, |bits, &(places, lower)| bits.xor(bits.shift_down(places).and(bits.of(lower))));
+    let mut triangle = index;
+    for (places, lower) in HALVES {
+        triangle = triangle.xor(triangle.shift_down(places).and(triangle.of(lower)));
+    }
     [scrambled_reversed(index, first).reversed(), scrambled_reversed(triangle, second).reversed()]
 }
 
@@ -63,9 +83,11 @@ pub(crate) fn sobol<W: Word>(index: W, [first, second]: [W; 2]) -> [W; 2] {
 /// (Laine and Karras 2011, with Burley's constants).
 #[inline(always)]
 fn scrambled_reversed<W: Word>(bits: W, seed: W) -> W {
-    [0x6c50_b47c_u32, 0xb82f_1e52, 0xc7af_e638, 0x8d22_f6e6]
-        .into_iter()
-        .fold(bits.plus(seed), |x, factor| x.xor(x.times_number(factor)))
+    let mut x = bits.plus(seed);
+    for factor in [0x6c50_b47c_u32, 0xb82f_1e52, 0xc7af_e638, 0x8d22_f6e6] {
+        x = x.xor(x.times_number(factor));
+    }
+    x
 }
 
 /// An integer hash (`lowbias32`, Wellons, "Prospecting for Hash Functions", 2018, with the constants found since).

@@ -75,6 +75,19 @@ pub struct LampStats {
     pub sampled: u64,
 }
 
+/// Pixels that are shown by the pieces that outlines part them into.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct EdgePixels {
+    /// Parted by straight cuts, each piece shown through its centroid.
+    pub parted: u64,
+    /// With outlines that are too many or bend too much for that: quartered until they are not.
+    pub quartered: u64,
+    /// Sampled, as not all that may end in them is known.
+    pub sampled: u64,
+    /// Rays through pieces, and samples.
+    pub pieces: u64,
+}
+
 /// Counts of one render, or of a part of it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Stats {
@@ -86,6 +99,8 @@ pub struct Stats {
     pub lamps: LampStats,
     /// Rays not traced.
     pub skipped: Skipped,
+    /// Pixels that outlines cross, where they are shown exactly.
+    pub edges: EdgePixels,
     /// Answers that `f32` could not decide and `f64` did.
     pub settled: u64,
     /// Answers that `f64` could not decide and exact arithmetic did.
@@ -110,7 +125,8 @@ add_fields!(Skipped:
     nothing_seen, blank_before, unreached, facing_away, out_of_cone, shadow_off, unlit_material, nothing_between, nothing_ahead, not_reflective,
     depth_limit, weight_cutoff, below_surface);
 add_fields!(LampStats: facing_away, open, dark, past_a_ball, partly, sampled);
-add_fields!(Stats: rays, tests, lamps, skipped, settled, exact, not_finite);
+add_fields!(EdgePixels: parted, quartered, sampled, pieces);
+add_fields!(Stats: rays, tests, lamps, skipped, edges, settled, exact, not_finite);
 
 impl Stats {
     /// The counts of some work on this thread, and how many of its questions exact arithmetic has answered.

@@ -1,9 +1,11 @@
 //! What is asked for: camera, size, and how far to go.
 
+use std::ops::Range;
+
 use catoptra_core::{Camera, Integrator, Scene};
 
 use crate::numeric::{LAMP_RAYS, WEIGHT_CUTOFF};
-use crate::{Instructions, Pattern};
+use crate::{Filter, Instructions, Pattern};
 
 /// Picture size in pixels; either may be zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, serde::Serialize)]
@@ -84,18 +86,61 @@ pub struct View {
     pub occlusion_distance: f64,
     /// What random choices go by: another seed makes other ones, the same one makes the same bits.
     pub seed: u32,
-    /// Samples per pixel along each axis: n x n of them; 1 is the pixel's centre.
-    pub grid: u32,
-    /// Rays to a lamp for each camera ray that leads to a point where it has no closed form.
+    /// Samples per pixel, at least 1; one lies in the pixel's centre, and is seen as through a pinhole.
+    pub samples: u32,
+    /// Only those of these numbers, which begin with 0: the film is to hold those before, and goes on from there. All of
+    /// them if left out. Bits are those of all traced at once.
+    pub range: Option<Range<u32>>,
+    /// In how many sequences that know nothing of each other samples are counted off in turn; 1 is the most even.
+    pub sequences: u32,
+    /// Rays to a lamp from a point where it has no closed form, in all samples of a pixel together; each sample has one at
+    /// least.
     pub lamp_rays: u32,
-    /// Where in a pixel they lie.
+    /// Where in a pixel samples lie.
     pub pattern: Pattern,
+    /// How much each place in and round a pixel counts.
+    pub filter: Filter,
+    /// The most that a channel of one sample counts; brighter ones are cut off, which darkens the picture. Infinite for all.
+    pub clamp: f32,
+    /// How pixels are shown that outlines cross.
+    pub edges: Edges,
     /// Whether the film is to tell [standard errors](crate::Film::standard_error); the picture's bits do not depend on it.
     pub moments: bool,
     /// Which work that cannot matter is left out; the picture's bits do not depend on it.
     pub skip: Skip,
     /// Vector instructions to trace with; without, the best that the CPU has. The picture's bits do not depend on them.
     pub instructions: Option<Instructions>,
+}
+
+/// How pixels are shown that the outlines of things cross.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Edges {
+    /// As any other: by their samples.
+    #[default]
+    Off,
+    /// By the area of each part that outlines divide them into, and what its centroid shows. Under
+    /// [`Whitted`](Integrator::Whitted) alone; other integrators sample them.
+    Exact,
+}
+
+impl Edges {
+    /// Both ways.
+    pub const ALL: &'static [Self] = &[Self::Off, Self::Exact];
+
+    /// Its name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::Exact => "exact",
+        }
+    }
+
+    /// The way of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|edges| edges.name() == name)
+    }
 }
 
 /// Work that is left out because it cannot matter. Switched off, the same bits are computed the long way.
@@ -135,9 +180,14 @@ impl View {
             weight_cutoff: WEIGHT_CUTOFF,
             occlusion_distance: f64::INFINITY,
             seed: 0,
-            grid: 1,
+            samples: 1,
+            range: None,
+            sequences: 1,
             lamp_rays: LAMP_RAYS,
-            pattern: Pattern::Grid,
+            pattern: Pattern::ALL[0],
+            filter: Filter::ALL[0],
+            clamp: f32::INFINITY,
+            edges: Edges::Off,
             moments: false,
             skip: Skip::ALL,
             instructions: None,
@@ -152,32 +202,39 @@ impl View {
             integrator: settings.integrator(),
             max_depth: settings.max_depth(),
             occlusion_distance: settings.occlusion_distance().unwrap_or(f64::INFINITY),
+            samples: settings.samples(),
             ..Self::new(camera, size)
         }
     }
 
-    /// With at least `samples` samples a pixel, a square number of them.
+    /// With so many samples a pixel.
     #[must_use]
     pub fn with_samples(self, samples: u32) -> Self {
-        let grid = f64::from(samples).sqrt().ceil() as u32;
-        Self { grid: grid.max(1), ..self }
+        Self { samples, ..self }
+    }
+
+    /// The numbers of the samples that are traced.
+    #[must_use]
+    pub fn traced_samples(&self) -> Range<u32> {
+        let all = self.samples.max(1);
+        let range = self.range.clone().unwrap_or(0..all);
+        range.start.min(all)..range.end.min(all)
+    }
+
+    /// The side of the square of a pixel that each of its samples stands for.
+    pub(crate) fn side_of_sample(&self) -> f64 {
+        1.0 / f64::from(self.samples.max(1)).sqrt()
+    }
+
+    /// Rays to a lamp from a point that one sample leads to, where it has no closed form.
+    pub(crate) fn lamp_rays_of_sample(&self) -> u32 {
+        self.lamp_rays.div_ceil(self.samples.max(1)).max(1)
     }
 
     /// The part of the picture that is traced: what of the crop lies within it, or all of it.
     #[must_use]
     pub fn region(&self) -> Region {
         self.crop.unwrap_or(Region::from(self.size)).within(self.size)
-    }
-
-    /// How far from a pixel's left and upper edge one of its samples lies, in pixels.
-    pub(crate) fn place(&self, column: u32, row: u32) -> [f64; 2] {
-        self.pattern.place(self.grid, column, row)
-    }
-
-    /// Samples a pixel.
-    #[must_use]
-    pub const fn samples(&self) -> u32 {
-        self.grid.saturating_mul(self.grid)
     }
 }
 

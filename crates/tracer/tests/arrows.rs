@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// The modules of the crate from top to bottom. Modules of one row stand side by side and do not use each other.
 const LAYERS: &[&[&str]] = &[
+    &["target"],
     &["render", "query", "pick"],
     &["backend"],
     &["integrator"],
@@ -15,13 +16,15 @@ const LAYERS: &[&[&str]] = &[
     &["lamps"],
     &["cull"],
     &["rays", "frame"],
+    &["edges"],
     &["snapshot"],
     &["kernel"],
     &["accel"],
     &["display"],
     &["film"],
+    &["sample"],
     &["view"],
-    &["pattern"],
+    &["pattern", "filter"],
     &["sampler", "instructions", "stats", "control", "pool"],
     &["lanes", "random"],
     &["numeric"],

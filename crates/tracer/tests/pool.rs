@@ -8,7 +8,7 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::material::Matte;
 use catoptra_core::{Camera, MeshSource, Ray, Rgb, Scene, TriangleMesh};
 use catoptra_tracer::query::{HitList, RayList, find_nearest};
-use catoptra_tracer::{Control, Display, Film, Pool, Preset, Size, Snapshot, View, backends, render};
+use catoptra_tracer::{Control, Film, Pool, Preset, Size, Snapshot, Tone, View, backends, render};
 
 /// More triangles than one thread builds by itself.
 fn hills(side: u32) -> TriangleMesh {
@@ -55,7 +55,7 @@ fn nothing_runs_on_the_threads_of_the_process() {
         render(*backend, &snapshot, &view, &mut film, &pool, &Control::default()).unwrap();
         find_nearest(*backend, &snapshot, &rays, &mut HitList::default(), &pool);
     }
-    Display::Srgb.encode(&film, &pool, &mut vec![0; view.size.pixels()]);
+    Tone::default().encode(&film, &pool, &mut vec![0; view.size.pixels()]);
     let unused = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
     assert!(unused.is_ok(), "the global pool was made before: {unused:?}");
 }

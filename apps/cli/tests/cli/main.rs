@@ -10,5 +10,6 @@ mod lab;
 mod printing;
 mod program;
 mod render;
+mod targets;
 mod usage;
 mod warnings;

@@ -69,8 +69,11 @@ fn integrators_are_chosen_by_name_or_by_the_scene_and_seeds_repeat() {
     )
     .unwrap();
     let picture = |scene: &str, options: &[&str]| {
-        let arguments =
-            [&["render", scene, "-o", "a.exr", "--size", "32x32", "--samples", "4"], options].concat();
+        let arguments = [
+            &["render", scene, "-o", "a.exr", "--size", "32x32", "--samples", "3", "--pattern", "sobol"],
+            options,
+        ]
+        .concat();
         let ran = catoptra(folder.path(), &arguments);
         assert_eq!(ran.code, 0, "{options:?} {}", ran.err);
         std::fs::read(folder.path().join("a.exr")).unwrap()
@@ -187,7 +190,9 @@ fn bad_numbers_are_refused() {
         |option: &'static str, value: &'static str| ["render", "scene.kdl", "-o", "a.png", option, value];
     assert_refused(folder.path(), &with("--size", "640"), &["640", "WIDTHxHEIGHT"]);
     assert_refused(folder.path(), &with("--size", "0x4"), &["1 to"]);
-    assert_refused(folder.path(), &with("--samples", "3"), &["square", "1 or 4"]);
+    assert_refused(folder.path(), &with("--samples", "0"), &["whole number from 1 to 65536"]);
+    let grid = [&with("--samples", "3")[..], &["--pattern", "grid"]].concat();
+    assert_refused(folder.path(), &grid, &["square", "1 or 4"]);
     assert_refused(folder.path(), &with("--threads", "0"), &["0"]);
     assert_refused(folder.path(), &with("--repeat", "0"), &["0"]);
     assert_refused(folder.path(), &with("--max-depth", "x"), &["max-depth"]);

@@ -10,6 +10,7 @@ fn options_without_effect_are_told_and_no_error() {
         ("--repeat 1 --display filmic", "--display"),
         ("--stats s.json --display srgb", "--display"),
         ("-o a.png --pattern sobol", "--pattern"),
+        ("-o a.png --filter tent", "--filter"),
         ("-o a.png --simd LEVEL --backend scalar", "--simd"),
         ("-o a.png --simd LEVEL --backend oracle", "--simd"),
     ] {
@@ -53,6 +54,7 @@ fn options_with_effect_are_not_told() {
         "-o a.png --display srgb",
         "-o a.png --display filmic --repeat 2 --stats s.json --tile 8",
         "-o a.exr --pattern grid --samples 4",
+        "-o a.exr --pattern owen --filter tent --samples 5",
     ] {
         let line = format!("render scene.kdl --size 8x8 {line}");
         let ran = catoptra(folder.path(), &line.split(' ').collect::<Vec<_>>());
@@ -67,6 +69,7 @@ fn unknown_names_are_errors_without_a_picture_and_without_a_scene() {
         ("--display", "sgrb", "did you mean `srgb`?"),
         ("--backend", "wied", "did you mean `wide`?"),
         ("--pattern", "sobl", "did you mean `sobol`?"),
+        ("--filter", "tnet", "did you mean `tent`?"),
         ("--simd", "avx3", "avx3"),
     ] {
         assert_refused(folder.path(), &["render", "scene.kdl", option, name], &[name, meant]);

@@ -30,11 +30,24 @@ impl<L: Lane> Disk<L> {
         }
     }
 
+    /// Its coordinates.
+    #[inline(always)]
+    fn coordinates(&self) -> [L; 2] {
+        [self.cosine * self.radius, self.sine * self.radius]
+    }
+
     /// The vector in this point's direction, so far across from the z axis and so far along it.
     #[inline(always)]
     pub(super) fn raised(&self, across: L, along: L) -> Triple<L> {
         Triple::new(self.cosine * across, self.sine * across, along)
     }
+}
+
+/// The point of the unit disk that two numbers in 0..1 choose, spread evenly.
+#[inline(always)]
+#[must_use]
+pub fn point_of_disk<L: Lane>(numbers: [L; 2]) -> [L; 2] {
+    Disk::at(numbers).coordinates()
 }
 
 /// Cosine and sine of as many eighths of a turn, −1..=1: Taylor's series, whose first terms left out are below 5e-17.

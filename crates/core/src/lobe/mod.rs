@@ -12,6 +12,7 @@ mod phong;
 mod scatter_checks;
 
 pub use diffuse::Diffuse;
+pub use hemisphere::point_of_disk;
 pub use mirror::{Mirror, Mirrored};
 pub use phong::{Phong, PhongModel, PhongShape};
 

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::footprint::{Footprint, mean_sign};
 use super::{MirrorShare, Surface};
 use crate::lane::Constant3;
 use crate::numeric::{PATTERN_ERROR, PATTERN_SHIFT};
@@ -33,6 +34,13 @@ impl Checker {
                 .with("other", Value::Color(other))
                 .with("scale", Value::Number(scale)),
         )
+    }
+
+    /// Squares per metre, and the cell numbers along x and z at the origin that positions are relative to, less a multiple of
+    /// two.
+    #[must_use]
+    pub fn grid(&self) -> (f64, [f64; 2]) {
+        (self.scale.wide, self.phase.map(|phase| phase.wide))
     }
 
     /// In how many cells from the pattern's corner a point lies, along x and z.
@@ -84,6 +92,15 @@ impl Surface for Checker {
         let odd = cell.number(0.25).less(half - half.floor());
         let albedo = Triple::select(odd, Triple::of(cell, &self.color), Triple::of(cell, &self.other));
         self.mirror.over(Lobes::matte(albedo))
+    }
+
+    #[inline(always)]
+    fn mean_lobes<L: Lane>(&self, at: &ShadingPoint<L>, footprint: &Footprint<L>) -> Lobes<L> {
+        let [x, z] = footprint.coordinates(at, self.cells(at), at.distance.of(self.scale));
+        let half = at.distance.number(0.5);
+        let odd = half - half * mean_sign(&x, &z);
+        let (color, other) = (Triple::of(odd, &self.color), Triple::of(odd, &self.other));
+        self.mirror.over(Lobes::matte(color.scale_add(odd, other.scale(at.distance.number(1.0) - odd))))
     }
 
     fn relative_to(&self, origin: DVec3) -> Self {

@@ -6,6 +6,7 @@
 mod checker;
 mod depth;
 mod emissive;
+mod footprint;
 mod matte;
 mod mirror;
 mod mirror_share;
@@ -14,6 +15,7 @@ mod phong;
 pub use checker::Checker;
 pub use depth::Depth;
 pub use emissive::Emissive;
+pub use footprint::Footprint;
 pub use matte::Matte;
 pub use mirror::Mirror;
 pub use phong::Phong;
@@ -37,6 +39,12 @@ pub trait Surface {
     /// How light leaves it where and from where it is seen. Which lobes there are depends on the material alone, how
     /// strong they are on the point.
     fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L>;
+
+    /// As [`lobes`](Self::lobes), on average over what is seen through a square of the picture.
+    #[inline(always)]
+    fn mean_lobes<L: Lane>(&self, at: &ShadingPoint<L>, _footprint: &Footprint<L>) -> Lobes<L> {
+        self.lobes(at)
+    }
 
     /// The same material for positions that are counted from `origin`, a point of the scene.
     #[must_use]
@@ -113,6 +121,16 @@ impl Material {
     #[must_use]
     pub fn emission(&self) -> Option<Emission> {
         each_material!(self, material => material.emission())
+    }
+
+    /// As [`visit_lobes`](Self::visit_lobes), with [`Surface::mean_lobes`].
+    #[inline(always)]
+    pub fn visit_mean_lobes<L: Lane, T>(
+        &self,
+        (at, footprint): (&ShadingPoint<L>, &Footprint<L>),
+        work: impl FnOnce(Lobes<L>) -> T,
+    ) -> T {
+        each_material!(self, material => work(material.mean_lobes(at, footprint)))
     }
 
     /// Which lobes it has, anywhere.

@@ -1,22 +1,30 @@
-//! What holds for a scene as a whole: what is seen where there is nothing, what a picture shows, and how far it goes.
+//! What holds for a scene as a whole: what is seen where there is nothing, what a picture shows, how far it goes, how sure
+//! its pixels are, and how bright it is displayed.
 
 use super::Integrator;
 use crate::part::Given;
 use crate::{Field, FieldKind, InvalidPart, Kind, Part, Rgb, Value, Values};
 
-/// Settings of a scene. The default is a black background, 5 bounces, the first integrator, and occlusion at any distance.
+/// Settings of a scene. The default is a black background, 5 bounces, the first integrator, occlusion at any distance, one
+/// sample a pixel, and light displayed as it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     background: Rgb,
     max_depth: u32,
     integrator: Integrator,
     occlusion_distance: Option<f64>,
+    samples: u32,
+    max_error: Option<f64>,
+    exposure: f64,
 }
 
 const BACKGROUND: &str = "background";
 const MAX_DEPTH: &str = "max-depth";
 const INTEGRATOR: &str = "integrator";
 const OCCLUSION_DISTANCE: &str = "occlusion-distance";
+const SAMPLES: &str = "samples";
+const MAX_ERROR: &str = "max-error";
+const EXPOSURE: &str = "exposure";
 
 impl Settings {
     /// How to make settings from named values.
@@ -26,6 +34,12 @@ impl Settings {
     /// The largest depth there is: after as many bounces on mirrors that give back 99 % of the light, 1 part in
     /// 23,000 is left, less than a picture shows.
     pub const MAX_DEPTH: u32 = 1000;
+
+    /// The most samples a pixel: an error of a 256th of what one sample has, less than a step of a picture's bytes.
+    pub const MAX_SAMPLES: u32 = 65_536;
+
+    /// The most stops of exposure either way: a factor of 2³², beyond any change from night to noon.
+    pub const MAX_EXPOSURE: f64 = 32.0;
 
     /// Radiance seen where a ray leaves the scene, and the most reflections one after the other (0 for none); the rest as
     /// by default.
@@ -93,6 +107,25 @@ impl Settings {
         self.occlusion_distance
     }
 
+    /// Samples a pixel, at least 1.
+    #[must_use]
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// The standard error that samples are to bring each pixel's displayed value under; `None` for as many samples as are
+    /// asked for.
+    #[must_use]
+    pub fn max_error(&self) -> Option<f64> {
+        self.max_error
+    }
+
+    /// By how many stops light is brightened for display, each a factor of 2.
+    #[must_use]
+    pub fn exposure(&self) -> f64 {
+        self.exposure
+    }
+
     /// The values by field name.
     #[must_use]
     pub fn values(&self) -> Values {
@@ -118,6 +151,9 @@ impl Default for Settings {
             max_depth: 5,
             integrator: Integrator::default(),
             occlusion_distance: None,
+            samples: 1,
+            max_error: None,
+            exposure: 0.0,
         }
     }
 }
@@ -144,21 +180,34 @@ impl Part for Settings {
             "Up to where what is met hides the sky from a surface, for the integrator of occlusion; any distance if left out.",
         )
         .optional(),
+        Field::required(SAMPLES, FieldKind::Count, "", "Samples a pixel of a picture that is written.")
+            .or(|| Value::Number(1.0)),
+        Field::required(
+            MAX_ERROR,
+            FieldKind::Number,
+            "",
+            "The standard error that samples are to bring each pixel's displayed value under.",
+        )
+        .optional(),
+        Field::required(EXPOSURE, FieldKind::Number, "stops", "By how many factors of 2 light is brightened for display.")
+            .or(|| Value::Number(0.0)),
     ];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
-        let depth = given.number(MAX_DEPTH)?;
-        let most = f64::from(Self::MAX_DEPTH);
-        if !((0.0..=most).contains(&depth) && depth.fract() == 0.0) {
-            return Err(InvalidPart::new(MAX_DEPTH, format!("must be a whole number in 0..{most}"), depth));
-        }
         let limited = given.has(OCCLUSION_DISTANCE);
+        let exposure = given.number(EXPOSURE)?;
+        if exposure.abs() > Self::MAX_EXPOSURE {
+            let most = Self::MAX_EXPOSURE;
+            return Err(InvalidPart::new(EXPOSURE, format!("must lie in -{most}..{most} stops"), exposure));
+        }
         Ok(Self {
             background: given.quantity(BACKGROUND)?,
-            // In range, so that the conversion is exact.
-            max_depth: depth as u32,
+            max_depth: whole(given, MAX_DEPTH, 0, Self::MAX_DEPTH)?,
             integrator: Integrator::ALL[given.choice(INTEGRATOR)?],
             occlusion_distance: limited.then(|| given.positive(OCCLUSION_DISTANCE)).transpose()?,
+            samples: whole(given, SAMPLES, 1, Self::MAX_SAMPLES)?,
+            max_error: given.has(MAX_ERROR).then(|| given.positive(MAX_ERROR)).transpose()?,
+            exposure,
         })
     }
 
@@ -166,12 +215,23 @@ impl Part for Settings {
         let values = Values::new()
             .with(BACKGROUND, Value::Color(self.background))
             .with(MAX_DEPTH, Value::Number(f64::from(self.max_depth)))
-            .with(INTEGRATOR, Value::Word(self.integrator.name().to_owned()));
-        match self.occlusion_distance {
-            Some(distance) => values.with(OCCLUSION_DISTANCE, Value::Number(distance)),
-            None => values,
-        }
+            .with(INTEGRATOR, Value::Word(self.integrator.name().to_owned()))
+            .with(SAMPLES, Value::Number(f64::from(self.samples)))
+            .with(EXPOSURE, Value::Number(self.exposure));
+        let optional = [(OCCLUSION_DISTANCE, self.occlusion_distance), (MAX_ERROR, self.max_error)];
+        let given = optional.into_iter().filter_map(|(name, value)| value.map(|value| (name, value)));
+        given.fold(values, |values, (name, value)| values.with(name, Value::Number(value)))
     }
+}
+
+/// A whole number of a range.
+fn whole(given: &Given<'_>, name: &'static str, least: u32, most: u32) -> Result<u32, InvalidPart> {
+    let number = given.number(name)?;
+    if !((f64::from(least)..=f64::from(most)).contains(&number) && number.fract() == 0.0) {
+        return Err(InvalidPart::new(name, format!("must be a whole number in {least}..{most}"), number));
+    }
+    // In range, so that the conversion is exact.
+    Ok(number as u32)
 }
 
 #[cfg(test)]
@@ -219,6 +279,30 @@ mod tests {
             let error = Settings::default().with("max-depth", Value::Number(bad)).unwrap_err();
             assert_eq!(error.field(), "max-depth", "{bad}");
         }
+    }
+
+    #[test]
+    fn samples_targets_and_exposures_are_refused_by_name_and_kept() {
+        let with = |field, value| Settings::default().with(field, Value::Number(value));
+        for (field, bad) in [
+            ("samples", 0.0),
+            ("samples", 1.5),
+            ("samples", 65_537.0),
+            ("max-error", 0.0),
+            ("max-error", -0.1),
+            ("max-error", f64::NAN),
+            ("exposure", f64::INFINITY),
+            ("exposure", 33.0),
+        ] {
+            assert_eq!(with(field, bad).unwrap_err().field(), field, "{bad}");
+        }
+        let settings = with("samples", 65_536.0).unwrap().with("max-error", Value::Number(0.01)).unwrap();
+        let settings = settings.with("exposure", Value::Number(-1.5)).unwrap();
+        assert_eq!(
+            (settings.samples(), settings.max_error(), settings.exposure()),
+            (65_536, Some(0.01), -1.5)
+        );
+        assert_eq!((Settings::KIND.make)(&settings.values()).unwrap(), settings);
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub(crate) fn quarters(region: Region) -> impl Iterator<Item = Region> {
     })
 }
 
-/// The camera rays of a region: those within four directions from the eye.
+/// The camera rays of a region, all from the eye: those within four directions.
 pub(crate) struct Frustum {
     eye: DVec3,
     corners: [DVec3; 4],
@@ -48,11 +48,13 @@ pub(crate) enum Coverage {
 impl Frustum {
     pub(crate) fn new(frame: &Frame<'_>, region: &Region) -> Self {
         let raster = &frame.raster;
-        let corner = |x: u32, y: u32| {
-            raster.corner + raster.across * f64::from(region.x + x) + raster.down * f64::from(region.y + y)
-        };
-        let Size { width: w, height: h } = region.size;
-        let corners = [corner(0, 0), corner(w, 0), corner(w, h), corner(0, h)];
+        // Samples may lie beyond the pixels that they belong to.
+        let margin = frame.view.filter.margin();
+        let ends = |start: u32, length: u32| [f64::from(start) - margin, f64::from(start + length) + margin];
+        let [left, right] = ends(region.x, region.size.width);
+        let [top, bottom] = ends(region.y, region.size.height);
+        let corner = |x: f64, y: f64| raster.corner + raster.across * x + raster.down * y;
+        let corners = [corner(left, top), corner(right, top), corner(right, bottom), corner(left, bottom)];
         Self { eye: frame.eye, corners, sides: OnceCell::new() }
     }
 

@@ -1,16 +1,17 @@
 //! Where a picture is gathered: linear light, depth and surface of every pixel, in tiles that are written apart.
 //!
-//! Light is kept as the sum over a pixel's samples; reading divides by how many they are.
+//! Light is kept as the sum over a pixel's samples; reading divides by how many they are. Where a pixel has one sample alone,
+//! that is the `f32` column that it was traced into.
 
-mod earlier_sums;
+mod replicates;
 mod sums;
 mod tile;
 
 use catoptra_core::EntityId;
 
 use crate::{Region, Size};
-pub(crate) use earlier_sums::EarlierSums;
-pub(crate) use sums::{Sum, store_finite};
+pub(crate) use replicates::SEQUENCES;
+pub(crate) use sums::store_finite;
 pub use tile::Tile;
 
 /// Edge of the square blocks that pixels of a tile are stored in. Sixteen pixels lie side by side in memory, so that
@@ -23,8 +24,13 @@ pub(crate) const BLOCK_PIXELS: usize = (BLOCK * BLOCK) as usize;
 /// Stands for "no surface".
 pub(crate) const NOTHING: u32 = u32::MAX;
 
-/// Bytes of a pixel: light, depth and surface. Standard errors, where a view asks for them, take 8 more.
+/// Bytes of a pixel: light, depth and surface. Standard errors, where a view asks for them, take 8 more, and more samples than
+/// one 24.
 const PIXEL_BYTES: u64 = 20;
+
+/// Bytes that a pixel takes beside these where its error is judged: the sum of its samples, their deviations, its goal and
+/// number, and the sums of its sequences.
+const JUDGED_BYTES: u64 = 24 + 8 + 4 + 4 + 12 * SEQUENCES as u64;
 
 /// There is no memory for a film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -103,6 +109,12 @@ impl Film {
         (side(size.width) * side(size.height)).saturating_mul(PIXEL_BYTES)
     }
 
+    /// Bytes of memory that a film of so many pixels takes where [`render_until`](crate::render_until) judges their errors.
+    #[must_use]
+    pub fn judged_bytes_of(size: Size) -> u64 {
+        (Self::bytes_of(size) / PIXEL_BYTES).saturating_mul(PIXEL_BYTES + JUDGED_BYTES)
+    }
+
     /// Its size.
     #[must_use]
     pub fn size(&self) -> Size {
@@ -155,12 +167,14 @@ impl Film {
         tile.samples(i)
     }
 
-    /// The standard error of a pixel's [luminance](catoptra_core::Rgb::luminance), as its samples tell it: the root of their
-    /// variance over their number. Never NaN or infinite; `None` for fewer than two samples, and where the view did not ask
-    /// for [moments](crate::View::moments).
+    /// The standard error of a pixel's [luminance](catoptra_core::Rgb::luminance). Never NaN or infinite.
     ///
-    /// It is that of independent samples. Samples that are spread evenly, as those of every pattern and sampler here, err by
-    /// less; how much less they do not tell.
+    /// By [`render_until`](crate::render_until) it is what sequences of samples that know nothing of each other tell: ±1.96 of it
+    /// hold the errors of 95 of 100 pixels; 0 where all samples are alike.
+    ///
+    /// Else it is that of independent samples, the root of their variance over their number; `None` for fewer than two
+    /// samples, and where the view did not ask for [moments](crate::View::moments). Samples that are spread evenly, as those of
+    /// every pattern and sampler here, err by less; how much less they do not tell.
     ///
     /// # Panics
     /// A pixel outside the picture.

@@ -26,39 +26,32 @@ pub(super) fn finite(sum: f32) -> f32 {
 
 /// How many samples the pixels of a tile hold.
 #[derive(Debug, Clone)]
-pub(super) enum Samples {
-    /// All the same number; with the share of each sample, which is read without a look at memory.
-    Uniform { count: u32, share: f32 },
+pub(super) enum Counts {
+    /// All the same number.
+    Uniform(u32),
     /// Each pixel a number of its own.
     Varying(Column<u32>),
 }
 
-impl Samples {
-    /// The same number in all pixels.
-    pub(super) fn uniform(count: u32) -> Self {
-        Self::Uniform { count, share: share_of(count) }
+impl Counts {
+    /// As many as each pixel is to have, up to a number.
+    pub(super) fn up_to(goals: &Column<u32>, most: u32) -> Self {
+        let mut counts = goals.clone();
+        counts.iter_mut().for_each(|count| *count = (*count).min(most));
+        Self::Varying(counts)
     }
 
     /// How many a pixel holds.
-    pub(super) fn count(&self, i: usize) -> u32 {
+    pub(super) fn of(&self, i: usize) -> u32 {
         match self {
-            Self::Uniform { count, .. } => *count,
+            Self::Uniform(count) => *count,
             Self::Varying(counts) => counts[i],
-        }
-    }
-
-    /// What share of a pixel's light each of its samples is.
-    #[inline(always)]
-    pub(super) fn share(&self, i: usize) -> f32 {
-        match self {
-            Self::Uniform { share, .. } => *share,
-            Self::Varying(counts) => share_of(counts[i]),
         }
     }
 
     /// Counts more samples for one of `pixels` pixels.
     pub(super) fn add(&mut self, i: usize, more: u32, pixels: usize) {
-        if let Self::Uniform { count, .. } = *self {
+        if let Self::Uniform(count) = *self {
             let mut counts = Column::default();
             counts.resize(pixels, count);
             *self = Self::Varying(counts);
@@ -67,10 +60,6 @@ impl Samples {
             counts[i] = counts[i].saturating_add(more);
         }
     }
-}
-
-fn share_of(count: u32) -> f32 {
-    1.0 / count.max(1) as f32
 }
 
 /// The light of some samples of a pixel.
@@ -111,11 +100,13 @@ mod tests {
 
     #[test]
     fn pixels_of_one_tile_can_hold_different_numbers_of_samples() {
-        let mut samples = Samples::uniform(4);
-        assert_eq!((samples.count(2), samples.share(2)), (4, 0.25));
-        samples.add(1, 12, 3);
-        assert_eq!([0, 1, 2].map(|i| samples.count(i)), [4, 16, 4]);
-        assert_eq!([0, 1, 2].map(|i| samples.share(i)), [0.25, 0.0625, 0.25]);
+        let mut counts = Counts::Uniform(4);
+        assert_eq!(counts.of(2), 4);
+        counts.add(1, 12, 3);
+        assert_eq!([0, 1, 2].map(|i| counts.of(i)), [4, 16, 4]);
+        let Counts::Varying(goals) = counts else { panic!("a column") };
+        let counts = Counts::up_to(&goals, 6);
+        assert_eq!([0, 1, 2].map(|i| counts.of(i)), [4, 6, 4]);
     }
 
     fn sum(samples: &[[f64; 3]]) -> Sum {

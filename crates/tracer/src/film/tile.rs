@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use catoptra_core::EntityId;
+use catoptra_core::{EntityId, Rgb};
 
-use super::sums::{Samples, Sum, finite, store_finite};
+use super::replicates::Replicates;
+use super::sums::{Counts, Sum, finite};
 use super::{BLOCK, BLOCK_PIXELS, NOTHING};
 use crate::View;
 use crate::lanes::Column;
@@ -19,11 +20,17 @@ pub struct Tile {
     pub(crate) y: u32,
     pub(crate) width: u32,
     pub(crate) height: u32,
-    /// The light of all samples of a pixel.
+    /// The light of a pixel's one sample, or of the sample under way.
     pub(crate) sums: [Column<f32>; 3],
     pub(crate) depth: Column<f32>,
     pub(crate) surface: Column<u32>,
-    samples: Samples,
+    /// The light of all samples of a pixel, where there may be more than one.
+    totals: Option<[Column<f64>; 3]>,
+    counts: Counts,
+    /// Up to which number the samples of a pixel are traced, where each has a number of its own.
+    goals: Option<Column<u32>>,
+    /// The light of each of several sequences of samples, where it is kept apart.
+    replicates: Option<Replicates>,
     /// Squared deviations of the samples' luminances from their mean, where they are asked for: see `sums.rs`.
     pub(super) deviations: Option<Column<f64>>,
     /// What the surfaces are called.
@@ -38,6 +45,27 @@ pub struct Tile {
 type Light = [u32; 3];
 
 impl Tile {
+    /// One without pixels, to hold the light of single rays.
+    pub(crate) fn without_pixels() -> Self {
+        Self {
+            x: 0,
+            y: 0,
+            width: 0,
+            height: 0,
+            sums: Default::default(),
+            depth: Column::default(),
+            surface: Column::default(),
+            totals: None,
+            counts: Counts::Uniform(1),
+            goals: None,
+            replicates: None,
+            deviations: None,
+            entities: Arc::default(),
+            blank: None,
+            before: None,
+        }
+    }
+
     /// A black one without samples, where there is memory for it.
     pub(super) fn new(x: u32, y: u32, width: u32, height: u32) -> Option<Self> {
         let pixels = (width.div_ceil(BLOCK) * height.div_ceil(BLOCK)) as usize * BLOCK_PIXELS;
@@ -50,7 +78,10 @@ impl Tile {
             sums: [light()?, light()?, light()?],
             depth: Column::try_filled(pixels, f32::INFINITY)?,
             surface: Column::try_filled(pixels, NOTHING)?,
-            samples: Samples::uniform(0),
+            totals: None,
+            counts: Counts::Uniform(0),
+            goals: None,
+            replicates: None,
             deviations: None,
             entities: Arc::default(),
             blank: Some([0; 3]),
@@ -58,24 +89,187 @@ impl Tile {
         })
     }
 
-    /// Says that the tile is traced anew, and what its surfaces are called from now on.
+    /// Makes room for the light of so many single rays, and clears it: each has the pixel of its number.
+    pub(crate) fn hold_rays(&mut self, count: usize) {
+        for light in &mut self.sums {
+            if light.len() < count {
+                light.resize(count, 0.0);
+            }
+            light[..count].fill(0.0);
+        }
+    }
+
+    /// Says what a pixel shows in all, where that is known without an error.
+    pub(crate) fn set_radiance(&mut self, i: usize, light: [f64; 3]) -> u64 {
+        let samples = f64::from(self.counts.of(i));
+        if let Some(deviations) = &mut self.deviations {
+            deviations[i] = 0.0;
+        }
+        let mut not_finite = 0;
+        let light = light.map(|light| {
+            not_finite += u64::from(!(light as f32).is_finite());
+            if (light as f32).is_finite() { light } else { f64::from(finite(light as f32)) }
+        });
+        match &mut self.totals {
+            Some(totals) => {
+                totals.iter_mut().zip(light).for_each(|(total, light)| total[i] = light * samples)
+            }
+            None => self.sums.iter_mut().zip(light).for_each(|(sum, light)| sum[i] = light as f32),
+        }
+        not_finite
+    }
+
+    /// Says that some samples of a view are about to be traced, and what surfaces are called from now on.
     pub(crate) fn begin(&mut self, entities: &Arc<[EntityId]>, view: &View) {
         self.before = self.blank.take();
         self.entities = Arc::clone(entities);
-        self.samples = Samples::uniform(view.samples());
+        let range = view.traced_samples();
+        if range.start == 0 {
+            self.empty(view);
+        }
+        self.counts = match &self.goals {
+            Some(goals) => Counts::up_to(goals, range.end),
+            None => Counts::Uniform(range.end),
+        };
+    }
+
+    /// Makes room for the samples of a view, and forgets those that there were.
+    fn empty(&mut self, view: &View) {
+        let pixels = self.depth.len();
+        let totals = self.totals.take().unwrap_or_default();
+        self.totals = (view.samples > 1).then(|| totals.map(|column| zeros(column, pixels)));
         let deviations = self.deviations.take().unwrap_or_default();
-        self.deviations = view.moments.then(|| {
-            let mut deviations = deviations;
-            deviations.resize(self.depth.len(), 0.0);
-            deviations.fill(0.0);
-            deviations
+        self.deviations = view.moments.then(|| zeros(deviations, pixels));
+        let replicates = self.replicates.take().unwrap_or_default();
+        self.replicates = (view.sequences > 1).then(|| replicates.empty(view.sequences, pixels));
+    }
+
+    /// Whether every pixel holds so many samples, or as many as its own goal says.
+    pub(crate) fn holds(&self, samples: u32) -> bool {
+        self.goals.is_some() || matches!(self.counts, Counts::Uniform(count) if count == samples)
+    }
+
+    /// Whether samples are traced for some pixels only.
+    #[inline(always)]
+    pub(crate) fn is_masked(&self) -> bool {
+        self.goals.is_some()
+    }
+
+    /// Whether a sample is traced for a pixel.
+    #[inline(always)]
+    pub(crate) fn is_active(&self, i: usize, sample: u32) -> bool {
+        match &self.goals {
+            Some(goals) => goals[i] > sample,
+            None => true,
+        }
+    }
+
+    /// From now on the samples of each pixel are traced up to a number of its own, which is to be this one at first.
+    pub(crate) fn set_goals_to(&mut self, goal: u32) {
+        let mut goals = self.goals.take().unwrap_or_default();
+        goals.resize(self.depth.len(), 0);
+        goals.fill(0);
+        for (x, y) in (0..self.height).flat_map(|y| (0..self.width).map(move |x| (x, y))) {
+            goals[self.index(x, y)] = goal;
+        }
+        self.goals = Some(goals);
+    }
+
+    /// From now on samples of all pixels are traced alike.
+    pub(crate) fn forget_goals(&mut self) {
+        self.goals = None;
+    }
+
+    /// Up to which number the samples of a pixel are traced; 0 where there is none of its own.
+    pub(crate) fn goal(&self, i: usize) -> u32 {
+        self.goals.as_ref().map_or(0, |goals| goals[i])
+    }
+
+    /// Changes that number, where pixels have numbers of their own.
+    pub(crate) fn set_goal(&mut self, i: usize, goal: u32) {
+        if let Some(goals) = &mut self.goals {
+            goals[i] = goal;
+        }
+    }
+
+    /// Whether some pixel is to have more than so many samples.
+    pub(crate) fn has_goals_beyond(&self, samples: u32) -> bool {
+        self.goals.as_ref().is_some_and(|goals| goals.iter().any(|goal| *goal > samples))
+    }
+
+    /// Whether all samples of a pixel have the same luminance, where deviations are kept.
+    pub(crate) fn is_alike(&self, i: usize) -> bool {
+        self.deviations.as_ref().is_some_and(|deviations| deviations[i] == 0.0)
+    }
+
+    /// Takes in that all pixels that are traced hold the light of another sample.
+    #[inline(always)]
+    pub(crate) fn take_sample(&mut self, number: u32, view: &View) {
+        if view.clamp < f32::INFINITY {
+            for light in self.sums.iter_mut().flat_map(|column| column.iter_mut()) {
+                *light = light.min(view.clamp);
+            }
+        }
+        if self.deviations.is_some() {
+            for i in 0..self.depth.len() {
+                if self.is_active(i, number) {
+                    self.take_deviation(i, [0, 1, 2].map(|c| f64::from(self.sums[c][i])), number);
+                }
+            }
+        }
+        if let Some(replicates) = &mut self.replicates {
+            replicates.take_sample(&self.sums, self.goals.as_ref(), number);
+        }
+        let Some(totals) = &mut self.totals else { return };
+        for (total, sample) in totals.iter_mut().zip(&self.sums) {
+            if let Some(goals) = &self.goals {
+                for ((total, sample), goal) in total.iter_mut().zip(sample.iter()).zip(goals.iter()) {
+                    *total += if *goal > number { f64::from(*sample) } else { 0.0 };
+                }
+            } else {
+                for (total, sample) in total.iter_mut().zip(sample.iter()) {
+                    *total += f64::from(*sample);
+                }
+            }
+        }
+    }
+
+    /// Adds one sample of a pixel. Returns how many of its channels were not finite.
+    pub(crate) fn add_sample(&mut self, i: usize, light: Rgb, number: u32, view: &View) -> u64 {
+        let mut not_finite = 0;
+        let light = light.to_array().map(|light| {
+            not_finite += u64::from(!(light as f32).is_finite());
+            let light = if (light as f32).is_finite() { light } else { f64::from(finite(light as f32)) };
+            light.min(f64::from(view.clamp))
         });
+        self.take_deviation(i, light, number);
+        if let Some(replicates) = &mut self.replicates {
+            replicates.add_sample(i, light, number);
+        }
+        match &mut self.totals {
+            Some(totals) => totals.iter_mut().zip(light).for_each(|(total, light)| total[i] += light),
+            None => self.sums.iter_mut().zip(light).for_each(|(sum, light)| sum[i] = light as f32),
+        }
+        not_finite
+    }
+
+    /// Adds a sample to the squared deviations of those before it, where they are asked for.
+    fn take_deviation(&mut self, i: usize, light: [f64; 3], before: u32) {
+        if let (Some(deviations), Some(totals)) = (&mut self.deviations, &self.totals) {
+            let earlier = Sum { light: [0, 1, 2].map(|c| totals[c][i]), count: before };
+            deviations[i] += earlier.spread_to(Sum { light, count: 1 });
+        }
     }
 
     /// Says that all pixels show a light and no surface; answers whether they did so before.
     pub(crate) fn goes_blank(&mut self, light: [f32; 3]) -> bool {
         self.blank = Some(light.map(f32::to_bits));
         self.blank == self.before
+    }
+
+    /// Whether it is known that no pixel shows a surface.
+    pub(crate) fn is_blank(&self) -> bool {
+        self.blank.is_some()
     }
 
     /// Blocks across.
@@ -100,8 +294,13 @@ impl Tile {
     /// The mean of a pixel's samples.
     #[inline]
     pub(crate) fn radiance(&self, i: usize) -> [f32; 3] {
-        let share = self.samples.share(i);
-        [self.sums[0][i] * share, self.sums[1][i] * share, self.sums[2][i] * share]
+        match &self.totals {
+            None => [self.sums[0][i], self.sums[1][i], self.sums[2][i]],
+            Some(totals) => {
+                let count = f64::from(self.counts.of(i).max(1));
+                [0, 1, 2].map(|c| (totals[c][i] / count) as f32)
+            }
+        }
     }
 
     /// What a pixel shows.
@@ -110,39 +309,84 @@ impl Tile {
     }
 
     /// How many samples a pixel holds.
-    pub(super) fn samples(&self, i: usize) -> u32 {
-        self.samples.count(i)
+    pub(crate) fn samples(&self, i: usize) -> u32 {
+        self.counts.of(i)
     }
 
     /// The standard error of the luminance of a pixel, where it can be told.
     pub(super) fn standard_error(&self, i: usize) -> Option<f32> {
-        let (deviations, count) = (self.deviations.as_ref()?, f64::from(self.samples(i)));
-        (count >= 2.0).then(|| finite((deviations[i] / (count * (count - 1.0))).sqrt() as f32))
+        let luminance = |[red, green, blue]: [f64; 3]| Rgb::new(red, green, blue).luminance();
+        match self.replicates {
+            Some(_) => self.error_by_sequences(i, luminance),
+            None => self.error_by_samples(i),
+        }
+        .map(|error| finite(error as f32))
     }
 
-    /// Adds light to the squared deviations of a pixel's samples, where they are asked for.
-    #[inline]
-    pub(crate) fn add_deviation(&mut self, i: usize, deviation: f64) {
-        if let Some(deviations) = &mut self.deviations {
-            deviations[i] += deviation;
-        }
+    /// The standard errors of the channels of a pixel, where sequences of samples are kept apart.
+    pub(crate) fn channel_errors(&self, i: usize) -> Option<[f64; 3]> {
+        let of = |channel: usize| self.error_by_sequences(i, |light| light[channel]);
+        Some([of(0)?, of(1)?, of(2)?])
+    }
+
+    /// As the means of sequences that know nothing of each other tell it, of a number that is made from the light.
+    fn error_by_sequences(&self, i: usize, of: impl Fn([f64; 3]) -> f64) -> Option<f64> {
+        let samples = self.samples(i);
+        let error = self.replicates.as_ref()?.error(i, samples, of)?;
+        let deviation = (self.deviations.as_ref()?[i] / f64::from(samples)).sqrt();
+        // Where all means agree and samples do not, it is what one sample can bring about: two kinds of them lie at least
+        // two of their deviations apart.
+        Some(if error > 0.0 { error } else { 2.0 * deviation / f64::from(samples) })
+    }
+
+    /// As the spread of samples tells it, were they independent.
+    fn error_by_samples(&self, i: usize) -> Option<f64> {
+        let (deviations, count) = (self.deviations.as_ref()?, f64::from(self.samples(i)));
+        (count >= 2.0).then(|| (deviations[i] / (count * (count - 1.0))).sqrt())
     }
 
     /// Adds the samples of a pixel of another tile to those of one of this.
     pub(super) fn add(&mut self, i: usize, other: &Self, j: usize) {
-        match &other.deviations {
-            Some(theirs) => self.add_deviation(i, theirs[j] + self.sum(i).spread_to(other.sum(j))),
-            None => self.deviations = None,
+        match (&mut self.deviations, &other.deviations) {
+            (Some(_), Some(theirs)) => {
+                let spread = self.sum(i).spread_to(other.sum(j));
+                if let Some(mine) = &mut self.deviations {
+                    mine[i] += theirs[j] + spread;
+                }
+            }
+            _ => self.deviations = None,
         }
-        for (mine, theirs) in self.sums.iter_mut().zip(&other.sums) {
-            let sum = mine[i] + theirs[j];
-            store_finite(&mut mine[i], sum);
+        self.replicates = None;
+        let (mine, theirs) = (self.sum(i).light, other.sum(j).light);
+        let pixels = self.depth.len();
+        if self.totals.is_none() {
+            let sums = &self.sums;
+            let held = |c: usize| {
+                let mut column = zeros(Column::default(), pixels);
+                column.iter_mut().zip(sums[c].iter()).for_each(|(total, sum)| *total = f64::from(*sum));
+                column
+            };
+            self.totals = Some([held(0), held(1), held(2)]);
         }
-        self.samples.add(i, other.samples(j), self.depth.len());
+        if let Some(totals) = &mut self.totals {
+            (0..3).for_each(|c| totals[c][i] = mine[c] + theirs[c]);
+        }
+        self.counts.add(i, other.samples(j), pixels);
         self.blank = None;
     }
 
     fn sum(&self, i: usize) -> Sum {
-        Sum { light: [0, 1, 2].map(|c| f64::from(self.sums[c][i])), count: self.samples(i) }
+        let light = match &self.totals {
+            Some(totals) => [0, 1, 2].map(|c| totals[c][i]),
+            None => [0, 1, 2].map(|c| f64::from(self.sums[c][i])),
+        };
+        Sum { light, count: self.samples(i) }
     }
+}
+
+/// A column of so many zeros.
+fn zeros(mut column: Column<f64>, pixels: usize) -> Column<f64> {
+    column.resize(pixels, 0.0);
+    column.fill(0.0);
+    column
 }

@@ -2,7 +2,8 @@
 
 use catoptra_core::contour::Scratch;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Material, Ray, ShadingPoint};
+use catoptra_core::material::Footprint;
+use catoptra_core::{Material, Raster, Ray, ShadingPoint};
 
 use super::Search;
 use crate::sampler::Sampler;
@@ -13,8 +14,10 @@ pub(crate) struct CameraRay {
     pub(super) ray: Ray,
     /// The numbers of the pixel.
     pub(super) sampler: Sampler<u32>,
-    /// Which of the pixel's samples it is.
+    /// Its number in the sequence that its choices go by.
     pub(super) sample: u32,
+    /// The side of the square of the picture that it stands for, in pixels, where looks are averaged over it.
+    pub(super) side: Option<f64>,
 }
 
 /// Follows paths of one frame, and counts their rays.
@@ -45,6 +48,17 @@ impl<'a, S: Search> Walker<'a, S> {
     pub(super) fn new(search: &'a S, frame: &'a Frame<'a>) -> Self {
         let (stats, scratch) = (Stats::default(), Scratch::default());
         Self { search, frame, stats, scratch, blockers: Vec::new() }
+    }
+
+    /// The square of the picture that a ray from the camera stands for.
+    pub(super) fn footprint(&self, camera: &CameraRay) -> Option<Footprint<f64>> {
+        let length = camera.ray.direction.length();
+        let Raster { across, down, .. } = self.frame.raster;
+        let of = |side: f64| Footprint {
+            direction: (camera.ray.direction / length).into(),
+            sides: [across, down].map(|way| (way * (side / length)).into()),
+        };
+        camera.side.map(of)
     }
 
     /// The surface at a hit of a ray.

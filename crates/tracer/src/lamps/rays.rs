@@ -5,7 +5,7 @@ use catoptra_core::lamp_points::{LampPoint, LampPoints};
 use catoptra_core::{Lobes, Ray, Rgb, ShadingPoint, Span, Triple};
 
 use super::{Gathered, LitPoint};
-use crate::sampler::{Sampler, share};
+use crate::sampler::{Sampler, pairs, share};
 use crate::snapshot::{LampRow, LampTree, Lamps};
 
 /// Rays from a point to a lamp.
@@ -44,14 +44,11 @@ pub(crate) struct LampRay {
 pub(crate) struct Drawn {
     /// Those of the pixel.
     pub(crate) sampler: Sampler<u32>,
-    /// Which of the pixel's camera rays led to the point.
+    /// The number in its sequence of the camera ray that led to the point.
     pub(crate) sample: u32,
     /// How many reflections it came by.
     pub(crate) depth: u32,
 }
-
-/// The first pair of sample dimensions for lamps; those below are for what happens before.
-const FIRST_PAIR: u32 = 64;
 
 /// How far apart the pairs of two depths lie: more lamps than this share some.
 const PAIRS_PER_DEPTH: u32 = 1 << 16;
@@ -60,7 +57,7 @@ impl Drawn {
     /// The pair of sample dimensions of a lamp.
     pub(crate) fn pair_of(&self, lamp: usize) -> u32 {
         let pair = (lamp as u32).wrapping_add(self.depth.wrapping_mul(PAIRS_PER_DEPTH));
-        pair.wrapping_add(FIRST_PAIR)
+        pair.wrapping_add(pairs::LAMPS)
     }
 }
 
@@ -122,7 +119,7 @@ pub(crate) fn picked<'a>(
     count: u32,
 ) -> impl Iterator<Item = PickedRay<'a>> {
     let (at, drawn) = (*at, *drawn);
-    let pair = drawn.depth.wrapping_mul(PAIRS_PER_DEPTH).wrapping_add(FIRST_PAIR);
+    let pair = drawn.depth.wrapping_mul(PAIRS_PER_DEPTH).wrapping_add(pairs::LAMPS);
     (0..count).filter_map(move |k| {
         let number = drawn.sample.wrapping_mul(count).wrapping_add(k);
         let [pick, _] = drawn.sampler.pair(number, pair).map(share);

@@ -3,6 +3,7 @@
 use fearless_simd::prelude::*;
 
 use super::{F, U};
+use crate::numeric::SAMPLE_STEP;
 
 /// Whole numbers of 32 bits, side by side; sums and products wrap.
 pub(crate) trait Word: Copy {
@@ -36,11 +37,13 @@ pub(crate) trait Word: Copy {
     /// The lowest bit becomes the highest, and so on.
     #[inline(always)]
     fn reversed(self) -> Self {
-        HALVES.iter().fold(self, |bits, &(places, lower)| {
+        let mut bits = self;
+        for (places, lower) in HALVES {
             let mask = bits.of(lower);
             // The two shifted parts share no bit.
-            bits.and(mask).shift_up(places).xor(bits.shift_down(places).and(mask))
-        })
+            bits = bits.and(mask).shift_up(places).xor(bits.shift_down(places).and(mask));
+        }
+        bits
     }
 }
 
@@ -119,4 +122,13 @@ impl<S: Simd> Word for U<S> {
 pub(crate) fn share_of_one<S: Simd>(bits: U<S>) -> F<S> {
     let whole: S::f32s = (bits.0 >> 8).bitcast::<S::i32s>().to_float();
     F(whole * (1.0 / (1_u32 << 24) as f32))
+}
+
+/// A share of 2³² as a share of 1, cut off to a multiple of [`SAMPLE_STEP`].
+#[inline(always)]
+pub(crate) fn steps_of_one<S: Simd>(bits: U<S>) -> F<S> {
+    const STEP_BITS: u32 = (1.0 / SAMPLE_STEP) as u32;
+    let below = u32::BITS - STEP_BITS.ilog2();
+    let whole: S::f32s = (bits.0 >> below).bitcast::<S::i32s>().to_float();
+    F(whole * SAMPLE_STEP as f32)
 }

@@ -50,6 +50,9 @@ impl<S: Simd> Shader<'_, S> {
         let mut count = 0;
         for stretch in 0..batch.stretches() {
             for at in batch.stretch(stretch).step_by(F::<S>::LANES) {
+                if batch.is_idle(at) {
+                    continue;
+                }
                 finder.fill_slot(self, batch, at, count);
                 count += 1;
                 if count == CHUNK {

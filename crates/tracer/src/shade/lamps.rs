@@ -14,7 +14,6 @@ use crate::lamps::{
 };
 use crate::lanes::{D3, F, F3, M, U, narrow3, outlined, splat_wide, widen3};
 use crate::numeric::{CUT_MARGIN, SMALL_LAMP};
-use crate::sampler::Sampler;
 use crate::search::{FromPoint, Refined, ViewCones};
 use crate::snapshot::{FlatLamp, LampRow, LampTree};
 use crate::stream::Batch;
@@ -236,11 +235,7 @@ impl<'a, S: Simd> Shader<'a, S> {
                 front,
             },
             material: &snapshot.materials()[snapshot.prims()[surface.prim as usize].material as usize],
-            drawn: Drawn {
-                sampler: Sampler::new(self.view.seed, x, y),
-                sample: self.sample,
-                depth: at.depth,
-            },
+            drawn: Drawn { sampler: self.sample.sampler(x, y), sample: self.sample.index, depth: at.depth },
         }
     }
 
@@ -268,7 +263,7 @@ impl<'a, S: Simd> Shader<'a, S> {
         {
             return open * self.open_share(&rays, &here, number);
         }
-        let rays = LampRays::new(lamp, number, &here.lit, &here.drawn, self.view.lamp_rays);
+        let rays = LampRays::new(lamp, number, &here.lit, &here.drawn, self.view.lamp_rays_of_sample());
         if !open {
             self.aim(rays.above(), &here.lit);
             self.trace(Some(number));
@@ -286,7 +281,7 @@ impl<'a, S: Simd> Shader<'a, S> {
     fn open_share(&mut self, rays: &QuadRays, here: &LanePoint<'_>, number: usize) -> f64 {
         let room = &mut *self.lamp_room;
         room.rays.start(here.lit.point, self.search.snapshot.origin_in_frame(), here.lit.surface);
-        let (count, pair) = (self.view.lamp_rays, here.drawn.pair_of(number));
+        let (count, pair) = (self.view.lamp_rays_of_sample(), here.drawn.pair_of(number));
         outlined(
             self.s,
             #[inline(always)]
@@ -308,7 +303,7 @@ impl<'a, S: Simd> Shader<'a, S> {
         let snapshot = self.search.snapshot;
         let here = self.point_in_lane(at, lane, tile);
         self.search.stats.lamps.sampled += 1;
-        let (origin, count) = (snapshot.origin_in_frame(), self.view.lamp_rays);
+        let (origin, count) = (snapshot.origin_in_frame(), self.view.lamp_rays_of_sample());
         let rays = || picked(snapshot.lamps(), tree, &here.lit, origin, &here.drawn, count);
         self.aim(rays().filter(|ray| ray.lamp.shadow).map(|ray| ray.ray), &here.lit);
         self.lamp_room.all.all(snapshot.columns());

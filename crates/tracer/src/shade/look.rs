@@ -61,6 +61,13 @@ impl<S: Simd> Shader<'_, S> {
     fn base(&mut self, batch: &impl Batch<S>, slot: usize, mask: M<S>, material: usize) -> F3<S> {
         let snapshot = self.search.snapshot;
         let row = &snapshot.material_rows()[material];
+        if row.is_pattern && batch.has_footprints() {
+            return outlined(
+                self.s,
+                #[inline(always)]
+                || self.mean_base(batch, slot, &row.material),
+            );
+        }
         if row.is_pattern {
             outlined(
                 self.s,
@@ -73,6 +80,23 @@ impl<S: Simd> Shader<'_, S> {
         let (mut shown, share) = row.material.visit_lobes(
             #[inline(always)]
             || self.shading_point(slot),
+            #[inline(always)]
+            |lobes| (lobes.without_glossy(ambient, irradiance), lobes.share),
+        );
+        if self.chunk.glossy[slot] {
+            shown = shown + self.chunk.specular[slot];
+        }
+        shown.scale(share)
+    }
+
+    /// What the base of lanes of a pattern shows on average over the squares that their rays stand for.
+    #[inline(always)]
+    fn mean_base(&mut self, batch: &impl Batch<S>, slot: usize, material: &Material) -> F3<S> {
+        let footprint = batch.footprint(self.s, self.chunk.at[slot]);
+        let ambient = F3::of(F::splat(self.s, 0.0), self.search.snapshot.ambient_light());
+        let irradiance = self.chunk.irradiance[slot];
+        let (mut shown, share) = material.visit_mean_lobes(
+            (&self.shading_point(slot), &footprint),
             #[inline(always)]
             |lobes| (lobes.without_glossy(ambient, irradiance), lobes.share),
         );

@@ -20,6 +20,7 @@ use fearless_simd::Simd;
 use crate::View;
 use crate::cull::TilePlan;
 use crate::lanes::{F3, splat3};
+use crate::sample::Sample;
 use crate::search::Searcher;
 use crate::stream::{LaneBounds, Queue};
 
@@ -37,7 +38,7 @@ pub(crate) struct Shader<'a, S: Simd> {
     pub(crate) chunk: &'a mut Chunk<S>,
     pub(crate) lamp_room: &'a mut LampRoom,
     /// Which of the pixels' samples is under way.
-    pub(crate) sample: u32,
+    pub(crate) sample: Sample,
     /// Rays that surfaces send on.
     pub(crate) next: &'a mut Queue,
     /// Where those start, and the unit vectors along which they run.

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use catoptra_core::material::Footprint;
 use catoptra_core::{Constant3, Lane, LaneMask};
 use fearless_simd::Simd;
 
@@ -25,6 +26,12 @@ pub(crate) trait Batch<S: Simd> {
     /// How many rays there are.
     fn live(&self) -> u64;
 
+    /// Whether the packet that starts with ray `at` is known to hold no ray.
+    #[inline(always)]
+    fn is_idle(&self, _at: usize) -> bool {
+        false
+    }
+
     /// The packet that starts with ray `at`.
     fn packet(&self, s: S, at: usize) -> Packet<'_, S, Self::Precise>;
 
@@ -33,6 +40,12 @@ pub(crate) trait Batch<S: Simd> {
 
     /// How much of the light that arrives along the packet that starts with ray `at` counts, per channel.
     fn weights(&self, s: S, at: usize) -> F3<S>;
+
+    /// Whether the rays stand for squares of the picture; else they are lines of sight and no more.
+    fn has_footprints(&self) -> bool;
+
+    /// The squares that the rays of the packet that starts with ray `at` stand for; points where they stand for none.
+    fn footprint(&self, s: S, at: usize) -> Footprint<F<S>>;
 
     /// Pixels of the packet that starts with ray `at`, by their places in the tile's columns.
     fn pixels(&self, s: S, at: usize) -> U<S>;
@@ -64,9 +77,8 @@ impl<S: Simd> Part<'_, S> {
 
     #[inline(always)]
     fn store(&self, s: S, at: usize, light: F3<S>, (depth, prim): (F<S>, U<S>), tile: &mut Tile) -> u64 {
-        let light = if self.camera.fresh { light } else { load3(s, &tile.sums, at) + light };
         let not_finite = store_sums(s, light, &mut tile.sums, at);
-        if self.camera.kept {
+        if self.camera.is_kept() {
             depth.store(&mut tile.depth[at..]);
             prim.store(&mut tile.surface[at..]);
         }
@@ -113,7 +125,16 @@ impl<'a, S: Simd> Batch<S> for Part<'a, S> {
 
     #[inline(always)]
     fn live(&self) -> u64 {
-        u64::from(self.region.size.width) * u64::from(self.region.size.height)
+        if !self.camera.is_masked() {
+            return u64::from(self.region.size.width) * u64::from(self.region.size.height);
+        }
+        let packets = (0..self.stretches()).flat_map(|stretch| self.stretch(stretch).step_by(F::<S>::LANES));
+        packets.map(|at| u64::from(self.camera.active(at))).sum()
+    }
+
+    #[inline(always)]
+    fn is_idle(&self, at: usize) -> bool {
+        self.camera.is_masked() && self.camera.active(at) == 0
     }
 
     #[inline(always)]
@@ -129,6 +150,16 @@ impl<'a, S: Simd> Batch<S> for Part<'a, S> {
     #[inline(always)]
     fn weights(&self, s: S, _: usize) -> F3<S> {
         F3::splat(F::splat(s, 1.0))
+    }
+
+    #[inline(always)]
+    fn has_footprints(&self) -> bool {
+        self.camera.sides.is_some()
+    }
+
+    #[inline(always)]
+    fn footprint(&self, s: S, at: usize) -> Footprint<F<S>> {
+        self.camera.footprint(s, at)
     }
 
     #[inline(always)]
@@ -174,6 +205,16 @@ impl<S: Simd> Batch<S> for Queue {
     #[inline(always)]
     fn weights(&self, s: S, at: usize) -> F3<S> {
         Queue::weights(self, s, at)
+    }
+
+    #[inline(always)]
+    fn has_footprints(&self) -> bool {
+        Queue::has_footprints(self)
+    }
+
+    #[inline(always)]
+    fn footprint(&self, s: S, at: usize) -> Footprint<F<S>> {
+        Queue::footprint(self, s, at)
     }
 
     #[inline(always)]

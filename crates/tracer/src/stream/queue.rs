@@ -1,12 +1,17 @@
 //! The rays of a stream, gathered lane by lane and handed out in full packets.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Ray, Span};
+use catoptra_core::material::Footprint;
+use catoptra_core::{Lane, Ray, Span};
 use fearless_simd::Simd;
 
+use crate::edges::Places;
+use crate::film::NOTHING;
+use crate::frame::Frame;
 use crate::kernel::{Leaving, Rays, Target};
 use crate::lanes::{
-    Column, D, D3, F, F3, M, U, compress_wide3, compress3, load_wide3, load3, narrow3, store_wide3, store3,
+    Column, D, D3, F, F3, M, U, compress_wide3, compress3, load_wide3, load3, narrow3, splat_wide,
+    store_wide3, store3,
 };
 use crate::numeric::{END_ERROR, POINT_ERROR};
 use crate::search::{Packet, PreciseRays, ShadowRays, drift, nearly_unit_rays};
@@ -26,6 +31,10 @@ pub(crate) struct Queue {
     pixel: Column<u32>,
     prim: Column<u32>,
     facet: Column<u32>,
+    /// Of camera rays: what a pixel to the right and down adds to the directions that theirs were made from, and the sides of
+    /// the squares that they stand for, in such pixels over the lengths of those directions.
+    axes: Option<[DVec3; 2]>,
+    side: Column<f32>,
 }
 
 /// Rays that are to be queued.
@@ -47,12 +56,56 @@ impl Queue {
 
     /// Removes all rays; those to come are relative to `zero`, a point of the snapshot's frame, and followed up to `far`.
     pub(crate) fn start(&mut self, zero: DVec3, far: f64) {
-        (self.length, self.zero, self.far) = (0, zero, far);
+        (self.length, self.zero, self.far, self.axes) = (0, zero, far, None);
     }
 
     /// Removes all rays and keeps the room.
     pub(crate) fn clear(&mut self) {
         self.length = 0;
+    }
+
+    /// Appends camera rays through places of the picture. They leave no surface, and the pixel of each is its number.
+    #[inline(always)]
+    pub(crate) fn push_camera_rays<S: Simd>(&mut self, s: S, frame: &Frame<'_>, places: &Places) {
+        let raster = &frame.raster;
+        let (origin, corner) = (splat_wide(s, frame.eye), splat_wide(s, raster.corner));
+        let (across, down) = (splat_wide(s, raster.across), splat_wide(s, raster.down));
+        self.axes = Some([raster.across, raster.down]);
+        let count = places.len();
+        self.side.resize(count.next_multiple_of(F::<S>::LANES), 0.0);
+        for at in (0..count).step_by(F::<S>::LANES) {
+            let (x, y) = (D::load(s, &places.x[at..]), D::load(s, &places.y[at..]));
+            let direction = across.scale_add(x, down.scale_add(y, corner));
+            let length = narrow3(direction);
+            let inverse = F::splat(s, 1.0) / length.dot(length).sqrt();
+            (D::load(s, &places.side[at..]).narrow() * inverse).store(&mut self.side[at..]);
+            let rays = QueuedRays {
+                origin,
+                direction: direction.scale(inverse.widen()),
+                weight: F3::splat(F::splat(s, 1.0)),
+                pixel: U::counted(s, at as u32),
+                prim: U::splat(s, NOTHING),
+                facet: U::splat(s, 0),
+            };
+            let left = (count - at).min(F::<S>::LANES);
+            self.push(M::from_bits(s, u64::MAX >> (64 - left)), &rays);
+        }
+    }
+
+    /// Whether the rays are the camera's.
+    #[inline(always)]
+    pub(crate) fn has_footprints(&self) -> bool {
+        self.axes.is_some()
+    }
+
+    /// The squares that camera rays stand for.
+    #[inline(always)]
+    pub(crate) fn footprint<S: Simd>(&self, s: S, at: usize) -> Footprint<F<S>> {
+        let [across, down] = self.axes.unwrap_or_default();
+        let (across, down) = (narrow3(splat_wide(s, across)), narrow3(splat_wide(s, down)));
+        let side = F::load(s, &self.side[at..]);
+        let (_, direction) = self.precise(s, at);
+        Footprint { direction: narrow3(direction), sides: [across.scale(side), down.scale(side)] }
     }
 
     /// Appends the lanes where the mask holds.

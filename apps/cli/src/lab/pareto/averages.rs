@@ -5,10 +5,10 @@ use std::fmt::Write;
 use catoptra_core::glam::DVec3;
 use catoptra_core::numeric::PATTERN_SHIFT;
 use catoptra_lab::{Pair, Picture, metric_named};
-use catoptra_tracer::{Pattern, Size, Snapshot, View};
+use catoptra_tracer::{Edges, Pattern, Size, Snapshot, View};
 use miette::{IntoDiagnostic, Result, miette};
 
-use super::{Lab, Question, Way, parsed};
+use super::{EXACT, Lab, Question, Way, parsed};
 use crate::words::counted;
 
 const SIZE: Size = Size::new(200, 150);
@@ -87,22 +87,25 @@ fn footprint(lab: &Lab) -> Result<Question> {
     let mut ways = Vec::new();
     for &pattern in Pattern::ALL {
         for grid in GRIDS {
-            let view = |view| View { pattern, grid, ..view };
-            let right = |floor: &Floor<'_>| {
-                let [a, b] = [floor(0.0, 0.0), floor(1.0, 1.0)];
-                let (x, z) = (mean_sign(a.x, b.x), mean_sign(a.z, b.z));
-                (1.0 - x * z) / 2.0
-            };
+            let view = |view| View { pattern, samples: grid * grid, ..view };
             let setting = counted(u64::from(grid * grid), "sample");
-            ways.push(way(lab, TILES, view, right, (pattern.name(), setting))?);
+            ways.push(way(lab, TILES, view, white_share, (pattern.name(), setting))?);
         }
     }
+    let view = |view| View { edges: Edges::Exact, ..view };
+    ways.push(way(lab, TILES, view, white_share, (EXACT, counted(1, "sample")))?);
     let words = format!(
         "Checkered ground seen from straight above, {TILES_SCALE} squares a metre, so that a pixel's footprint is a rectangle and the share of it \
          that white squares cover is a product of two integrals of a square wave. {}x{} pixels by `wide`.",
         SIZE.width, SIZE.height
     );
     Ok(question("footprint", "Checker footprints", words, ways))
+}
+
+/// What share of a pixel white squares cover.
+fn white_share(floor: &Floor<'_>) -> f64 {
+    let [a, b] = [floor(0.0, 0.0), floor(1.0, 1.0)];
+    (1.0 - mean_sign(a.x, b.x) * mean_sign(a.z, b.z)) / 2.0
 }
 
 /// The mean of (−1)^⌊c⌋ over the cells c from one place to another.

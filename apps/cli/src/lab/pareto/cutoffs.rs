@@ -1,7 +1,7 @@
 //! How many reflections, and down to which weight, for which error of a picture?
 
 use catoptra_lab::{Pair, metric_named};
-use catoptra_tracer::{Pattern, Size, Snapshot, View};
+use catoptra_tracer::{Size, Snapshot, View};
 use miette::{IntoDiagnostic, Result, miette};
 
 use super::{Lab, Question, Way, parsed};
@@ -35,7 +35,6 @@ pub(super) fn ask(lab: &Lab) -> Result<Vec<Question>> {
     let view = |max_depth, weight_cutoff| View {
         max_depth,
         weight_cutoff,
-        pattern: Pattern::Grid,
         ..View::of(&scene, camera.clone(), SIZE)
     };
     let (reference, _) = lab.picture(&snapshot, &view(DEEP, 0.0))?;

@@ -79,6 +79,9 @@ pub(super) struct Way {
     errors: Vec<f64>,
 }
 
+/// The series of pictures whose edges and patterns are shown by areas.
+pub(super) const EXACT: &str = "exact edges";
+
 /// Names of what is written beside the pictures.
 const TABLE: &str = "pareto.csv";
 const PAGE: &str = "ACCURACY.md";

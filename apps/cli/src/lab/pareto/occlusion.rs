@@ -45,7 +45,7 @@ pub(super) fn ask(lab: &Lab) -> Result<Vec<Question>> {
                 integrator: Integrator::Occlusion,
                 size: SIZE,
                 pattern: Pattern::Sobol,
-                grid,
+                samples: grid * grid,
                 ..view
             };
             let right = |floor: &Floor<'_>| mean(floor(0.0, 0.0), floor(1.0, 1.0));

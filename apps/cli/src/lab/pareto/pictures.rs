@@ -2,10 +2,10 @@
 
 use catoptra_core::Scene;
 use catoptra_lab::{Pair, metric_named};
-use catoptra_tracer::{Pattern, Size, Snapshot, View};
+use catoptra_tracer::{Edges, Pattern, Size, Snapshot, View};
 use miette::{IntoDiagnostic, Result, miette};
 
-use super::{Lab, Question, Way, parsed};
+use super::{EXACT, Lab, Question, Way, parsed};
 use crate::words::counted;
 
 const SIZE: Size = Size::new(160, 120);
@@ -49,7 +49,7 @@ pub(super) fn ask(lab: &Lab) -> Result<Vec<Question>> {
     let about = |name, title, text: &str, what: &str| -> Result<Question> {
         let words = format!(
             "{what} One picture of {}x{} pixels by `wide`, against a reference of {} samples a pixel. \
-             `--samples` and `--pattern` choose.",
+             `--samples`, `--pattern` and `--edges exact` choose.",
             SIZE.width,
             SIZE.height,
             REFERENCE * REFERENCE
@@ -78,18 +78,26 @@ fn ways(lab: &Lab, scene: &Scene) -> Result<Vec<Way>> {
     let camera = scene.main_camera().and_then(|id| scene.world_camera(id));
     let camera = camera.ok_or_else(|| miette!("a scene of the lab has no camera"))?;
     let snapshot = Snapshot::extract(scene, &lab.pool);
-    let view = |pattern, grid| View { pattern, grid, ..View::of(scene, camera.clone(), SIZE) };
+    let view = |pattern, grid: u32| {
+        let samples = grid * grid;
+        View { pattern, samples, ..View::of(scene, camera.clone(), SIZE) }
+    };
     let (reference, _) = lab.picture(&snapshot, &view(Pattern::Grid, REFERENCE))?;
     let mut ways = Vec::new();
+    let mut add = |series: &str, grid: u32, view: &View| -> Result<()> {
+        let (picture, time) = lab.picture(&snapshot, view)?;
+        let pair = Pair::new(&reference, &picture).into_diagnostic()?;
+        let measures = ["rmse", "flip"].into_iter().filter_map(metric_named);
+        let errors = measures.map(|metric| (metric.measure)(pair, &Default::default())).collect();
+        let setting = counted(u64::from(grid * grid), "sample");
+        ways.push(Way { series: series.to_owned(), setting, time, errors });
+        Ok(())
+    };
     for &pattern in Pattern::ALL {
         for grid in GRIDS {
-            let (picture, time) = lab.picture(&snapshot, &view(pattern, grid))?;
-            let pair = Pair::new(&reference, &picture).into_diagnostic()?;
-            let measures = ["rmse", "flip"].into_iter().filter_map(metric_named);
-            let errors = measures.map(|metric| (metric.measure)(pair, &Default::default())).collect();
-            let setting = counted(u64::from(grid * grid), "sample");
-            ways.push(Way { series: pattern.name().to_owned(), setting, time, errors });
+            add(pattern.name(), grid, &view(pattern, grid))?;
         }
     }
+    add(EXACT, 1, &View { edges: Edges::Exact, ..view(Pattern::Grid, 1) })?;
     Ok(ways)
 }

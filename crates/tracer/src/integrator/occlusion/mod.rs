@@ -25,6 +25,3 @@ impl Integrate for Occlusion {
         packets::trace_tile(frame, tile)
     }
 }
-
-/// The pair of sample dimensions that the direction is drawn from.
-const DIRECTION: u32 = 0;

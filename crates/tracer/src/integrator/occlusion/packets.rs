@@ -7,12 +7,11 @@ use catoptra_core::lobe::Diffuse;
 use catoptra_core::{Lane, LaneMask};
 use fearless_simd::{Level, Simd};
 
-use super::DIRECTION;
 use crate::cull::{Candidates, Frustum};
-use crate::film::EarlierSums;
 use crate::kernel::mesh::Visits;
 use crate::lanes::{F, F3, M, U, Work, at_level, narrow3, outlined, share_of_one, splat3, widen3};
-use crate::sampler::Sampler;
+use crate::sample::Sample;
+use crate::sampler::pairs;
 use crate::search::{Hits, OwnSegments, Packet, Searcher};
 use crate::stream::{Batch, CameraPackets, CameraRays, Part, Queue, QueuedRays};
 use crate::{Frame, Instructions, Region, Size, Stats, Tile};
@@ -37,7 +36,6 @@ struct Room {
     all: Candidates,
     /// Those that the tile may show.
     visible: Candidates,
-    earlier: EarlierSums,
 }
 
 /// Tracing one tile.
@@ -52,14 +50,14 @@ impl Work for TraceTile<'_> {
 
     #[inline(always)]
     fn with<S: Simd>(self, s: S) -> Stats {
-        let Self { frame, tile, room: Room { rays, queue, visits, all, visible, earlier } } = self;
+        let Self { frame, tile, room: Room { rays, queue, visits, all, visible } } = self;
         let (snapshot, view) = (frame.snapshot, frame.view);
         let (stats, outside) = (Stats::default(), frame.outside_solids);
         let mut tracer =
-            OcclusionTracer { s, frame, search: Searcher { s, snapshot, stats, visits, outside }, queue };
+            OcclusionTracer { s, search: Searcher { s, snapshot, stats, visits, outside }, queue };
         let region = Region::from(Size::new(tile.width, tile.height));
         all.all(snapshot.columns());
-        let seen = if view.skip.hidden {
+        let seen = if view.skip.hidden && frame.is_pinhole() {
             let frustum = Frustum::new(frame, &Region::new(tile.x, tile.y, region.size));
             visible.visible_through(&frustum, snapshot.columns(), all, outside);
             &*visible
@@ -67,9 +65,9 @@ impl Work for TraceTile<'_> {
             &*all
         };
         tracer.queue.start(snapshot.origin_in_frame(), view.occlusion_distance);
-        for sample in 0..view.grid * view.grid {
-            let place = (sample % view.grid, sample / view.grid);
-            let mut camera = CameraPackets::new(s, frame, tile, place, rays);
+        for number in view.traced_samples() {
+            let sample = &Sample::new(view, number);
+            let mut camera = CameraPackets::new(s, frame, tile, sample, rays);
             outlined(
                 s,
                 #[inline(always)]
@@ -86,7 +84,7 @@ impl Work for TraceTile<'_> {
                 #[inline(always)]
                 || tracer.look_for_the_sky(all, tile),
             );
-            earlier.add_sample(tile, sample);
+            tile.take_sample(number, view);
         }
         tracer.search.stats
     }
@@ -95,7 +93,6 @@ impl Work for TraceTile<'_> {
 /// What tracing a tile keeps at hand.
 struct OcclusionTracer<'a, S: Simd> {
     s: S,
-    frame: &'a Frame<'a>,
     search: Searcher<'a, S>,
     /// Rays from surfaces to the sky.
     queue: &'a mut Queue,
@@ -104,11 +101,14 @@ struct OcclusionTracer<'a, S: Simd> {
 impl<S: Simd> OcclusionTracer<'_, S> {
     /// Finds what camera rays meet, and queues a ray from each surface. Where nothing is met, nothing hides the sky.
     #[inline(always)]
-    fn find_surfaces(&mut self, part: &Part<'_, S>, seen: &Candidates, sample: u32, tile: &mut Tile) {
+    fn find_surfaces(&mut self, part: &Part<'_, S>, seen: &Candidates, sample: &Sample, tile: &mut Tile) {
         self.queue.clear();
         self.search.stats.rays.primary += part.live();
         for stretch in 0..part.stretches() {
             for at in part.stretch(stretch).step_by(F::<S>::LANES) {
+                if part.is_idle(at) {
+                    continue;
+                }
                 let packet = part.packet(self.s, at);
                 let best = self.search.closest(&packet, seen);
                 let sky = F::pick(packet.live & !best.hits(), F::splat(self.s, 1.0), F::splat(self.s, 0.0));
@@ -127,7 +127,7 @@ impl<S: Simd> OcclusionTracer<'_, S> {
         camera: &CameraPackets<'_, S>,
         packet: &Packet<'_, S, CameraPackets<'_, S>>,
         best: &Hits<S>,
-        sample: u32,
+        sample: &Sample,
     ) {
         let s = self.s;
         let lanes = best.hits() & packet.live;
@@ -136,7 +136,7 @@ impl<S: Simd> OcclusionTracer<'_, S> {
         let away = F::splat(s, 0.0).less(geometric.dot(packet.rays.direction));
         let facing = |v: F3<S>| F3::select(away, F3::new(-v.x, -v.y, -v.z), v);
         let [x, y] = camera.pixels_of_picture(s, packet.at);
-        let numbers = Sampler::new(self.frame.view.seed, x, y).pair(U::splat(s, sample), DIRECTION);
+        let numbers = sample.sampler(x, y).pair(U::splat(s, sample.index), pairs::DIRECTION);
         let normal = facing(narrow3(refined.shading));
         let (direction, _) = Diffuse::direction(normal, numbers.map(share_of_one));
         let above = lanes & F::splat(s, 0.0).less(direction.dot(facing(geometric)));

@@ -4,11 +4,10 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::lobe::Diffuse;
 use catoptra_core::{Ray, Rgb, Span};
 
-use super::DIRECTION;
 use crate::Hit;
 use crate::integrator::Search;
 use crate::integrator::walker::{CameraRay, SurfaceHit, Walker};
-use crate::sampler::share;
+use crate::sampler::{pairs, share};
 
 impl<S: Search> Walker<'_, S> {
     /// 1 where a camera ray's surface sees the sky along a random direction, else 0; and what the ray meets.
@@ -18,7 +17,7 @@ impl<S: Search> Walker<'_, S> {
             return (Rgb::WHITE, None);
         };
         let surface = self.surface_at(hit, camera.ray);
-        let numbers = camera.sampler.pair(camera.sample, DIRECTION).map(share);
+        let numbers = camera.sampler.pair(camera.sample, pairs::DIRECTION).map(share);
         let (direction, _) = Diffuse::direction(surface.shading.normal, numbers);
         let light = if self.sees_sky(&surface, direction.into()) { Rgb::WHITE } else { Rgb::BLACK };
         (light, Some(hit))

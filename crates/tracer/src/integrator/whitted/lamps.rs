@@ -26,7 +26,7 @@ impl<S: Search> Walker<'_, S> {
         let mut light = Rgb::BLACK;
         if let Some(tree) = &snapshot.lamps().tree {
             self.stats.lamps.sampled += 1;
-            let (origin, count) = (snapshot.origin_in_frame(), self.frame.view.lamp_rays);
+            let (origin, count) = (snapshot.origin_in_frame(), self.frame.view.lamp_rays_of_sample());
             let rays = picked(snapshot.lamps(), tree, &at, origin, drawn, count);
             let shone = follow_picked(rays, &surface.shading, lobes, |ray| {
                 self.is_blocked(&ray.ray, ray.lamp, surface)
@@ -42,7 +42,7 @@ impl<S: Search> Walker<'_, S> {
             let shown = match seen {
                 Gathered::Exactly(irradiance) if !glossy => brdf * irradiance,
                 _ => {
-                    let rays = LampRays::new(lamp, number, &at, drawn, self.frame.view.lamp_rays);
+                    let rays = LampRays::new(lamp, number, &at, drawn, self.frame.view.lamp_rays_of_sample());
                     let (found, shown) =
                         follow(&rays, &surface.shading, lobes, |ray| self.is_blocked(ray, lamp, surface));
                     shown + brdf * found.of(seen)

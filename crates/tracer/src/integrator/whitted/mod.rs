@@ -4,6 +4,7 @@
 
 mod lamps;
 mod paths;
+mod pieces;
 mod streams;
 mod tiles;
 

@@ -14,6 +14,7 @@ impl<S: Search> Walker<'_, S> {
     /// The light that arrives along a ray from the camera, and what the ray meets first.
     pub(super) fn follow(&mut self, camera: &CameraRay) -> (Rgb, Option<Hit>) {
         let (snapshot, mut ray) = (self.frame.snapshot, camera.ray);
+        let mut footprint = self.footprint(camera);
         let (mut light, mut weight) = (Rgb::BLACK, Triple::splat(1.0));
         let (mut first, mut leaving) = (None, None);
         self.stats.rays.primary += 1;
@@ -26,7 +27,12 @@ impl<S: Search> Walker<'_, S> {
                 first = Some(hit);
             }
             let surface = self.surface_at(hit, ray);
-            let lobes = surface.material.lobes(&surface.shading);
+            let lobes = match footprint.take() {
+                Some(footprint) => {
+                    surface.material.visit_mean_lobes((&surface.shading, &footprint), |lobes| lobes)
+                }
+                None => surface.material.lobes(&surface.shading),
+            };
             if lobes.share > 0.0 {
                 let drawn = Drawn { sampler: camera.sampler, sample: camera.sample, depth };
                 light += rgb(weight) * lobes.share * self.local(&surface, &lobes, &drawn);

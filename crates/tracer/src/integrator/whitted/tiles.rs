@@ -11,11 +11,12 @@ use std::cell::RefCell;
 
 use fearless_simd::{Level, Simd};
 
+use super::pieces::PieceRoom;
 use super::streams::Bounce;
 use crate::cull::{Candidates, Frustum, Planner, PointBounds, TilePlan, quarters};
-use crate::film::EarlierSums;
 use crate::kernel::mesh::Visits;
 use crate::lanes::{F, Work, at_level, outlined};
+use crate::sample::Sample;
 use crate::search::{HitColumns, Searcher};
 use crate::shade::{Chunk, LampRoom, Shader};
 use crate::stream::{Batch, CameraPackets, CameraRays, LaneBounds, Part, Queue};
@@ -45,8 +46,8 @@ struct Room {
     points: Vec<PointBounds>,
     visits: Visits,
     rays: CameraRays,
-    earlier: EarlierSums,
     lamps: LampRoom,
+    pieces: PieceRoom,
     /// [`Registers`] of the kind of instructions that were used last.
     registers: Option<Box<dyn Any>>,
 }
@@ -96,8 +97,8 @@ impl Work for TraceTile<'_> {
 /// Traces one tile with the instructions that `s` stands for.
 #[inline(always)]
 fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
-    let (snapshot, view, grid) = (frame.snapshot, frame.view, frame.view.grid);
-    let Room { next, bounce, found, visible, plan, points, visits, rays, earlier, lamps, registers } = room;
+    let (snapshot, view) = (frame.snapshot, frame.view);
+    let Room { next, bounce, found, visible, plan, points, visits, rays, lamps, pieces, registers } = room;
     let mut own = Registers::take(s, registers.take());
     let Registers { chunk, seen, sent } = &mut *own;
     for queue in [&mut *next, &mut bounce.stream] {
@@ -106,15 +107,17 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
     plan.start(snapshot);
     let outside = frame.outside_solids;
     let search = Searcher { s, snapshot, stats: Stats::default(), visits, outside };
-    let shader = Shader { s, search, view, plan, chunk, lamp_room: lamps, sample: 0, next, sent };
+    let shader =
+        Shader { s, search, view, plan, chunk, lamp_room: lamps, sample: Sample::new(view, 0), next, sent };
     let planner = Planner { snapshot, skip: view.skip, outside };
     let mut tracer = TileTracer { s, frame, planner, shader, found, seen, points };
     visible[0].all(snapshot.columns());
-    for sample in 0..grid * grid {
+    for number in view.traced_samples() {
+        let sample = Sample::new(view, number);
         tracer.shader.sample = sample;
-        let mut camera = CameraPackets::new(s, frame, tile, (sample % grid, sample / grid), rays);
+        let mut camera = CameraPackets::new(s, frame, tile, &sample, rays);
         let region = Region::from(Size::new(tile.width, tile.height));
-        if view.skip.hidden {
+        if view.skip.hidden && frame.is_pinhole() {
             tracer.survey(&mut camera, region, visible, tile);
         } else {
             tracer.shader.plan.dark.clear();
@@ -123,7 +126,11 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
         if tracer.shader.next.len() > 0 {
             tracer.follow(bounce, tile);
         }
-        earlier.add_sample(tile, sample);
+        tile.take_sample(number, view);
+    }
+    if let Some(edges) = frame.edges {
+        let [all, within, ..] = visible;
+        tracer.show_pieces(edges, [all, within], (pieces, bounce), tile);
     }
     let stats = tracer.shader.search.stats;
     *registers = Some(own);
@@ -133,7 +140,7 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
 /// What tracing a tile keeps at hand.
 pub(super) struct TileTracer<'a, S: Simd> {
     pub(super) s: S,
-    frame: &'a Frame<'a>,
+    pub(super) frame: &'a Frame<'a>,
     pub(super) planner: Planner<'a>,
     pub(super) shader: Shader<'a, S>,
     /// What the rays of the batch under way have met.
@@ -181,7 +188,7 @@ impl<S: Simd> TileTracer<'_, S> {
         skipped.nothing_seen += part.live();
         let light = self.frame.snapshot.background_light();
         let view = self.frame.view;
-        let whole = part.region.size == Size::new(tile.width, tile.height) && view.grid == 1;
+        let whole = part.region.size == Size::new(tile.width, tile.height) && view.samples <= 1;
         let narrow = [light.x.narrow, light.y.narrow, light.z.narrow];
         if whole && tile.goes_blank(narrow) && view.skip.blank {
             skipped.blank_before += part.live();
@@ -256,6 +263,9 @@ impl<S: Simd> TileTracer<'_, S> {
         self.seen.clear();
         for stretch in 0..batch.stretches() {
             for at in batch.stretch(stretch).step_by(F::<S>::LANES) {
+                if batch.is_idle(at) {
+                    continue;
+                }
                 let packet = batch.packet(self.s, at);
                 let best = self.shader.search.closest(&packet, candidates);
                 best.store(self.found, at);
