@@ -8,6 +8,7 @@ use catoptra_core::glam::DVec3;
 
 use crate::Snapshot;
 use crate::accel::MAX_DEPTH;
+use crate::film::NOTHING;
 use crate::kernel::PlaneRow;
 use crate::snapshot::{Ball, LampRow};
 
@@ -61,7 +62,9 @@ pub(crate) fn blockers_between(
 ) {
     let columns = snapshot.columns();
     let shaft = Shaft::new(bounds, &lamp.ball);
-    let own = (outside && columns.is_convex(bounds.prim)).then_some(bounds.prim);
+    // Of several shapes together none is known to be the points' own.
+    let of_one = bounds.prim != NOTHING;
+    let own = (outside && of_one && columns.is_convex(bounds.prim)).then_some(bounds.prim);
     let planes = columns.planes.iter().filter(|row| stands_between(row, bounds, &lamp.ball));
     out.extend(planes.map(|row| row.prim));
     out.extend(&columns.general_unbounded);
