@@ -7,13 +7,14 @@ use catoptra_core::{Lane, LaneMask, Rgb, ShadingPoint, Shape, Triple};
 use fearless_simd::Simd;
 
 use super::Shader;
+use crate::cull::is_few;
 use crate::lamps::{
     BallOutline, Drawn, Gathered, LitPoint, Outline, PickedRay, follow_picked, gather, picked,
 };
-use crate::lanes::{D3, F, F3, M, U, narrow3, outlined, splat_wide, widen3};
+use crate::lanes::{D3, F, F3, M, U, magnitude, narrow3, outlined, splat_wide, widen3};
 use crate::numeric::{CUT_MARGIN, SMALL_LAMP};
 use crate::search::{Refined, ViewCones};
-use crate::snapshot::{FlatLamp, LampRow, LampTree};
+use crate::snapshot::{Ball, FlatLamp, LampRow, LampTree};
 use crate::stream::Batch;
 use crate::{SurfaceId, Tile};
 
@@ -83,7 +84,9 @@ impl<'a, S: Simd> Shader<'a, S> {
         let lamp = &self.search.snapshot.lamps().rows[number];
         let none = M::splat(self.s, false);
         let mut found = FoundInLanes { seen: F::splat(self.s, 0.0), answered: none, sampled: none };
-        if let Some(flat) = &lamp.flat {
+        if let Some(flat) = &lamp.flat
+            && is_few(self.search.snapshot)
+        {
             found = self.seen_of_flat(at, lamp, flat, number);
         }
         let FoundInLanes { mut seen, answered, mut sampled } = found;
@@ -146,16 +149,33 @@ impl<'a, S: Simd> Shader<'a, S> {
         for at_blocker in 0..self.plan.lamps[number].blockers.len() {
             let prim = self.plan.lamps[number].blockers[at_blocker];
             let own = self.chunk.best[slot].prim.is(prim);
-            let ball = match &snapshot.prims()[prim as usize].shape {
-                Shape::Sphere(ball) if self.search.outside || !own.any() => ball,
-                Shape::Mesh(_) => {
-                    let [e, f, g, h, i] = outline.planes();
-                    let cones =
-                        ViewCones { tip: point, planes: [e, f, g, h, i, ground], lanes: seeing & !sampled };
-                    sampled = sampled | self.search.reaches_into(prim, &cones);
-                    continue;
-                }
-                _ => return FoundInLanes { seen: zero, answered: none, sampled: none },
+            let shape = &snapshot.prims()[prim as usize].shape;
+            if let Shape::Mesh(_) = shape {
+                let [e, f, g, h, i] = outline.planes();
+                let cones =
+                    ViewCones { tip: point, planes: [e, f, g, h, i, ground], lanes: seeing & !sampled };
+                sampled = sampled | self.search.reaches_into(prim, &cones);
+                continue;
+            }
+            // Points on a convex shape that is seen from outside have it below them, as those on a flat one have.
+            let below =
+                shape.bounds().is_none() || (self.search.outside && snapshot.columns().is_convex(prim));
+            if !below {
+                answered = answered & !own;
+            }
+            let Shape::Sphere(ball) = shape else {
+                let unknown = match shape.bounds() {
+                    Some(bounds) => {
+                        let ball = Ball::round(bounds);
+                        let towards = from_point(ball.center - snapshot.origin_in_frame());
+                        let radius = F::splat(s, (ball.radius * (1.0 + f64::from(CUT_MARGIN))) as f32);
+                        let inside = towards.dot(towards).less(radius * radius);
+                        inside | outline.may_be_hidden_by(&BallOutline::new(towards, radius))
+                    }
+                    None => !self.is_beside_plane(prim, lamp, point),
+                };
+                answered = answered & !(seeing & !own & unknown);
+                continue;
             };
             let center = ball.center() - snapshot.origin_in_frame();
             let towards = from_point(center);
@@ -170,9 +190,10 @@ impl<'a, S: Simd> Shader<'a, S> {
             let height = flat.normal.dot(center - flat.corners()[0]) / ball.radius();
             let cut = height.abs() < 1.0 + f64::from(CUT_MARGIN);
             let before = if height > 0.0 { front } else { behind };
+            let met = met & (before | M::splat(s, cut));
             answered = answered & !(met & (inside | touched | M::splat(s, cut)));
             touched = touched | met;
-            hidden = F::pick(met & before, outline.hidden_by(&seen, normal), hidden);
+            hidden = F::pick(met, outline.hidden_by(&seen, normal), hidden);
         }
         let sampled = sampled & answered;
         let seen = F::pick(sampled, open, (open - hidden).max(zero));
@@ -183,6 +204,19 @@ impl<'a, S: Simd> Shader<'a, S> {
         stats.open += (answered & seeing & !touched).count();
         stats.sampled += sampled.count();
         FoundInLanes { seen, answered, sampled }
+    }
+
+    /// The lanes whose points lie on the same side of a plane as all of a lamp, clear of it.
+    #[inline(always)]
+    fn is_beside_plane(&self, prim: u32, lamp: &LampRow, point: D3<S>) -> M<S> {
+        let (s, snapshot) = (self.s, self.search.snapshot);
+        let Shape::Plane(plane) = &snapshot.prims()[prim as usize].shape else { return M::splat(s, false) };
+        let (normal, on) = (plane.normal(), plane.point() - snapshot.origin_in_frame());
+        let of_lamp = normal.dot(lamp.ball.center - on);
+        let clear = of_lamp.abs() > lamp.ball.radius * (1.0 + f64::from(CUT_MARGIN));
+        let from_plane = narrow3(point - splat_wide(s, on));
+        let above = from_plane.dot(narrow3(splat_wide(s, normal * of_lamp.signum())));
+        M::splat(s, clear) & (magnitude(from_plane) * F::splat(s, CUT_MARGIN)).less(above)
     }
 
     /// A point of a packet, in `f64`.
