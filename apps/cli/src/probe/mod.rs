@@ -58,7 +58,7 @@ pub(crate) struct ProbeArgs {
     #[arg(long, value_name = "CORNER U V NxM", allow_hyphen_values = true)]
     plane: Option<Plane>,
     /// Picture of the plane in false colours with lines of equal light (.png), seen from where its normal points to, u to the right
-    #[arg(short, long, value_name = "FILE", requires = "plane")]
+    #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
@@ -111,10 +111,16 @@ fn check(args: &ProbeArgs) -> Result<()> {
         ));
     }
     check_heard()?;
-    if let Some(path) = &args.output
-        && Format::of(path)? != Format::Png
-    {
-        return Err(miette!(help = "give it the ending .png", "the picture of a plane is a .png"));
+    if let Some(path) = &args.output {
+        if args.plane.is_none() {
+            return Err(miette!(
+                help = "ask for a plane with --plane",
+                "--output is for the picture of a plane"
+            ));
+        }
+        if Format::of(path)? != Format::Png {
+            return Err(miette!(help = "give it the ending .png", "the picture of a plane is a .png"));
+        }
     }
     check_apart(&outputs(args), &[scene_input(&args.scene)])?;
     check_writable(&outputs(args))

@@ -59,7 +59,7 @@ fn slips_are_told_with_their_place() {
     for (text, words) in [
         ("0 0 0 0 1 0\n0 0 0 0 0 0\n", "points:2:7: the normal must not be zero"),
         ("0 NaN 0 0 1 0\n", "points:1:3: `NaN` is not finite"),
-        ("0 0 0 0 1\n", "points:1:9: six numbers are a line, and this one has 5"),
+        ("0 0 0 0 1\n", "points:1:10: six numbers are a line, and this one has 5"),
         ("0 0 0 0 1 0 1\n", "points:1:13: six numbers are a line, and this one has 7"),
         ("0 0 0 0 one 0\n", "points:1:9: `one` is no number"),
     ] {
@@ -116,7 +116,7 @@ fn a_plan_has_numbers_and_a_picture() {
 
 #[test]
 fn where_rays_are_drawn_more_of_them_make_it_surer() {
-    let area = "matte \"m\"\nsphere-light \"l\" { center 0 3 0; radius 1; radiance 1 }\nmesh \"t\" material=\"m\" { file \"t.obj\" }\n";
+    let area = "matte \"m\" { color 0.5 }\nsphere-light \"l\" { center 0 3 0; radius 1; radiance 1 }\nmesh \"t\" material=\"m\" { file \"t.obj\" }\n";
     let folder = with("area.kdl", area);
     std::fs::write(folder.path().join("t.obj"), "v 0 1 -9\nv 0 1 9\nv 9 1 0\nf 1 2 3\n").unwrap();
     std::fs::write(folder.path().join("points"), "0 0 0 0 1 0\n").unwrap();

@@ -16,25 +16,26 @@ pub struct ClosedRoom {
     pub power: f64,
 }
 
-/// Rooms 4 x 3 x 4 with a lamp of each kind in mid-air.
+/// Rooms 4 x 3 x 4 with a lamp of each kind in mid-air. The planes of flat ones halve the walls, on which the light is smooth on
+/// either side of them.
 #[must_use]
 pub fn closed_rooms() -> Vec<ClosedRoom> {
     let lamps = [
         (
             "rectangle, one side",
-            "rectangle-light \"lamp\" { corner 1.5 1.9 1.6; edge-u 0.8 0 0; edge-v 0 0 0.6; power 100 }",
+            "rectangle-light \"lamp\" { corner 1.5 1.5 1.6; edge-u 0.8 0 0; edge-v 0 0 0.6; power 100 }",
         ),
         (
             "rectangle, both sides",
-            "rectangle-light \"lamp\" { corner 1.5 1.4 1.6; edge-u 0.8 0 0; edge-v 0 0.3 0.6; power 100; two-sided #true }",
+            "rectangle-light \"lamp\" { corner 1.5 1.1 2; edge-u 0.8 0 0; edge-v 0 0.7 0; power 100; two-sided #true }",
         ),
         (
             "disk, one side",
-            "disk-light \"lamp\" { center 2 1.5 2.1; normal 0.2 -1 0.3; radius 0.4; power 100 }",
+            "disk-light \"lamp\" { center 2.2 1.5 2.1; normal 0 -1 0; radius 0.4; power 100 }",
         ),
         (
             "disk, both sides",
-            "disk-light \"lamp\" { center 2 1.5 2.1; normal 1 0 0; radius 0.4; power 100; two-sided #true }",
+            "disk-light \"lamp\" { center 2 1.4 2.1; normal 1 0 0; radius 0.4; power 100; two-sided #true }",
         ),
         ("sphere", "sphere-light \"lamp\" { center 1.8 1.4 2.1; radius 0.5; power 100 }"),
     ];

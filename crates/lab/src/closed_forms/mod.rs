@@ -87,7 +87,7 @@ mod tests {
             ("past a box", 2, 0.153_988_10),
             ("ball before a lamp", 0, 1.167_855_918),
             ("ball before a lamp", 4, 0.0),
-            ("three balls", 1, 1.228_170_730),
+            ("Three balls", 1, 1.228_170_730),
             ("square and a ball", 0, 0.146_451_544),
             ("ball that shines", 3, 0.001_166_140),
             ("behind a ball", 0, 0.111_456_517),

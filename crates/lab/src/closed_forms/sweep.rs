@@ -36,14 +36,16 @@ pub(super) fn as_disk(point: DVec3, center: DVec3, radius: f64) -> Flat {
 
 /// The irradiance at a point with a unit normal.
 pub(super) fn irradiance(point: DVec3, normal: DVec3, lamp: &Flat, between: &[Between]) -> f64 {
-    let sweep = Sweep { point, normal, lamp, between, rule: Rule::new() };
-    let stripes = 8;
-    let at = |k: u32| f64::from(k) / f64::from(stripes);
-    (0..stripes).map(|k| sweep.across(at(k), at(k + 1), sweep.of_stripe(at(k), at(k + 1)), DEEPEST)).sum()
+    let rule = Rule::new();
+    let sweep = Sweep { point, normal, lamp, between, rule: &rule };
+    let at = |k: u32| f64::from(k) / f64::from(STRIPES);
+    (0..STRIPES).map(|k| rule.halved([at(k), at(k + 1)], 1e-13, &|s| sweep.of_line(&sweep.line(s)))).sum()
 }
 
-/// Halving ends where both halves agree with the whole to this share of a lamp's largest light, π, or here at last.
-const AGREED: f64 = 1e-12;
+/// How many parts a lamp is swept in at least.
+const STRIPES: u32 = 8;
+
+/// How often a part is halved at most.
 const DEEPEST: u32 = 40;
 
 /// Nodes in 0..=1 and weights of the Gauss–Legendre rule with 16 points.
@@ -76,8 +78,30 @@ impl Rule {
         self.0.iter().for_each(|(node, weight)| each(*node, *weight));
     }
 
-    /// The integral of a function from `a` to `b`.
-    fn integral(&self, a: f64, b: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
+    /// The integral of a function, by halves until both say together what the whole said, to about `off`.
+    fn halved(&self, ends: [f64; 2], off: f64, f: &impl Fn(f64) -> f64) -> f64 {
+        self.by_halves(ends, self.integral(ends, f), (off, DEEPEST), f)
+    }
+
+    fn by_halves(
+        &self,
+        [a, b]: [f64; 2],
+        whole: f64,
+        (off, depth): (f64, u32),
+        f: &impl Fn(f64) -> f64,
+    ) -> f64 {
+        let middle = (a + b) / 2.0;
+        let halves = [[a, middle], [middle, b]];
+        let [left, right] = halves.map(|ends| self.integral(ends, f));
+        if depth == 0 || (left + right - whole).abs() <= off {
+            return left + right;
+        }
+        // Errors of the rule lie in few parts.
+        let next = (off * std::f64::consts::FRAC_1_SQRT_2, depth - 1);
+        self.by_halves(halves[0], left, next, f) + self.by_halves(halves[1], right, next, f)
+    }
+
+    fn integral(&self, [a, b]: [f64; 2], f: &impl Fn(f64) -> f64) -> f64 {
         self.0.iter().map(|(x, w)| w * f(a + (b - a) * x)).sum::<f64>() * (b - a)
     }
 }
@@ -87,7 +111,7 @@ struct Sweep<'a> {
     normal: DVec3,
     lamp: &'a Flat,
     between: &'a [Between],
-    rule: Rule,
+    rule: &'a Rule,
 }
 
 /// A line over the lamp, from t = 0 to 1, as seen from the point; and the area that a step of t and of s stands for.
@@ -113,19 +137,6 @@ impl Line {
 }
 
 impl Sweep<'_> {
-    fn across(&self, a: f64, b: f64, whole: f64, depth: u32) -> f64 {
-        let middle = (a + b) / 2.0;
-        let [left, right] = [self.of_stripe(a, middle), self.of_stripe(middle, b)];
-        if depth == 0 || (left + right - whole).abs() <= AGREED * (b - a).sqrt() {
-            return left + right;
-        }
-        self.across(a, middle, left, depth - 1) + self.across(middle, b, right, depth - 1)
-    }
-
-    fn of_stripe(&self, a: f64, b: f64) -> f64 {
-        self.rule.integral(a, b, |s| self.of_line(&self.line(s)))
-    }
-
     fn line(&self, s: f64) -> Line {
         match *self.lamp {
             Flat::Parallelogram(corner, [u, v]) => {
@@ -168,7 +179,7 @@ impl Sweep<'_> {
         let pieces = places
             .windows(2)
             .filter(|ends| ends[0] < ends[1] && self.sees(line.at((ends[0] + ends[1]) / 2.0)));
-        pieces.map(|ends| self.rule.integral(ends[0], ends[1], |t| light(line.at(t)))).sum()
+        pieces.map(|ends| self.rule.halved([ends[0], ends[1]], 1e-14, &|t| light(line.at(t)))).sum()
     }
 
     /// Adds where a blocker may begin or end to hide the line.

@@ -15,27 +15,27 @@ pub(super) struct Tally {
     open: f64,
     /// What the open rays of each set bring, and what all do.
     sums: [[f64; 2]; SETS as usize],
-    /// How many were open, and how many there were.
-    rays: [u64; 2],
+    /// How many there were.
+    rays: u64,
 }
 
 impl Tally {
     pub(super) fn new(open: f64) -> Self {
-        Self { open, sums: [[0.0; 2]; SETS as usize], rays: [0; 2] }
+        Self { open, sums: [[0.0; 2]; SETS as usize], rays: 0 }
     }
 
     /// Adds a ray of a set.
     pub(super) fn add(&mut self, set: usize, share: f64, is_open: bool) {
         self.sums[set][0] += if is_open { share } else { 0.0 };
         self.sums[set][1] += share;
-        self.rays[0] += u64::from(is_open);
-        self.rays[1] += 1;
+        self.rays += 1;
     }
 
     /// How much is seen, and the standard error of that.
     ///
     /// Seen is the open rays' part of what all bring, of the unblocked lamp: exact where all are open. The error is that of
-    /// a ratio of means. Where all rays agree they tell nothing of what lies between them: of that, one ray's share.
+    /// a ratio of means. Rays tell nothing of what lies between them, and where almost all agree the few others are there by
+    /// luck: so one ray's share is added, as another independent error.
     pub(super) fn seen(&self) -> (f64, f64) {
         let sets = f64::from(SETS);
         let all: f64 = self.sums.iter().map(|[_, all]| all).sum();
@@ -44,10 +44,8 @@ impl Tally {
         }
         let share = self.sums.iter().map(|[open, _]| open).sum::<f64>() / all;
         let squares: f64 = self.sums.iter().map(|[open, all]| (open - share * all).powi(2)).sum();
-        let error = (squares * sets / (sets - 1.0)).sqrt() / all;
-        let [open, rays] = self.rays;
-        let least = if open == 0 || open == rays { 1.0 / rays as f64 } else { 0.0 };
-        (self.open * share, self.open * error.max(least))
+        let variance = squares * sets / (sets - 1.0) / (all * all);
+        (self.open * share, self.open * (variance + (self.rays as f64).powi(-2)).sqrt())
     }
 }
 
