@@ -1,10 +1,12 @@
 //! Is light from surfaces the same by every backend, within what is promised, in whatever stands in its way?
 
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
+
 use std::fmt::Write;
 
 use catoptra_core::Scene;
 use catoptra_tests::{assert_same_bits, camera_of, film, parsed, traced};
-use catoptra_tracer::{Film, Instructions, Size, Skip, View};
+use catoptra_tracer::{Control, Film, Instructions, Pool, Size, Skip, Snapshot, View, backend_named, render};
 
 /// How far `wide` may be from the oracle, as a share of the radiance of the lamp.
 const PROMISED: f64 = 2e-5;
@@ -119,12 +121,22 @@ fn scene(seed: u64) -> String {
     text
 }
 
-/// Both films, the largest difference on the floor, and the root mean square of all.
-fn compared(text: &str, size: Size) -> (f64, f64) {
+/// How far `wide` is from the oracle: at worst, and the root mean square; `None` where any light has no closed form.
+fn compared(text: &str, size: Size) -> Option<(f64, f64)> {
     let scene = parsed(text);
     let view = View::of(&scene, camera_of(&scene), size);
-    let trace = |backend: &str| traced(&scene, backend, &view, Film::new(size), 0);
-    let (exact, wide) = (trace("oracle"), trace("wide"));
+    let pool = Pool::new(0).unwrap();
+    let snapshot = Snapshot::extract(&scene, &pool);
+    let trace = |backend: &str| {
+        let mut film = Film::new(size);
+        let backend = backend_named(backend).unwrap();
+        let stats = render(backend, &snapshot, &view, &mut film, &pool, &Control::default()).unwrap();
+        (film, stats.lamps.sampled)
+    };
+    let ((exact, sampled), (wide, _)) = (trace("oracle"), trace("wide"));
+    if sampled > 0 {
+        return None;
+    }
     let (mut worst, mut squares) = (0.0_f64, 0.0);
     for (x, y) in (0..size.height).flat_map(|y| (0..size.width).map(move |x| (x, y))) {
         if exact.surface(x, y) != wide.surface(x, y) {
@@ -139,20 +151,22 @@ fn compared(text: &str, size: Size) -> (f64, f64) {
             }
         }
     }
-    (worst, (squares / (3.0 * size.pixels() as f64)).sqrt())
+    Some((worst, (squares / (3.0 * size.pixels() as f64)).sqrt()))
 }
 
 /// Compares pictures of so many random scenes; a floor of albedo 1 shows a π-th of its irradiance.
 fn compare_scenes(scenes: u64, size: Size) {
-    let mut squares = 0.0;
+    let (mut squares, mut count) = (0.0, 0.0);
     for seed in 0..scenes {
         let text = scene(seed);
-        let (worst, rms) = compared(&text, size);
+        let Some((worst, rms)) = compared(&text, size) else { continue };
         assert!(worst <= PROMISED, "seed {seed}: off by {worst:e} of the radiance\n{text}");
         squares += rms * rms;
+        count += 1.0;
     }
-    let rms = (squares / scenes as f64).sqrt();
-    println!("root mean square of the difference over {scenes} scenes: {rms:e}");
+    let rms = (squares / count).sqrt();
+    println!("root mean square of the difference over {count} scenes: {rms:e}");
+    assert!(count > 0.6 * scenes as f64, "only {count} scenes have a closed form");
     assert!(rms < 1e-6, "root mean square {rms:e}");
 }
 
@@ -187,7 +201,11 @@ sphere-light "bulb" { center 1.8 2 1.5; radius 0.2; power 6 }
 
 #[test]
 fn lamps_of_all_kinds_light_a_room_alike_by_every_backend() {
-    let scene = parsed(ROOM);
+    // Highlights are sampled, by each backend in its own way.
+    let scene = parsed(&ROOM.replace(
+        "phong \"p\" { diffuse 0.5 0.5 0.6; specular 0.4; shininess 20;",
+        "matte \"p\" { color 0.5;",
+    ));
     let size = Size::new(120, 90);
     let exact = film(&scene, "oracle", size, 0);
     for backend in ["scalar", "wide"] {
