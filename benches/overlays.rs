@@ -29,7 +29,7 @@ fn main() {
         let mut picture = vec![0; SIZE.pixels()];
         group.bench_function(BenchmarkId::new("blend", name), |b| b.iter(|| layer.blend_over(&mut picture)));
         group.bench_function(BenchmarkId::new("pointer", name), |b| {
-            b.iter(|| (overlay.mark_at(640.0, 360.0), overlay.ring_at(640.0, 360.0)));
+            b.iter(|| (overlay.mark_at(640.0, 360.0), overlay.grip_at(640.0, 360.0)));
         });
     }
     group.finish();

@@ -125,9 +125,10 @@ fn apart(a: &Film, b: &Film) -> [f64; 2] {
 fn one_ray_a_piece_shows_what_thousands_of_samples_do() {
     for (name, things, most) in CASES {
         let scene = scene(things);
-        let sampled = View { edges: Edges::Off, pattern: Pattern::Sobol, grid: 64, ..view(&scene, SIZE) };
+        let sampled =
+            View { edges: Edges::Off, pattern: Pattern::Sobol, samples: 4096, ..view(&scene, SIZE) };
         let reference = traced(&scene, "wide", &sampled, Film::new(SIZE), 0);
-        let plain = traced(&scene, "wide", &View { grid: 1, ..sampled }, Film::new(SIZE), 0);
+        let plain = traced(&scene, "wide", &View { samples: 1, ..sampled }, Film::new(SIZE), 0);
         let [before, _] = apart(&plain, &reference);
         for backend in backends() {
             let found =

@@ -210,14 +210,16 @@ fn bits_of_lamplight_depend_on_neither_tiles_nor_threads_nor_instructions_nor_wh
     let view = View::of(&scene, camera_of(&scene), size);
     let reference = traced(&scene, "wide", &view, Film::new(size), 1);
     for (tile, threads) in [(4, 1), (12, 2), (64, 3)] {
-        assert_same_bits(&reference, &traced(&scene, "wide", &view, Film::with_tiles(size, tile), threads));
+        let film = traced(&scene, "wide", &view, Film::with_tiles(size, tile), threads);
+        assert_same_bits(&reference, &film, &format!("tiles of {tile}"));
     }
     for instructions in Instructions::all() {
         let view = View { instructions: Some(instructions), ..view.clone() };
-        assert_same_bits(&reference, &traced(&scene, "wide", &view, Film::new(size), 2));
+        let film = traced(&scene, "wide", &view, Film::new(size), 2);
+        assert_same_bits(&reference, &film, instructions.name());
     }
     let view = View { skip: Skip::NOTHING, ..view };
-    assert_same_bits(&reference, &traced(&scene, "wide", &view, Film::new(size), 2));
+    assert_same_bits(&reference, &traced(&scene, "wide", &view, Film::new(size), 2), "nothing left out");
 }
 
 /// The light of a picture by the oracle, red, at a pixel.

@@ -19,6 +19,7 @@ use crate::memory;
 use crate::names::{find_backend, find_edges, find_filter, find_instructions, find_integrator, find_pattern};
 use crate::pool::{milliseconds_since, new_pool};
 use crate::suggest::unknown;
+use crate::words::thousands;
 
 /// How frames are made, whatever they show: the names that need no scene to be looked up.
 #[derive(Clone, Copy)]
@@ -91,6 +92,7 @@ impl Job {
         let started = Instant::now();
         let snapshot = Arc::new(Snapshot::extract(&scene, &pool));
         let build_ms = milliseconds_since(started);
+        warn_of_lamps(&scene, &snapshot);
         let camera_name = scene.name(camera_id).unwrap_or_default();
         let scene_name = file_name(&args.scene);
         let (tile, backend) = (args.tile, means.backend);
@@ -190,6 +192,20 @@ fn check_grid(view: &View) -> Result<()> {
         side * side,
         (side + 1) * (side + 1)
     ))
+}
+
+/// Says which surfaces do not light as one may expect.
+fn warn_of_lamps(scene: &Scene, snapshot: &Snapshot) {
+    for lamp in snapshot.endless_lamps() {
+        let name = scene.name(lamp).unwrap_or_default();
+        warn(&format!("\"{name}\" shines but lights nothing: it has no end"));
+    }
+    if let Some(lamps) = snapshot.picked_lamps() {
+        let lamps = thousands(lamps as u64);
+        warn(&format!(
+            "{lamps} surfaces shine, too many to ask each: points ask some, picked at random (--samples makes less noise)"
+        ));
+    }
 }
 
 pub(crate) fn file_name(path: &Path) -> String {

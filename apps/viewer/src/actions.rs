@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use catoptra_core::Value;
 use catoptra_core::scene::{Edit, EntityId, Role};
-use catoptra_raster::{Ring, RingGrip};
+use catoptra_raster::Grip;
 
 use crate::camera_control::{self, NOTCH, ORBIT_PER_PIXEL};
 use crate::guard::Next;
@@ -169,7 +168,7 @@ fn drag_by(viewer: &mut Viewer, drag: Drag, by: (f64, f64), to: (f64, f64)) {
         }
         Drag::Pan => viewer.look(camera_control::pan(&viewer.camera, by, f64::from(viewer.size.1))),
         Drag::Turn => turn_objects(viewer, by),
-        Drag::Ring(grip) => drag_ring(viewer, grip, to),
+        Drag::Handle(grip) => drag_handle(viewer, grip, to),
     }
 }
 
@@ -194,14 +193,9 @@ fn is_object(viewer: &Viewer, id: EntityId) -> bool {
     }
 }
 
-fn drag_ring(viewer: &mut Viewer, grip: RingGrip, to: (f64, f64)) {
-    let Some(angle) = viewer.overlay(&viewer.camera, &[]).drag_ring(grip, to.0, to.1) else { return };
-    let field = match grip.ring {
-        Ring::Inner => "inner",
-        Ring::Outer => "outer",
-    };
-    let Some(light) = viewer.document.scene().light(grip.light) else { return };
-    match light.with(field, Value::Number(angle)) {
+fn drag_handle(viewer: &mut Viewer, grip: Grip, to: (f64, f64)) {
+    let Some(light) = viewer.overlay(&viewer.camera, &[]).drag(grip, to.0, to.1) else { return };
+    match light {
         Ok(light) => viewer.edit_on(Edit::Light(grip.light, light), DRAG_KEY | u64::from(grip.light.index())),
         Err(refusal) => viewer.notify(refusal.to_string()),
     }
@@ -279,18 +273,66 @@ mod tests {
         viewer.settings.style.cones = true;
         let overlay = viewer.overlay(&viewer.camera, &[]);
         let spots = (0..360).flat_map(|y| (0..640).map(move |x| (f64::from(x), f64::from(y))));
-        let (grip, at) = spots.filter_map(|(x, y)| Some((overlay.ring_at(x, y)?, (x, y)))).next().unwrap();
+        let (grip, at) = spots.filter_map(|(x, y)| Some((overlay.grip_at(x, y)?, (x, y)))).next().unwrap();
         let light = |viewer: &Viewer| viewer.document.scene().light(grip.light).unwrap();
         let before = light(&viewer);
         for step in 1..10 {
             let to = (at.0 + f64::from(step), at.1 + f64::from(step));
-            gesture(&mut viewer, Gesture::Dragged { drag: Drag::Ring(grip), by: (1.0, 1.0), to });
+            gesture(&mut viewer, Gesture::Dragged { drag: Drag::Handle(grip), by: (1.0, 1.0), to });
         }
-        gesture(&mut viewer, Gesture::Ended(Drag::Ring(grip)));
+        gesture(&mut viewer, Gesture::Ended(Drag::Handle(grip)));
         assert!(light(&viewer) != before);
         assert_eq!(viewer.selection, Some(grip.light));
         run(&mut viewer, Command::Undo);
         assert_eq!(light(&viewer), before);
+    }
+
+    /// A viewer of a panel of light in a turned and scaled group, over a floor.
+    fn lamp_viewer(folder: &Path) -> (Viewer, EntityId) {
+        let path = folder.join("lamp.kdl");
+        let text = "camera \"c\" { eye 0 2 8; target 0 2 0 }\n\
+            matte \"grey\" { color 0.5 }\nplane \"floor\" material=\"grey\"\n\
+            group \"g\" { turn 20 1 0.3 0; scale 1.5; move 0 1 0\n\
+                rectangle-light \"lamp\" { corner -1 0 0; edge-u 2 0 0; edge-v 0 1 0; radiance 3 } }\n";
+        std::fs::write(&path, text).unwrap();
+        let document = crate::document::Document::open(&path).unwrap();
+        let mut viewer = Viewer::new(loader::Opened::new(document, &Pool::new(1).unwrap()));
+        viewer.size = (640, 360);
+        let lamp = viewer.document.scene().entity_named("lamp").unwrap();
+        (viewer, lamp)
+    }
+
+    #[test]
+    fn a_lamp_is_selected_by_its_surface_and_dragged_by_a_side_as_one_step() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut viewer, lamp) = lamp_viewer(folder.path());
+        let bounds = viewer.document.scene().world_bounds(lamp).unwrap();
+        let selected = [lamp];
+        let seen = |viewer: &Viewer| {
+            let view = catoptra_raster::Projection::new(&viewer.camera, 640, 360);
+            view.project(bounds.centre()).unwrap()
+        };
+        // Aside of the mark in its middle.
+        let (x, y) = (seen(&viewer).x + 30.0, seen(&viewer).y);
+        gesture(&mut viewer, Gesture::Click(x, y));
+        assert_eq!(viewer.selection, Some(lamp));
+        let overlay = viewer.overlay(&viewer.camera, &selected);
+        let right = (320..640).map(|x| (f64::from(x), y));
+        let (grip, at) = right.filter_map(|(x, y)| Some((overlay.grip_at(x, y)?, (x, y)))).next().unwrap();
+        let light = |viewer: &Viewer| viewer.document.scene().light(lamp).unwrap();
+        let before = light(&viewer);
+        for step in 4..20 {
+            let to = (at.0 + f64::from(step), at.1);
+            gesture(&mut viewer, Gesture::Dragged { drag: Drag::Handle(grip), by: (1.0, 0.0), to });
+        }
+        gesture(&mut viewer, Gesture::Ended(Drag::Handle(grip)));
+        let edge = |light: &catoptra_core::Light| light.values().get("edge-u").cloned();
+        assert!(edge(&light(&viewer)) != edge(&before));
+        let same = light(&viewer).with("edge-u", edge(&before).unwrap()).unwrap();
+        assert_eq!(same, before, "nothing but the edge");
+        run(&mut viewer, Command::Undo);
+        assert_eq!(light(&viewer), before);
+        assert!(viewer.document.is_saved());
     }
 
     #[test]

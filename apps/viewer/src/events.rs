@@ -90,10 +90,10 @@ impl App {
         inside && !self.asks() && layer.is_none_or(|layer| layer.order == egui::Order::Background)
     }
 
-    /// The pointer tells that a ring can be dragged.
+    /// The pointer tells that a handle can be dragged.
     fn show_grip(&self, screen: &Screen, at: (f64, f64)) {
         let selection: Vec<_> = self.viewer.selection.into_iter().collect();
-        let grip = self.viewer.overlay(&self.viewer.camera, &selection).ring_at(at.0, at.1);
+        let grip = self.viewer.overlay(&self.viewer.camera, &selection).grip_at(at.0, at.1);
         screen.window.set_cursor(if grip.is_some() { CursorIcon::Grab } else { CursorIcon::Default });
     }
 
@@ -109,7 +109,7 @@ impl App {
         } else if self.over_picture && !self.asks() {
             let (x, y) = self.viewer.pointer.at;
             let selection: Vec<_> = self.viewer.selection.into_iter().collect();
-            let grip = self.viewer.overlay(&self.viewer.camera, &selection).ring_at(x, y);
+            let grip = self.viewer.overlay(&self.viewer.camera, &selection).grip_at(x, y);
             let mode: Mode = self.viewer.settings.mode;
             self.viewer.pointer.press(button, self.modifiers.shift_key(), mode, grip);
             screen.egui.memory_mut(|memory| {

@@ -1,7 +1,7 @@
 //! What does the pointer mean over the picture? A press that stays put is a click, one that travels is a drag whose
 //! sort was settled when it began. Pure state, no window.
 
-use catoptra_raster::RingGrip;
+use catoptra_raster::Grip;
 
 /// What a plain left-drag does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -52,8 +52,8 @@ pub(crate) enum Drag {
     Pan,
     /// How the objects are turned.
     Turn,
-    /// A spot light's cone angle.
-    Ring(RingGrip),
+    /// A spot light's cone angle, or a lamp's size.
+    Handle(Grip),
 }
 
 /// What came of a pointer event. Positions and differences are in pixels of the picture, y down.
@@ -95,13 +95,13 @@ impl Pointer {
     }
 
     /// A button goes down here. A second button while one is down changes nothing.
-    pub(crate) fn press(&mut self, button: Button, shift: bool, mode: Mode, grip: Option<RingGrip>) {
+    pub(crate) fn press(&mut self, button: Button, shift: bool, mode: Mode, grip: Option<Grip>) {
         if self.press.is_some() {
             return;
         }
         let drag = match (button, shift, grip, mode) {
             (Button::Other, ..) | (_, true, ..) => Drag::Pan,
-            (Button::Left, false, Some(grip), _) => Drag::Ring(grip),
+            (Button::Left, false, Some(grip), _) => Drag::Handle(grip),
             (Button::Left, false, None, Mode::Orbit) => Drag::Orbit,
             (Button::Left, false, None, Mode::Turntable) => Drag::Turn,
         };

@@ -105,6 +105,7 @@ pub(crate) const OTHERS: &[(&str, &str)] = &[
     ("Left drag", "orbit the camera; turntable: turn the objects"),
     ("Right or Shift drag", "pan"),
     ("Left drag on a ring", "change a spot light's cone angle"),
+    ("Left drag on a rim", "change the size of the selected lamp: sides, corners too"),
     ("Wheel", "zoom to the pointer; turntable: along the view"),
     ("Ctrl wheel", "the other of the two"),
     ("Drop a file", "open a scene; asks about unsaved edits"),

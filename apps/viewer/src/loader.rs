@@ -19,7 +19,8 @@ pub(crate) struct Opened {
 }
 
 impl Opened {
-    fn new(document: Document, pool: &Pool) -> Self {
+    /// Of a document.
+    pub(crate) fn new(document: Document, pool: &Pool) -> Self {
         let extraction = Extraction::of(document.scene());
         let latest = Latest::new(extraction.snapshot(pool));
         Self { document, extraction: Arc::new(extraction), latest: Arc::new(latest) }

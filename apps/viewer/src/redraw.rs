@@ -9,7 +9,7 @@ use catoptra_raster::{DepthField, Overlay};
 use crate::app::App;
 use crate::canvas::{Pixels, Region};
 use crate::screen::{Fitted, Screen};
-use crate::status::{FrameFigures, REST};
+use crate::status::{FrameFigures, REST, lamp_notes};
 use crate::viewer::Viewer;
 use crate::{actions, outline, panel};
 
@@ -83,7 +83,9 @@ impl App {
         let notice_ends = self.viewer.notice.as_ref().map(|(_, since)| *since + NOTICE);
         self.status_due = if moving { Some(now + STATUS_EVERY) } else { notice_ends };
         let line = self.meter.line(self.pool.threads(), now);
-        format!("{line}  ·  {}  ·  {}", self.viewer.settings.backend.name(), self.viewer.settings.mode.name())
+        let (backend, mode) = (self.viewer.settings.backend.name(), self.viewer.settings.mode.name());
+        let notes = lamp_notes(self.viewer.document.scene(), &self.viewer.latest.get());
+        [&[line, backend.to_owned(), mode.to_owned()][..], &notes].concat().join("  ·  ")
     }
 
     /// Takes the newest frame from the worker; `false` if there is none.

@@ -3,6 +3,9 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
+use catoptra_core::Scene;
+use catoptra_tracer::Snapshot;
+
 /// How far back frames are counted.
 const WINDOW: Duration = Duration::from_secs(1);
 
@@ -86,6 +89,14 @@ impl Meter {
     }
 }
 
+/// What surfaces do not light as one may expect.
+pub(crate) fn lamp_notes(scene: &Scene, snapshot: &Snapshot) -> Vec<String> {
+    let names = snapshot.endless_lamps().filter_map(|lamp| scene.name(lamp));
+    let endless = names.map(|name| format!("{name} has no end and lights nothing"));
+    let picked = snapshot.picked_lamps().map(|lamps| format!("{lamps} lamps, some picked at random"));
+    endless.chain(picked).collect()
+}
+
 fn milliseconds(duration: Duration) -> f64 {
     1e3 * duration.as_secs_f64()
 }
@@ -134,6 +145,15 @@ mod tests {
         }
         assert!(meter.ends.len() <= 11);
         assert!(meter.line(1, start + Duration::from_millis(9900)).contains("10 fps"));
+    }
+
+    #[test]
+    fn a_plane_that_glows_is_told() {
+        let text = "emissive \"glow\" { radiance 1 }\nplane \"ground\" material=\"glow\"\n\
+            sphere \"ball\" material=\"glow\" { radius 1 }\n";
+        let (scene, _) = catoptra_scene::parse(text, "text", None).unwrap();
+        let snapshot = Snapshot::extract(&scene, &catoptra_tracer::Pool::new(1).unwrap());
+        assert_eq!(lamp_notes(&scene, &snapshot), ["ground has no end and lights nothing"]);
     }
 
     #[test]

@@ -5,14 +5,15 @@
 #[allow(dead_code, reason = "the tests of shapes use the rest")]
 mod samples;
 
+use std::f64::consts::PI;
 use std::fmt::Debug;
 use std::sync::Arc;
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::light::Pole;
 use catoptra_core::{
-    Camera, Field, FieldKind, IntensityProfile, InvalidPart, Kind, Light, Material, Part, ProfileSource, Rgb,
-    Settings, Shape, Value, Values,
+    Camera, Field, FieldKind, IntensityProfile, InvalidPart, Kind, Light, Material, Part, Placement,
+    ProfileSource, Rgb, Settings, Shape, Value, Values,
 };
 use samples::samples_of;
 
@@ -273,6 +274,57 @@ fn one_changed_value_changes_that_value_alone() {
     assert_eq!(moved.values(), light.values().with("position", Value::Vector(DVec3::ONE)));
     assert_eq!(light.with("radius", Value::Number(1.0)).unwrap_err().field(), "radius");
     assert_eq!(light.with("intensity", Value::Number(1.0)).unwrap_err().field(), "intensity");
+}
+
+#[test]
+fn radiance_and_power_take_each_others_place() {
+    let grown = Placement::IDENTITY.scaled(3.0).unwrap();
+    for name in ["rectangle-light", "disk-light", "sphere-light"] {
+        let kind = Light::kind_named(name).unwrap();
+        for two_sided in [false, true] {
+            let given = good(kind);
+            let sided =
+                given.get("two-sided").map(|_| given.clone().with("two-sided", Value::Flag(two_sided)));
+            let given = sided.unwrap_or(given);
+            let light = (kind.make)(&given).unwrap();
+            let placed = light.placed(&grown);
+            let power = placed.equivalent("power").unwrap();
+            let by_power = light.with("power", power.clone()).unwrap();
+            assert_eq!(by_power.values().get("power"), Some(&power));
+            assert_eq!(by_power.values().get("radiance"), None);
+            // The same light, and where it stands, not as it would be unscaled.
+            let shines = |light: &Light| light.placed(&grown).lamp().unwrap().emission.radiance.to_array();
+            for (a, b) in shines(&by_power).into_iter().zip(shines(&light)) {
+                assert!((a - b).abs() <= 1e-15 * b, "{name}: {a} became {b}");
+            }
+            let radiance = by_power.placed(&grown).equivalent("radiance").unwrap();
+            let back = by_power.with("radiance", radiance).unwrap();
+            assert_eq!(back.values().get("power"), None);
+            assert_eq!(
+                back.placed(&grown).equivalent("radiance"),
+                by_power.placed(&grown).equivalent("radiance")
+            );
+            assert_eq!(light.equivalent("shadow"), None);
+        }
+    }
+}
+
+#[test]
+fn the_power_of_a_lamp_is_its_radiance_over_all_ways_that_it_shines() {
+    let part = |name: &str, given: &[(&'static str, Value)]| {
+        let values = given.iter().fold(Values::new(), |all, (name, value)| all.with(name, value.clone()));
+        (Light::kind_named(name).unwrap().make)(&values).unwrap()
+    };
+    let power = |light: &Light| light.equivalent("power");
+    let radiance = ("radiance", Value::Color(Rgb::grey(2.0)));
+    let disk = part("disk-light", &[("radius", Value::Number(3.0)), radiance.clone()]);
+    assert_eq!(power(&disk), Some(Value::Color(Rgb::grey(2.0 * PI * (PI * 9.0)))));
+    let ball = part("sphere-light", &[("radius", Value::Number(3.0)), radiance.clone()]);
+    assert_eq!(power(&ball), Some(Value::Color(Rgb::grey(2.0 * PI * (4.0 * PI * 9.0)))));
+    let edges = [("corner", DVec3::ONE), ("edge-u", 2.0 * DVec3::X), ("edge-v", 0.5 * DVec3::Z)];
+    let mut given = edges.map(|(name, v)| (name, Value::Vector(v))).to_vec();
+    given.extend([radiance, ("two-sided", Value::Flag(true))]);
+    assert_eq!(power(&part("rectangle-light", &given)), Some(Value::Color(Rgb::grey(2.0 * PI * 2.0))));
 }
 
 /// Why a kind of shape refuses vectors for its fields, in order.

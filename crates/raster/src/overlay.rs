@@ -3,14 +3,14 @@
 use crate::canvas::Canvas;
 use crate::depth::DepthField;
 use crate::gizmo::GIZMOS;
-use crate::grip::{self, RingGrip};
+use crate::grip::{self, Grip};
 use crate::layer::Layer;
 use crate::projection::Projection;
 use crate::sight::Sight;
 use crate::stage::Stage;
 use crate::style::OverlayStyle;
-use catoptra_core::Camera;
 use catoptra_core::scene::{EntityId, Scene};
+use catoptra_core::{Camera, InvalidPart, Light};
 
 /// All that is drawn over one traced picture; what it shows can be clicked and dragged where it shows it.
 #[derive(Debug, Clone, Copy)]
@@ -65,19 +65,29 @@ impl Overlay<'_> {
         near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(id, _)| id)
     }
 
-    /// The ring of a spot light's cone under the pixel (`x`, `y`), within 6 pixels (times the scale); rings of
-    /// selected lights come before others, nearer ones before farther ones. `None` while cones are not shown.
-    pub fn ring_at(&self, x: f64, y: f64) -> Option<RingGrip> {
-        if self.style.cones { grip::ring_at(&self.stage(), x, y) } else { None }
+    /// The handle of a light under the pixel (`x`, `y`), within 6 pixels (times the scale); those of selected lights come
+    /// before others, nearer ones before farther ones.
+    ///
+    /// Rings of spot lights can be gripped while cones are shown; the sides, corners and rims of lights that are surfaces
+    /// while lights are shown and the light is selected.
+    pub fn grip_at(&self, x: f64, y: f64) -> Option<Grip> {
+        let any = self.style.cones || (self.style.lights && !self.selection.is_empty());
+        if any { grip::grip_at(&self.stage(), x, y) } else { None }
     }
 
-    /// The full angle, in radians, that brings the gripped ring under the pixel (`x`, `y`).
+    /// The gripped light, in its own space, as it is once the pointer has dragged the handle to the pixel (`x`, `y`).
     ///
-    /// The ring's point follows the pointer along the meridian it was gripped on. An inner angle is held between
+    /// A ring's point follows the pointer along the meridian it was gripped on. An inner angle is held between
     /// just over zero and the outer one, an outer angle between the inner one and pi (or what it is, if that is
-    /// more). `None` when the light is gone, is no spot light any more, or its cone is behind the eye.
-    pub fn drag_ring(&self, grip: RingGrip, x: f64, y: f64) -> Option<f64> {
-        grip::drag_ring(&self.stage(), grip, x, y)
+    /// more). A side of a rectangle follows along the edge that it ends, a corner in the rectangle's plane; what is
+    /// opposite stays. The rim of a disk follows along its radius, the outline of a sphere passes under the pointer. Lamps
+    /// are held at two pixels (times the scale) or more. `None` when the light is gone, has no such handle any more, or is
+    /// behind the eye.
+    ///
+    /// # Errors
+    /// A light that core refuses, such as one of more than 3.4e38 metres.
+    pub fn drag(&self, grip: Grip, x: f64, y: f64) -> Option<Result<Light, InvalidPart>> {
+        grip::drag(&self.stage(), grip, x, y)
     }
 
     pub(crate) fn stage(&self) -> Stage<'_> {

@@ -108,6 +108,11 @@ impl Projection {
         self.forward + self.right * across + self.up * upward
     }
 
+    /// The point of the world that stands at a spot of the picture.
+    pub(crate) fn point(&self, spot: Spot) -> DVec3 {
+        self.eye + self.direction(spot.x, spot.y) / spot.inverse_depth
+    }
+
     /// Metres, across the line of sight, that one pixel spans at `point`; `None` when the point is not in front.
     ///
     /// Marks of a constant size in the picture are measured with this.
@@ -256,6 +261,15 @@ mod tests {
             let met = ray.origin + ray.direction.normalize() * seen.distance;
             assert!(met.distance(point) < 1e-9 * (1.0 + seen.distance), "{point} became {met}");
         }
+    }
+
+    #[test]
+    fn the_point_of_a_spot_is_where_it_was_seen() {
+        let view = Projection::new(&tilted(), 640, 360);
+        let ends = [tilted().eye() + tilted().forward() * 2.0, tilted().eye() + tilted().forward() * 5.0];
+        let [from, to] = view.segment(ends[0], ends[1] + tilted().right()).unwrap();
+        assert!(view.point(from).distance(ends[0]) < 1e-12);
+        assert!(view.point(to).distance(ends[1] + tilted().right()) < 1e-12);
     }
 
     #[test]

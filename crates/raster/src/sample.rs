@@ -1,10 +1,12 @@
 //! A scene with something for every gizmo, for tests.
 
 use crate::overlay::Overlay;
+use crate::projection::Projection;
+use crate::stage::Stage;
 use crate::style::OverlayStyle;
 use catoptra_core::glam::DVec3;
-use catoptra_core::scene::{EntityId, Scene};
-use catoptra_core::{Camera, Kind, Light, Material, Rgb, Shape, Value, Values};
+use catoptra_core::scene::{Edit, EntityId, Scene};
+use catoptra_core::{Camera, Kind, Light, Material, Placement, Rgb, Shape, Value, Values};
 
 pub(crate) const WIDTH: u32 = 320;
 pub(crate) const HEIGHT: u32 = 240;
@@ -31,6 +33,54 @@ pub(crate) fn point(position: DVec3) -> Light {
     part(Light::kind_named("point-light"), &values)
 }
 
+/// A reddish panel of 2 by 1 metres that shines downwards.
+pub(crate) fn panel() -> Light {
+    let values = [
+        ("corner", Value::Vector(DVec3::new(-1.0, 1.0, -0.5))),
+        ("edge-u", Value::Vector(DVec3::X * 2.0)),
+        ("edge-v", Value::Vector(DVec3::Z)),
+        ("radiance", Value::Color(Rgb::new(2.0, 1.0, 1.0))),
+    ];
+    part(Light::kind_named("rectangle-light"), &values)
+}
+
+/// A disk of half a metre that shines forwards and upwards, given by its power.
+pub(crate) fn round_panel() -> Light {
+    let values = [
+        ("center", Value::Vector(DVec3::new(0.0, 1.0, 0.0))),
+        ("normal", Value::Vector(DVec3::new(0.2, 0.5, 1.0))),
+        ("radius", Value::Number(0.5)),
+        ("power", Value::Color(Rgb::grey(3.0))),
+    ];
+    part(Light::kind_named("disk-light"), &values)
+}
+
+/// A ball of light of half a metre.
+pub(crate) fn globe() -> Light {
+    let values = [
+        ("center", Value::Vector(DVec3::new(0.5, 1.0, 0.0))),
+        ("radius", Value::Number(0.5)),
+        ("radiance", Value::Color(Rgb::grey(1.0))),
+    ];
+    part(Light::kind_named("sphere-light"), &values)
+}
+
+/// A light in a group that is turned, moved and half as large again, in view of [`camera`].
+pub(crate) fn placed_in_group(light: Light) -> (Scene, EntityId) {
+    let mut scene = Scene::new();
+    let group = scene.add_group("group", None).unwrap();
+    let placement = Placement::IDENTITY.turned(DVec3::ZERO, DVec3::new(1.0, 0.4, 0.2), 0.7).unwrap();
+    let placement = placement.scaled(1.5).unwrap().moved(DVec3::new(0.3, 0.6, -1.0)).unwrap();
+    scene.apply(Edit::Placement(group, placement)).unwrap();
+    let id = scene.add_light("light", light, Some(group)).unwrap();
+    (scene, id)
+}
+
+/// A scene as [`camera`] sees it.
+pub(crate) fn stage_of<'a>(scene: &'a Scene, selection: &'a [EntityId]) -> Stage<'a> {
+    Stage::new(scene, Projection::new(&camera(), WIDTH, HEIGHT), OverlayStyle::default(), selection)
+}
+
 /// A scene with one light.
 pub(crate) fn lit_by(light: Light) -> (Scene, EntityId) {
     let mut scene = Scene::new();
@@ -50,6 +100,16 @@ pub(crate) fn scene() -> Scene {
     let sun =
         [("direction", Value::Vector(DVec3::NEG_Y)), ("irradiance", Value::Color(Rgb::new(1.0, 0.5, 0.0)))];
     scene.add_light("sun", part(Light::kind_named("directional-light"), &sun), None).unwrap();
+    scene.add_light("panel", panel(), None).unwrap();
+    scene.add_light("round panel", round_panel(), None).unwrap();
+    scene.add_light("globe", globe(), None).unwrap();
+    let moved = |x, y| Placement::IDENTITY.moved(DVec3::new(x, y, 0.0)).unwrap();
+    for (name, placement) in
+        [("panel", moved(0.0, 3.0)), ("round panel", moved(-3.0, 2.5)), ("globe", moved(3.0, -1.0))]
+    {
+        let id = scene.entity_named(name).unwrap();
+        scene.apply(Edit::Placement(id, placement)).unwrap();
+    }
     let side = Camera::look_at(DVec3::new(-3.0, 1.0, -1.0), DVec3::ZERO, DVec3::Y, 0.8).unwrap();
     scene.add_camera("side", side, None).unwrap();
     scene

@@ -5,7 +5,7 @@ use crate::style::OverlayStyle;
 use crate::tint::Tint;
 use catoptra_core::glam::DVec3;
 use catoptra_core::scene::{EntityId, Role, Scene};
-use catoptra_core::{Aabb, FieldKind, Light, Ray, Rgb, Shape, Span, Value};
+use catoptra_core::{Aabb, Light, Ray, Rgb, Shape, Span};
 use std::cell::OnceCell;
 
 /// A light as it shines in the world.
@@ -13,7 +13,7 @@ pub(crate) struct PlacedLight {
     pub(crate) id: EntityId,
     pub(crate) light: Light,
     pub(crate) selected: bool,
-    /// Intensity or irradiance on the axis, in the unit of the light's kind.
+    /// Intensity or irradiance on the axis, or radiance, in the unit of the light's kind.
     pub(crate) power: Rgb,
 }
 
@@ -90,17 +90,7 @@ impl<'a> Stage<'a> {
 
     fn placed_light(&self, id: EntityId) -> Option<PlacedLight> {
         let light = self.scene.world_light(id)?;
-        let power = power(&light);
+        let power = light.color().rgb();
         Some(PlacedLight { id, light, selected: self.is_selected(id), power })
-    }
-}
-
-/// The first quantity of light among a light's fields; black when there is none.
-fn power(light: &Light) -> Rgb {
-    let quantity = light.kind().fields.iter().find(|field| field.kind == FieldKind::Quantity);
-    let values = light.values();
-    match quantity.and_then(|field| values.get(field.name)) {
-        Some(Value::Color(power)) => *power,
-        _ => Rgb::BLACK,
     }
 }

@@ -7,7 +7,7 @@ pub struct OverlayStyle {
     pub grid: bool,
     /// The axes of the world.
     pub axes: bool,
-    /// Marks of point, spot and directional lights.
+    /// Marks of lights, and the outlines of those that are surfaces.
     pub lights: bool,
     /// Cones of spot lights.
     pub cones: bool,

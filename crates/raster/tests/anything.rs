@@ -4,7 +4,7 @@
 use catoptra_core::glam::DVec3;
 use catoptra_core::scene::Scene;
 use catoptra_core::{Camera, Kind, Light, Material, Rgb, Shape, Value, Values};
-use catoptra_raster::{DepthField, Layer, Overlay, OverlayStyle};
+use catoptra_raster::{DepthField, Edge, End, Grip, Handle, Layer, Overlay, OverlayStyle};
 use proptest::prelude::*;
 
 /// Ordinary numbers, and ones that overflow, underflow or cancel.
@@ -44,14 +44,32 @@ fn scene(at: [DVec3; 4], (inner, outer): (f64, f64), falloff: f64, power: f64) -
         ("falloff", Value::Number(falloff)),
     ];
     let sun = [("direction", Value::Vector(at[1])), ("irradiance", power.clone())];
-    let bulb = [("position", Value::Vector(at[2])), ("intensity", power)];
+    let bulb = [("position", Value::Vector(at[2])), ("intensity", power.clone())];
+    let panel = [
+        ("corner", Value::Vector(at[3])),
+        ("edge-u", Value::Vector(at[1])),
+        ("edge-v", Value::Vector(at[1].any_orthogonal_vector())),
+        ("power", power.clone()),
+    ];
+    let round = [
+        ("center", Value::Vector(at[2])),
+        ("normal", Value::Vector(at[1])),
+        ("radius", Value::Number(at[0].y.abs())),
+        ("radiance", power.clone()),
+        ("two-sided", Value::Flag(true)),
+    ];
+    let globe =
+        [("center", Value::Vector(at[0])), ("radius", Value::Number(at[3].x.abs())), ("radiance", power)];
     // What the core refuses is not in the scene; the rest is drawn.
     let lights = [
         part(Light::kind_named("spot-light"), &spot),
         part(Light::kind_named("directional-light"), &sun),
         part(Light::kind_named("point-light"), &bulb),
+        part(Light::kind_named("rectangle-light"), &panel),
+        part(Light::kind_named("disk-light"), &round),
+        part(Light::kind_named("sphere-light"), &globe),
     ];
-    for (name, light) in ["spot", "sun", "bulb"].into_iter().zip(lights) {
+    for (name, light) in ["spot", "sun", "bulb", "panel", "round", "globe"].into_iter().zip(lights) {
         light.map(|light| scene.add_light(name, light, None));
     }
     let ball = [("center", Value::Vector(at[3])), ("radius", Value::Number(at[0].x.abs()))];
@@ -101,8 +119,18 @@ proptest! {
         }
         for (x, y) in [(0.0, 0.0), (f64::from(size.0) / 2.0, f64::from(size.1) / 2.0), (1e300, f64::NAN)] {
             overlay.mark_at(x, y);
-            if let Some(angle) = overlay.ring_at(x, y).and_then(|grip| overlay.drag_ring(grip, x, y)) {
-                prop_assert!((0.0..=std::f64::consts::TAU + 1e-9).contains(&angle), "{}", angle);
+            let mut grips: Vec<Grip> = overlay.grip_at(x, y).into_iter().collect();
+            for light in scene.entities() {
+                let side = Handle::Side { edge: Edge::V, end: End::Start, share: 0.2 };
+                let handles = [side, Handle::Corner([End::Start, End::Far]), Handle::Rim { azimuth: 1.0 }, Handle::Outline];
+                grips.extend(handles.map(|handle| Grip { light, handle }));
+            }
+            for grip in grips {
+                // A light that core refuses is an answer too.
+                if let Some(Ok(Light::SpotLight(spot))) = overlay.drag(grip, x, y) {
+                    let range = 0.0..=std::f64::consts::TAU + 1e-9;
+                    prop_assert!(range.contains(&spot.inner()) && range.contains(&spot.outer()));
+                }
             }
         }
     }

@@ -40,7 +40,9 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("diffuse", &["color"]),
     ("pigment", &["color"]),
     ("power", &["intensity", "irradiance", "radiance"]),
-    ("energy", &["intensity", "irradiance", "radiance"]),
+    ("watts", &["power", "intensity", "irradiance"]),
+    ("flux", &["power", "intensity", "irradiance"]),
+    ("energy", &["intensity", "irradiance", "power", "radiance"]),
     ("strength", &["intensity", "irradiance", "radiance"]),
     ("intensity", &["irradiance", "radiance"]),
     ("path", &["file"]),
@@ -48,6 +50,27 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("lightsource", &["point-light"]),
     ("light", &["point-light"]),
     ("sun", &["directional-light"]),
+    ("arealight", &["rectangle-light", "emissive"]),
+    ("area", &["rectangle-light"]),
+    ("quadlight", &["rectangle-light"]),
+    ("rectlight", &["rectangle-light"]),
+    ("rectarealight", &["rectangle-light"]),
+    ("squarelight", &["rectangle-light"]),
+    ("panellight", &["rectangle-light"]),
+    ("softbox", &["rectangle-light"]),
+    ("disclight", &["disk-light"]),
+    ("circlelight", &["disk-light"]),
+    ("roundlight", &["disk-light"]),
+    ("balllight", &["sphere-light"]),
+    ("bulb", &["sphere-light", "point-light"]),
+    ("emission", &["emissive", "radiance"]),
+    ("emitter", &["emissive"]),
+    ("emit", &["emissive", "radiance"]),
+    ("diffuselight", &["emissive"]),
+    ("glow", &["emissive"]),
+    ("luminous", &["emissive"]),
+    ("doublesided", &["two-sided"]),
+    ("bothsides", &["two-sided"]),
     ("cube", &["box"]),
     ("cuboid", &["box"]),
     ("ball", &["sphere"]),
@@ -99,6 +122,22 @@ mod tests {
             [("look_at", "target"), ("Location", "eye"), ("angle", "fov"), ("rotate", "turn")]
         {
             assert_eq!(hint(word, &camera, "fields"), format!("did you mean \"{meant}\"?"));
+        }
+        let lights = ["point-light", "rectangle-light", "disk-light", "sphere-light", "emissive", "sphere"];
+        for (word, meant) in [
+            ("area-light", "rectangle-light"),
+            ("quad_light", "rectangle-light"),
+            ("RectAreaLight", "rectangle-light"),
+            ("disc light", "disk-light"),
+            ("ball light", "sphere-light"),
+            ("diffuse_light", "emissive"),
+            ("emission", "emissive"),
+        ] {
+            assert_eq!(hint(word, &lights, "words"), format!("did you mean \"{meant}\"?"));
+        }
+        let fields = ["corner", "edge-u", "edge-v", "radiance", "power", "two-sided", "visible", "shadow"];
+        for (word, meant) in [("watts", "power"), ("emission", "radiance"), ("double-sided", "two-sided")] {
+            assert_eq!(hint(word, &fields, "fields"), format!("did you mean \"{meant}\"?"));
         }
         assert_eq!(hint("light_source", &KNOWN, "words"), "did you mean \"point-light\"?");
     }

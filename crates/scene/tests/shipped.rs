@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use catoptra_core::scene::Settings;
-use catoptra_core::{Camera, Field, Light, Material, Shape};
+use catoptra_core::{Camera, Field, FieldKind, Light, Material, Shape, Value};
 use catoptra_scene::{load, parse};
 
 fn folder() -> PathBuf {
@@ -62,7 +62,41 @@ fn every_kind_and_field_is_documented() {
         let Some((_, section)) = readme.split_once(&heading) else { panic!("{kind} has no section") };
         let section = section.split("\n##").next().unwrap_or_default();
         for field in fields {
-            assert!(section.contains(&format!("| `{}` |", field.name)), "{kind} lacks {}", field.name);
+            let row = section.lines().find(|line| line.starts_with(&format!("| `{}` |", field.name)));
+            let row = row.unwrap_or_else(|| panic!("{kind} lacks {}", field.name));
+            let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+            assert_eq!(cells[2..4], [word_for(field.kind), unit_of(field)], "{row}");
+            let default = field.default.map(|default| default());
+            if let Some(Value::Flag(on)) = default {
+                assert_eq!(cells[4], format!("#{on}"), "{row}");
+            } else if let Some(Value::Number(number)) = default {
+                let degrees = field.kind == FieldKind::Angle;
+                let number = if degrees { number.to_degrees() } else { number };
+                assert_eq!(cells[4].parse(), Ok(number), "{row}");
+            }
         }
     }
+}
+
+/// What the table of kinds calls a kind.
+fn word_for(kind: FieldKind) -> &'static str {
+    match kind {
+        FieldKind::Number => "number",
+        FieldKind::Length => "length",
+        FieldKind::Count => "count",
+        FieldKind::Fraction => "fraction",
+        FieldKind::Angle => "angle",
+        FieldKind::Point => "point",
+        FieldKind::Direction => "direction",
+        FieldKind::Color => "color",
+        FieldKind::Quantity => "quantity",
+        FieldKind::Flag => "flag",
+        FieldKind::Choice(_) => "choice",
+        FieldKind::Mesh => "mesh",
+        FieldKind::Profile => "profile",
+    }
+}
+
+fn unit_of(field: &Field) -> &'static str {
+    if field.kind == FieldKind::Angle { "°" } else { field.unit }
 }

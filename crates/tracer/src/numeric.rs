@@ -299,7 +299,3 @@ pub(crate) const CUT_MARGIN: f32 = 1.0 / 4096.0;
 /// size of the plane's normal: 2⁻¹⁸. The normal in `f32` is off by 2⁻²⁰ of itself, as is what is carried over into a mesh's
 /// own space; differences, products and sums add 6 roundings.
 pub(crate) const VIEW_MARGIN: f32 = 1.0 / (1 << 18) as f32;
-
-/// How many nodes of a mesh's tree are looked at to find out whether it may be in the way of a lamp. What is not known then
-/// is asked by rays, which tell the same.
-pub(crate) const MOST_CONE_NODES: usize = 64;

@@ -8,7 +8,7 @@ use crate::{Snapshot, View};
 /// What a ray through a point of the picture meets first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pick {
-    /// Which shape.
+    /// Which shape, or which light that is one.
     pub entity: EntityId,
     /// Where, in the world.
     pub point: DVec3,

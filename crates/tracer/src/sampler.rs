@@ -4,9 +4,7 @@
 //! Sobol's first two dimensions, scrambled by Owen's method with a hash and used again for every pair of dimensions, with
 //! the samples in another order each time (Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020).
 
-use fearless_simd::Simd;
-
-use crate::lanes::{HALVES, U, Word};
+use crate::lanes::{HALVES, Word};
 
 /// The pairs of dimensions, by what is chosen with them: every kind of choice has one of its own.
 pub(crate) mod pairs {
@@ -43,14 +41,6 @@ impl<W: Word> Sampler<W> {
         let key = mixed(self.pixel.plus_number(pair.wrapping_mul(GOLDEN)));
         let shuffled = scrambled_reversed(sample.reversed(), key).reversed();
         sobol(shuffled, [mixed(key.plus_number(1)), mixed(key.plus_number(2))])
-    }
-}
-
-impl Sampler<u32> {
-    /// The same pixel's numbers in every lane.
-    #[inline(always)]
-    pub(crate) fn in_lanes<S: Simd>(self, s: S) -> Sampler<U<S>> {
-        Sampler { pixel: U::splat(s, self.pixel) }
     }
 }
 
@@ -105,11 +95,11 @@ const GOLDEN: u32 = 0x9e37_79b9;
 mod tests {
     use std::collections::HashSet;
 
-    use fearless_simd::dispatch;
+    use fearless_simd::{Simd, dispatch};
 
     use super::*;
     use crate::Instructions;
-    use crate::lanes::F;
+    use crate::lanes::{F, U};
     use crate::random::Random;
 
     fn shares(pixel: [u32; 2], sample: u32, pair: u32) -> [f64; 2] {

@@ -23,6 +23,31 @@ fn options_without_effect_are_told_and_no_error() {
 }
 
 #[test]
+fn surfaces_that_light_nothing_or_are_picked_at_random_are_told() {
+    let folder = folder();
+    let camera = "camera \"c\" { eye 0 2 6; target 0 0 0 }\nemissive \"glow\" { radiance 1 }\n";
+    let plane = "plane \"ground\" material=\"glow\"\nsphere \"ball\" material=\"glow\" { radius 1 }\n";
+    let lamp = |i: u32| format!("sphere-light \"l{i}\" {{ center {i} 0 0; radius 0.1; radiance 1 }}\n");
+    let many: String = (0..1001).map(lamp).collect();
+    for (text, told) in [
+        (format!("{camera}{plane}"), "warning: \"ground\" shines but lights nothing: it has no end\n"),
+        (format!("{camera}{many}"), "warning: 1,001 surfaces shine, too many to ask each: "),
+    ] {
+        std::fs::write(folder.path().join("lamps.kdl"), text).unwrap();
+        for command in ["render", "explain"] {
+            let mut line = vec![command, "lamps.kdl", "--size", "4x4"];
+            line.extend(if command == "render" { vec!["-o", "a.png"] } else { vec![] });
+            let ran = catoptra(folder.path(), &line);
+            assert!(
+                ran.code == 0 && ran.err.starts_with(told) && ran.err.lines().count() == 1,
+                "{}",
+                ran.err
+            );
+        }
+    }
+}
+
+#[test]
 fn options_with_effect_are_not_told() {
     let folder = folder();
     for line in [

@@ -16,15 +16,34 @@ pub(super) fn show(
     fields: &'static [Field],
     values: &Values,
 ) -> Option<(&'static str, Value)> {
+    show_offering(ui, salt, fields, (values, |_: &str| None))
+}
+
+/// Shows fields as [`show`] does. A field that stands instead of one that is given is offered, where `equivalent` knows
+/// what it would be.
+pub(super) fn show_offering(
+    ui: &mut Ui,
+    salt: u64,
+    fields: &'static [Field],
+    (values, equivalent): (&Values, impl Fn(&str) -> Option<Value>),
+) -> Option<(&'static str, Value)> {
     let mut changed = None;
     egui::Grid::new(("fields", salt)).num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
         for field in fields {
-            let Some(value) = values.get(field.name).cloned().or_else(|| field.default.map(|make| make()))
-            else {
-                continue;
+            let given = values.get(field.name).cloned().or_else(|| field.default.map(|make| make()));
+            let new = match (given, field.instead_of) {
+                (Some(value), _) => {
+                    ui.label(field.name).on_hover_text(field.doc);
+                    edit(ui, field, &value)
+                }
+                (None, Some(other)) => {
+                    let Some(value) = equivalent(field.name) else { continue };
+                    ui.weak(field.name).on_hover_text(field.doc);
+                    offer(ui, field, other, value)
+                }
+                (None, None) => continue,
             };
-            ui.label(field.name).on_hover_text(field.doc);
-            if let Some(value) = edit(ui, field, &value) {
+            if let Some(value) = new {
                 changed = Some((field.name, value));
             }
             ui.end_row();
@@ -68,6 +87,25 @@ fn edit(ui: &mut Ui, field: &Field, value: &Value) -> Option<Value> {
             None
         }
     }
+}
+
+/// A button that tells what the field would be, and gives it in place of the other.
+fn offer(ui: &mut Ui, field: &Field, other: &str, value: Value) -> Option<Value> {
+    let size = match &value {
+        Value::Color(c) => c.max_channel(),
+        Value::Number(v) => *v,
+        _ => return None,
+    };
+    let text = format!("{} {}", short(size), field.unit);
+    let tip = format!("Give the {} instead of the {other}; the light stays as it is.", field.name);
+    ui.button(text).on_hover_text(tip).clicked().then_some(value)
+}
+
+/// Four digits of a number, in powers of ten where it is huge or tiny.
+fn short(v: f64) -> String {
+    let digits = format!("{v:.3e}");
+    let rounded: f64 = digits.parse().unwrap_or(v);
+    if v != 0.0 && !(1e-3..1e6).contains(&v.abs()) { digits } else { rounded.to_string() }
 }
 
 fn slider(ui: &mut Ui, value: f64, range: std::ops::RangeInclusive<f64>, unit: &str) -> Option<f64> {
@@ -164,4 +202,18 @@ fn choice(ui: &mut Ui, name: &str, words: &[&str], now: &str) -> Option<String> 
         }
     });
     picked.filter(|word| word != now)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (v, told) in
+            [(0.0, "0"), (12.566_370_6, "12.57"), (100.0, "100"), (2.5e-7, "2.500e-7"), (1e9, "1.000e9")]
+        {
+            assert_eq!(short(v), told);
+        }
+    }
 }

@@ -59,7 +59,10 @@ fn shape(ui: &mut Ui, viewer: &mut Viewer, id: EntityId) {
 fn light(ui: &mut Ui, viewer: &mut Viewer, id: EntityId) {
     let Some(light): Option<Light> = viewer.document.scene().light(id) else { return };
     let key = |field| step_key("light", id.index(), field);
-    if let Some((field, value)) = fields::show(ui, key(""), light.kind().fields, &light.values()) {
+    let shown = viewer.document.scene().world_light(id);
+    let equivalent = |field: &str| shown.as_ref()?.equivalent(field);
+    let changed = fields::show_offering(ui, key(""), light.kind().fields, (&light.values(), equivalent));
+    if let Some((field, value)) = changed {
         put(viewer, light.with(field, value), key(field), |light| Edit::Light(id, light));
     }
 }

@@ -66,8 +66,8 @@ fn side(ui: &mut Ui, viewer: &mut Viewer) {
 
 #[cfg(test)]
 mod tests {
-    use catoptra_core::Value;
     use catoptra_core::scene::{Edit, EntityId};
+    use catoptra_core::{Light, Rgb, Value, Values};
     use catoptra_tracer::Pool;
 
     use super::*;
@@ -132,6 +132,22 @@ mod tests {
         viewer.select(Some(id));
         show_twice(&mut viewer);
         assert_eq!(viewer.document.scene().light(id), Some(light));
+    }
+
+    #[test]
+    fn looking_at_a_lamp_given_by_radiance_or_power_changes_nothing_of_it() {
+        let kind = Light::kind_named("sphere-light").unwrap();
+        for given in ["radiance", "power"] {
+            let values = Values::new().with("radius", Value::Number(0.3));
+            let lamp = (kind.make)(&values.with(given, Value::Color(Rgb::WHITE))).unwrap();
+            let mut viewer = viewer();
+            let scene = viewer.document.scene();
+            let id = scene.entities().find(|id| scene.light(*id).is_some()).unwrap();
+            viewer.edit(Edit::Light(id, lamp.clone()));
+            viewer.select(Some(id));
+            show_twice(&mut viewer);
+            assert_eq!(viewer.document.scene().light(id), Some(lamp));
+        }
     }
 
     #[test]

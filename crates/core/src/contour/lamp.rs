@@ -153,6 +153,16 @@ impl Lamp {
         }
     }
 
+    /// The unit normal on the lit side of a flat lamp, or on either of two.
+    #[must_use]
+    pub fn normal(&self) -> Option<DVec3> {
+        match &self.outline {
+            Outline::Polygon(flat) => Some(flat.normal),
+            Outline::Disk(disk) => Some(disk.normal),
+            Outline::Sphere { .. } => None,
+        }
+    }
+
     /// Whether the side that a point is on is lit.
     #[must_use]
     pub fn is_lit_at(&self, point: DVec3) -> bool {

@@ -7,7 +7,7 @@ use super::{Arrival, Emitter, LightVisitor, nothing_arrives};
 use crate::geometry::{Disk, Geometry};
 use crate::lane::Constant3;
 use crate::part::Given;
-use crate::{Field, InvalidPart, Lane, Part, Placement, Triple, Values};
+use crate::{Field, InvalidPart, Lane, Part, Placement, Triple, Value, Values};
 
 /// A disk that shines along its normal.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,6 +77,10 @@ impl Emitter for DiskLight {
 
     fn lamp(&self) -> Option<Lamp> {
         Some(self.shining.on(self.surface.clone()))
+    }
+
+    fn equivalent(&self, field: &str) -> Option<Value> {
+        self.shining.equivalent(field, area(&self.surface))
     }
 
     fn shadow(&self) -> bool {

@@ -90,6 +90,12 @@ pub trait Emitter {
         None
     }
 
+    /// What a field that stands [instead of](Field::instead_of) another would have to be for the same light; `None` for
+    /// other fields. Of a placed light it is what holds for its size in the world.
+    fn equivalent(&self, _field: &str) -> Option<Value> {
+        None
+    }
+
     /// Its position, if it is a point.
     fn position(&self) -> Option<DVec3> {
         None
@@ -178,6 +184,12 @@ impl Light {
     #[must_use]
     pub fn lamp(&self) -> Option<Lamp> {
         each_light!(self, light => light.lamp())
+    }
+
+    /// See [`Emitter::equivalent`].
+    #[must_use]
+    pub fn equivalent(&self, field: &str) -> Option<Value> {
+        each_light!(self, light => light.equivalent(field))
     }
 
     /// See [`Emitter::position`].

@@ -5,7 +5,7 @@ use super::{Arrival, Emitter, LightVisitor, nothing_arrives};
 use crate::geometry::{Geometry, Rectangle};
 use crate::lane::Constant3;
 use crate::part::Given;
-use crate::{Field, InvalidPart, Lane, Part, Placement, Triple, Values};
+use crate::{Field, InvalidPart, Lane, Part, Placement, Triple, Value, Values};
 
 /// A rectangle that shines along edge-u × edge-v.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,6 +76,10 @@ impl Emitter for RectangleLight {
 
     fn lamp(&self) -> Option<Lamp> {
         Some(self.shining.on(self.surface.clone()))
+    }
+
+    fn equivalent(&self, field: &str) -> Option<Value> {
+        self.shining.equivalent(field, area(&self.surface))
     }
 
     fn shadow(&self) -> bool {

@@ -48,14 +48,14 @@ impl Shining {
         "W/(m²·sr)",
         "Radiance of its surface; give this or power.",
     )
-    .optional();
+    .instead_of("power");
     pub(super) const POWER: Field = Field::required(
         "power",
         FieldKind::Quantity,
         "W",
         "Power that it sends out in all; give this or radiance.",
     )
-    .optional();
+    .instead_of("radiance");
     pub(super) const TWO_SIDED: Field =
         Field::required("two-sided", FieldKind::Flag, "", "Whether it shines to both sides.")
             .or(|| Value::Flag(false));
@@ -90,10 +90,9 @@ impl Shining {
     /// # Errors
     /// A power whose radiance is past every number.
     pub(super) fn with_area(self, area: f64) -> Result<Self, InvalidPart> {
-        let sides = if self.two_sided == Some(true) { 2.0 } else { 1.0 };
         let radiance = match self.output {
             Output::Radiance(radiance) => radiance,
-            Output::Power(power) => power * (1.0 / (PI * area * sides)),
+            Output::Power(power) => power * (1.0 / self.spread(area)),
         };
         let largest = f64::from(f32::MAX);
         if !radiance.all(|channel| (0.0..=largest).contains(&channel)) {
@@ -101,6 +100,25 @@ impl Shining {
             return Err(InvalidPart::new("power", "must give a radiance of at most 3.4e38", found));
         }
         Ok(Self { radiance: radiance.into(), ..self })
+    }
+
+    /// m²·sr that a surface of so many square metres on each side spreads its power over: π for each square metre that
+    /// shines, as the cosine is integrated over a hemisphere.
+    fn spread(&self, area: f64) -> f64 {
+        let sides = if self.two_sided == Some(true) { 2.0 } else { 1.0 };
+        PI * area * sides
+    }
+
+    /// What the field would be, were it given in place of the one that is, for a light with `area` square metres of
+    /// surface on each side; `None` for fields that are no output.
+    pub(super) fn equivalent(&self, field: &str, area: f64) -> Option<Value> {
+        let radiance = self.radiance.rgb();
+        match (field, &self.output) {
+            ("radiance", _) => Some(Value::Color(radiance)),
+            ("power", Output::Power(power)) => Some(Value::Color(*power)),
+            ("power", Output::Radiance(_)) => Some(Value::Color(radiance * self.spread(area))),
+            _ => None,
+        }
     }
 
     /// The values after those of the shape.

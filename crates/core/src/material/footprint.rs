@@ -274,7 +274,7 @@ mod tests {
         let mut sum = 0.0;
         for (i, j) in (0..steps).flat_map(|i| (0..steps).map(move |j| (i, j))) {
             let [x, y] = [i, j].map(|k| (f64::from(k) + 0.5) / f64::from(steps) - 0.5);
-            sum += sign((at(u, x, y).floor() + at(v, x, y).floor()) as f64);
+            sum += sign(at(u, x, y).floor() + at(v, x, y).floor());
         }
         sum / f64::from(steps * steps)
     }

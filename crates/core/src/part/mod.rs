@@ -52,6 +52,8 @@ pub struct Field {
     pub default: Option<fn() -> Value>,
     /// Whether it may be left out.
     pub may_be_missing: bool,
+    /// The field whose place it takes: of the two exactly one is given.
+    pub instead_of: Option<&'static str>,
     /// Its unit, empty for pure numbers.
     pub unit: &'static str,
     /// One sentence for docs and panels.
@@ -67,13 +69,19 @@ impl Field {
         unit: &'static str,
         doc: &'static str,
     ) -> Self {
-        Self { name, kind, default: None, may_be_missing: false, unit, doc }
+        Self { name, kind, default: None, may_be_missing: false, instead_of: None, unit, doc }
     }
 
     /// The same field, which may be left out and has no default.
     #[must_use]
     pub const fn optional(self) -> Self {
         Self { may_be_missing: true, ..self }
+    }
+
+    /// The same field, given or else the other one.
+    #[must_use]
+    pub const fn instead_of(self, other: &'static str) -> Self {
+        Self { may_be_missing: true, instead_of: Some(other), ..self }
     }
 
     /// The same field, with a default for when it is left out.
@@ -181,16 +189,21 @@ macro_rules! parts {
                 match self { $(Self::$variant(part) => $crate::Part::values(part)),+ }
             }
 
-            /// The same part with one value changed.
+            /// The same part with one value changed, or given in place of the one that the field stands
+            /// [instead of](crate::Field::instead_of).
             ///
             /// # Errors
             /// A field that the kind has not, or a value that it refuses.
             pub fn with(&self, field: &'static str, value: $crate::Value) -> Result<Self, $crate::InvalidPart> {
                 let kind = self.kind();
-                if kind.field(field).is_none() {
+                let Some(changed) = kind.field(field) else {
                     return Err($crate::InvalidPart::new(field, format!("must be a field of {}", kind.name), "unknown"));
-                }
-                (kind.make)(&self.values().with(field, value))
+                };
+                let values = match changed.instead_of {
+                    Some(other) => self.values().without(other),
+                    None => self.values(),
+                };
+                (kind.make)(&values.with(field, value))
             }
         }
 

@@ -165,7 +165,7 @@ impl Part for Settings {
         Field::required(
             BACKGROUND,
             FieldKind::Quantity,
-            "W/(m² sr)",
+            "W/(m²·sr)",
             "Radiance seen where a ray leaves the scene.",
         )
         .or(|| Value::Color(Rgb::BLACK)),

@@ -82,12 +82,15 @@ impl Scene {
         self.camera(id)?.placed(&self.world_placement(id)?).ok()
     }
 
-    /// The box, in world space, round a shape or round all bounded shapes in a group. `None` for what has no
-    /// ends, such as a plane, and for what has no shape at all.
+    /// The box, in world space, round a shape, round a light's surface, or round all of these in a group. `None` for what
+    /// has no ends, such as a plane, and for what has no surface at all.
     #[must_use]
     pub fn world_bounds(&self, id: EntityId) -> Option<Aabb> {
         if let Some(shape) = self.world_shape(id) {
             return shape.bounds();
+        }
+        if let Some(light) = self.world_light(id) {
+            return light.lamp()?.shape.bounds();
         }
         self.children(Some(id)).into_iter().filter_map(|member| self.world_bounds(member)).reduce(Aabb::union)
     }
@@ -147,7 +150,7 @@ mod tests {
 
     use super::super::fixture::{Room, camera, matte, moved, sphere};
     use super::super::{Edit, Node, Subtree};
-    use crate::Placement;
+    use crate::{Light, Placement, Rgb, Value, Values};
 
     #[test]
     fn a_walk_meets_groups_before_members_and_siblings_in_order() {
@@ -193,6 +196,20 @@ mod tests {
         let r = Room::new();
         for id in [r.floor, r.lamp, r.lamps, r.eye] {
             assert_eq!(r.scene.world_bounds(id), None, "{id}");
+        }
+    }
+
+    #[test]
+    fn a_light_that_is_a_surface_has_its_bounds() {
+        let mut r = Room::new();
+        let values = Values::new().with("radius", Value::Number(0.5));
+        let values = values.with("radiance", Value::Color(Rgb::WHITE));
+        let lamp = (Light::kind_named("sphere-light").unwrap().make)(&values).unwrap();
+        r.scene.apply(Edit::Light(r.lamp, lamp)).unwrap();
+        r.scene.apply(Edit::Placement(r.lamps, moved(10.0, 0.0, 0.0))).unwrap();
+        for id in [r.lamp, r.lamps] {
+            let bounds = r.scene.world_bounds(id).unwrap();
+            assert_eq!((bounds.centre(), bounds.size()), (DVec3::X * 10.0, DVec3::ONE));
         }
     }
 

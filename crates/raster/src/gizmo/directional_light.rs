@@ -2,11 +2,11 @@
 //! the side the light comes from.
 
 use super::Gizmo;
+use super::arrow::arrow;
 use super::mark::{Rim, lamp};
 use crate::canvas::Canvas;
 use crate::ink::Ink;
 use crate::stage::{PlacedLight, Stage};
-use crate::tint::Tint;
 use catoptra_core::Light;
 use catoptra_core::glam::DVec3;
 use catoptra_core::scene::EntityId;
@@ -30,7 +30,12 @@ fn draw(stage: &Stage<'_>, canvas: &mut Canvas<'_>) {
         let across = direction.cross(stage.view.eye() - from).normalize_or_zero() * (SPREAD * pixel);
         for (aside, gap) in [(-1.0, 2.0), (0.0, 16.0), (1.0, 2.0)] {
             let start = from + across * aside;
-            arrow(canvas, start + direction * (gap * pixel), start + direction * (LENGTH * pixel), tint);
+            arrow(
+                canvas,
+                start + direction * (gap * pixel),
+                start + direction * (LENGTH * pixel),
+                Ink::new(tint),
+            );
         }
         canvas.flush();
         lamp(canvas, from, tint, Rim::Rays, placed.selected);
@@ -47,13 +52,4 @@ fn anchor(stage: &Stage<'_>, placed: &PlacedLight) -> Option<(DVec3, DVec3)> {
     let direction = placed.light.direction()?;
     let extent = stage.extent();
     Some((extent.centre() - direction * (0.5 * AWAY * extent.size().length()), direction))
-}
-
-fn arrow(canvas: &mut Canvas<'_>, tail: DVec3, head: DVec3, tint: Tint) {
-    let ink = Ink::new(tint);
-    canvas.segment(tail, head, ink);
-    let direction = head - tail;
-    let side = direction.cross(canvas.view().eye() - head).normalize_or_zero() * (0.09 * direction.length());
-    let back = head - direction * 0.18;
-    canvas.curve(&[back + side, head, back - side], ink);
 }

@@ -2,6 +2,7 @@
 //!
 //! A new gizmo is one new file here and one line in [`GIZMOS`].
 
+mod arrow;
 mod axes;
 mod bounds;
 mod directional_light;
@@ -10,6 +11,7 @@ mod grid;
 mod light_cone;
 mod mark;
 mod point_light;
+mod surface_light;
 
 use crate::canvas::Canvas;
 use crate::stage::Stage;
@@ -39,6 +41,7 @@ pub(crate) const GIZMOS: &[Gizmo] = &[
     light_cone::GIZMO,
     directional_light::GIZMO,
     point_light::GIZMO,
+    surface_light::GIZMO,
 ];
 
 /// For gizmos that cannot be clicked.
@@ -86,7 +89,7 @@ mod tests {
         let overlay = sample::overlay(&scene, &camera, OverlayStyle::default());
         let stage = overlay.stage();
         let marks: Vec<_> = GIZMOS.iter().flat_map(|gizmo| (gizmo.marks)(&stage)).collect();
-        assert_eq!(marks.len(), 4);
+        assert_eq!(marks.len(), 7);
         for (id, point) in marks {
             let seen = stage.view.project(point).unwrap();
             assert_eq!(overlay.mark_at(seen.x + 3.0, seen.y - 3.0), Some(id));

@@ -1,6 +1,6 @@
 //! What a part of a picture needs to know of a lamp: whether any of it is lit by it, and what may stand between.
 
-use super::candidates::Candidates;
+use super::candidates::{Candidates, FEW};
 use super::planner::Planner;
 use super::point_bounds::PointBounds;
 use super::shaft::Shaft;
@@ -8,6 +8,7 @@ use catoptra_core::glam::DVec3;
 
 use crate::Snapshot;
 use crate::accel::MAX_DEPTH;
+use crate::film::NOTHING;
 use crate::kernel::PlaneRow;
 use crate::snapshot::{Ball, LampRow};
 
@@ -16,7 +17,8 @@ use crate::snapshot::{Ball, LampRow};
 pub(crate) struct LampPlan {
     /// Whether any may be.
     pub(crate) reached: bool,
-    /// Shapes that may stand between, by number, each once.
+    /// Shapes that may stand between, by number, each once; where there are few shapes, all of them, and all meshes in any
+    /// case, so that how a point's light is found depends on nothing but the point.
     pub(crate) blockers: Vec<u32>,
     /// The same, as rays are traced among them.
     pub(crate) among: Candidates,
@@ -32,18 +34,25 @@ impl LampPlan {
         if !self.reached || !lamp.shadow {
             return;
         }
-        if !skip.shafts {
+        if !skip.shafts || is_few(snapshot) {
             all_blockers(snapshot, lamp, &mut self.blockers);
-            self.among.all(snapshot.columns());
+            self.among.among(snapshot.columns(), &self.blockers);
             return;
         }
         for bounds in points.iter().filter(lit) {
             blockers_between(snapshot, lamp, bounds, outside, &mut self.blockers);
         }
+        let instances = snapshot.columns().instances.iter().map(|instance| instance.prim);
+        self.blockers.extend(instances);
         self.blockers.sort_unstable();
         self.blockers.dedup();
         self.among.among(snapshot.columns(), &self.blockers);
     }
+}
+
+/// Whether there are so few shapes that points ask all of them about a lamp.
+pub(crate) fn is_few(snapshot: &Snapshot) -> bool {
+    snapshot.columns().bounded.len() <= FEW
 }
 
 /// Every shape that may block a lamp from anywhere.
@@ -61,7 +70,9 @@ pub(crate) fn blockers_between(
 ) {
     let columns = snapshot.columns();
     let shaft = Shaft::new(bounds, &lamp.ball);
-    let own = (outside && columns.is_convex(bounds.prim)).then_some(bounds.prim);
+    // Of several shapes together none is known to be the points' own.
+    let of_one = bounds.prim != NOTHING;
+    let own = (outside && of_one && columns.is_convex(bounds.prim)).then_some(bounds.prim);
     let planes = columns.planes.iter().filter(|row| stands_between(row, bounds, &lamp.ball));
     out.extend(planes.map(|row| row.prim));
     out.extend(&columns.general_unbounded);

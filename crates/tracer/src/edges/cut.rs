@@ -183,7 +183,7 @@ mod tests {
             let form = Form { xx, xy, yy, x, y, one };
             match Cuts::of(&form) {
                 Cuts::Straight(cut) => {
-                    assert!((positive_area(cut) - counted(&form)).abs() < 4e-3, "{form:?}")
+                    assert!((positive_area(cut) - counted(&form)).abs() < 4e-3, "{form:?}");
                 }
                 Cuts::Not => assert!((counted(&form) - 2.0).abs() > 1.99, "{form:?}"),
                 Cuts::Bent => bent += 1,

@@ -26,7 +26,8 @@ pub(super) fn doubtful_part(
         Body::Other(Some(bounds)) => (round(bounds.centre(), bounds.size().length() / 2.0)?, true),
         Body::Ball { center, radius } => {
             let whole = subject.mirror.is_some() || (subject.grid.is_some() && mirrors > 0);
-            if !whole && !(subject.lit && stage.may_shade(*center, *radius)) {
+            let shaded = subject.lit && stage.may_shade(&subject.body, *center, *radius);
+            if !(whole || shaded) {
                 return None;
             }
             (round(*center, *radius)?, whole)
@@ -57,15 +58,11 @@ pub(super) struct Doubt {
 }
 
 impl Stage {
-    /// Whether anything may stand between a ball and a lamp.
-    fn may_shade(&self, center: DVec3, radius: f64) -> bool {
+    /// Whether anything else may stand between a ball and a lamp.
+    fn may_shade(&self, own: &Body, center: DVec3, radius: f64) -> bool {
         let stands = |lamp: &Lamp, body: &Body| {
-            let Some(bounds) = body.bounds() else { return false };
+            let Some(bounds) = body.bounds().filter(|_| !std::ptr::eq(body, own)) else { return false };
             let (middle, size) = (bounds.centre() - center, bounds.size().length() / 2.0);
-            if middle == DVec3::ZERO && (size - radius * 3.0_f64.sqrt()).abs() <= radius * f64::EPSILON * 8.0
-            {
-                return false;
-            }
             let (way, most) = match lamp {
                 Lamp::At(place) => (*place - center, 1.0),
                 Lamp::Along(way) => (-*way, f64::INFINITY),

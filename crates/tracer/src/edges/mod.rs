@@ -22,7 +22,7 @@ use catoptra_core::{Integrator, Raster};
 
 use crate::numeric::{LEAST_MIRRORED, MIRRORS_DEEP, MOST_OUTLINES};
 use crate::sampler::{self, Sampler};
-use crate::{EdgePixels, Edges, Region, Snapshot, View};
+use crate::{EdgePixels, Edges, Filter, Region, Snapshot, View};
 use body::Body;
 use checker::Lines;
 use doubt::Doubt;
@@ -52,7 +52,9 @@ pub(crate) struct EdgeList {
 impl EdgeList {
     /// Those that a view asks for, of what its rays see in the snapshot's frame.
     pub(crate) fn for_view(snapshot: &Snapshot, view: &View, raster: &Raster) -> Option<Self> {
-        let asked = view.edges == Edges::Exact && view.integrator == Integrator::Whitted;
+        // Areas are those of a box filter, seen from one eye, and shown once all samples are there.
+        let plain = view.filter == Filter::Box && view.camera.lens_radius() == 0.0 && view.range.is_none();
+        let asked = view.edges == Edges::Exact && view.integrator == Integrator::Whitted && plain;
         asked.then(|| Self { seed: view.seed, ..Self::new(snapshot, raster) })
     }
 

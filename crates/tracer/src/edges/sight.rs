@@ -170,6 +170,7 @@ mod tests {
             corner: DVec3::new(-0.5, 0.4, -1.0),
             across: DVec3::new(0.01, 0.0, 0.0004),
             down: DVec3::new(0.0002, -0.01, 0.0),
+            lens: None,
         })
     }
 
@@ -200,7 +201,7 @@ mod tests {
             // A point where a line through the eye touches the ball.
             let to_eye = sight.eye - a;
             let share = radius * radius / to_eye.length_squared();
-            let aside = to_eye.any_orthonormal_vector() * (radius * (1.0 - share).sqrt());
+            let aside = to_eye.normalize().any_orthonormal_vector() * (radius * (1.0 - share).sqrt());
             let silhouette = sight.conic(&silhouette(-to_eye, radius), a, radius).unwrap();
             assert!(off(&sight, &silhouette, a + to_eye * share + aside) < 1e-6);
         }

@@ -7,4 +7,4 @@ mod rays;
 
 pub(crate) use gather::{Gathered, LitPoint, gather};
 pub(crate) use lanes::{BallOutline, Outline};
-pub(crate) use rays::{Drawn, LampRay, LampRays, follow, follow_picked, picked};
+pub(crate) use rays::{Drawn, LampRay, LampRays, PickedRay, follow, follow_picked, pair_of_lamp, picked};

@@ -50,16 +50,14 @@ pub(crate) struct Drawn {
     pub(crate) depth: u32,
 }
 
+/// The pair of sample dimensions of a lamp after some reflections.
+pub(crate) fn pair_of_lamp(lamp: usize, depth: u32) -> u32 {
+    let pair = (lamp as u32).wrapping_add(depth.wrapping_mul(PAIRS_PER_DEPTH));
+    pair.wrapping_add(pairs::LAMPS)
+}
+
 /// How far apart the pairs of two depths lie: more lamps than this share some.
 const PAIRS_PER_DEPTH: u32 = 1 << 16;
-
-impl Drawn {
-    /// The pair of sample dimensions of a lamp.
-    pub(crate) fn pair_of(&self, lamp: usize) -> u32 {
-        let pair = (lamp as u32).wrapping_add(self.depth.wrapping_mul(PAIRS_PER_DEPTH));
-        pair.wrapping_add(pairs::LAMPS)
-    }
-}
 
 impl LampRay {
     fn new(at: &LitPoint, LampPoint { to, end, solid }: LampPoint) -> Self {
@@ -85,7 +83,7 @@ impl LampRays {
             at: *at,
             sampler: drawn.sampler,
             first: drawn.sample.wrapping_mul(count),
-            pair: drawn.pair_of(number),
+            pair: pair_of_lamp(number, drawn.depth),
             count,
         }
     }

@@ -5,6 +5,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use catoptra_core::Arithmetic;
 use fearless_simd::prelude::*;
 
+use super::fused::mul_add64;
 use super::{F, M};
 
 /// `f64` in every lane: the lower half of the lanes and the upper half.
@@ -133,8 +134,8 @@ impl<S: Simd> Arithmetic for D<S> {
     #[inline(always)]
     fn mul_add(self, factor: Self, summand: Self) -> Self {
         Self {
-            lower: self.lower.mul_add_precise(factor.lower, summand.lower),
-            upper: self.upper.mul_add_precise(factor.upper, summand.upper),
+            lower: mul_add64::<S>(self.lower, factor.lower, summand.lower),
+            upper: mul_add64::<S>(self.upper, factor.upper, summand.upper),
         }
     }
 }

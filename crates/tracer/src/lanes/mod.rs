@@ -3,6 +3,7 @@
 mod angle;
 mod column;
 mod double;
+mod fused;
 mod level;
 mod precise;
 mod prefetch;
@@ -16,6 +17,8 @@ use fearless_simd::prelude::*;
 
 pub(crate) use column::Column;
 pub(crate) use double::D;
+pub(crate) use fused::MulAdd8;
+use fused::mul_add32;
 pub(crate) use level::{Work, at_level, outlined};
 pub(crate) use precise::{Precise, narrow3, pick3};
 pub(crate) use prefetch::prefetch;
@@ -242,7 +245,7 @@ impl Iterator for Bits {
 impl<S: Simd> Arithmetic for F<S> {
     #[inline(always)]
     fn mul_add(self, factor: Self, summand: Self) -> Self {
-        Self(self.0.mul_add_precise(factor.0, summand.0))
+        Self(mul_add32::<S>(self.0, factor.0, summand.0))
     }
 }
 

@@ -2,7 +2,6 @@
 
 mod closest;
 mod exact_resolver;
-mod from_point;
 mod hits;
 mod mesh;
 mod mesh_occluded;
@@ -14,6 +13,7 @@ mod refine;
 mod self_hit;
 mod surface;
 mod to_light;
+mod to_points;
 mod view_cones;
 mod walk;
 
@@ -22,7 +22,6 @@ use fearless_simd::Simd;
 use crate::kernel::mesh::Visits;
 use crate::{Snapshot, Stats};
 
-pub(crate) use from_point::FromPoint;
 pub(crate) use hits::{HitColumns, Hits};
 pub(crate) use occluded::ShadowRays;
 pub(crate) use own_segments::OwnSegments;
@@ -30,6 +29,7 @@ pub(crate) use packet::{Packet, PreciseRays, drift, kernel_rays, nearly_unit_ray
 pub(crate) use refine::Refined;
 pub(crate) use surface::Surface;
 pub(crate) use to_light::ToLight;
+pub(crate) use to_points::ToPoints;
 pub(crate) use view_cones::ViewCones;
 
 /// Searches a snapshot with packets of rays.

@@ -7,7 +7,7 @@ use fearless_simd::Simd;
 use super::Searcher;
 use crate::accel::{Node8, WIDTH};
 use crate::lanes::{D3, F, F3, M, magnitude, narrow3, widen3};
-use crate::numeric::{MOST_CONE_NODES, VIEW_MARGIN};
+use crate::numeric::VIEW_MARGIN;
 use crate::snapshot::Row;
 
 /// Planes of a cone: four edges of a lamp, the horizon, and the surface.
@@ -48,7 +48,7 @@ impl<S: Simd> Searcher<'_, S> {
                 if !reached.any() {
                     continue;
                 }
-                if node.count[child] > 0 || visited >= MOST_CONE_NODES || depth == STACK {
+                if node.count[child] > 0 || depth == STACK {
                     met = met | reached;
                 } else {
                     stack[depth] = node.link[child];
@@ -61,8 +61,8 @@ impl<S: Simd> Searcher<'_, S> {
     }
 }
 
-/// Nodes that wait, at most.
-const STACK: usize = 64;
+/// Nodes that wait, at most: up to seven a level, of which a tree has no more than this allows.
+const STACK: usize = 512;
 
 /// The lanes in which a child's box lies outside one of the planes.
 #[inline(always)]

@@ -49,10 +49,10 @@ struct Faced {
 }
 
 /// Lanes that face a light, and what arrives at them.
-struct Facing<S: Simd> {
-    arrival: Arrival<F<S>>,
-    cosine: F<S>,
-    lanes: M<S>,
+pub(super) struct Facing<S: Simd> {
+    pub(super) arrival: Arrival<F<S>>,
+    pub(super) cosine: F<S>,
+    pub(super) lanes: M<S>,
 }
 
 impl<S: Simd, B: Batch<S>> AddLight<'_, '_, S, B> {
@@ -156,7 +156,7 @@ impl<S: Simd> Shader<'_, S> {
 
     /// Adds what glossy lobes show of a light in the lanes that it reaches.
     #[inline(always)]
-    fn add_specular(&mut self, packet: usize, facing: &Facing<S>, reached: M<S>, color: F3<S>) {
+    pub(super) fn add_specular(&mut self, packet: usize, facing: &Facing<S>, reached: M<S>, color: F3<S>) {
         let zero = F::splat(self.s, 0.0);
         let light = color.scale(F::pick(reached, facing.arrival.strength, zero));
         let materials = self.search.snapshot.material_rows();

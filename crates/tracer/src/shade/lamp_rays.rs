@@ -1,119 +1,160 @@
-//! Rays from a point to a rectangular lamp, aimed in vector lanes: all of them start at the point, so that they walk a mesh as
-//! one bundle.
+//! Rays from the points of a packet to a lamp, one point of the lamp after another.
 //!
-//! Their ends lie evenly in the lamp's area but for a warp, which draws them closer where more arrives: by a bilinear
-//! function that has what arrives from the lamp's corners there. It is the warp of
-//! [`lamp_points`](catoptra_core::lamp_points), over the area instead of the solid angle.
+//! The pixels of a block of the film send their rays to the same points, so that they walk meshes together as those to a point
+//! light do: an eighth of the time of rays to points of each pixel's own, and the same error in each pixel. Points lie evenly
+//! over the lamp's area; what the lamp would give if nothing blocked it is the control variate.
 
-use catoptra_core::glam::DVec3;
-use catoptra_core::numeric::{LAMP_POINT_ROUNDING, LEAST_DENSITY};
-use catoptra_core::{Arithmetic, Lane};
+use catoptra_core::lobe::point_of_disk;
+use catoptra_core::numeric::LAMP_POINT_ROUNDING;
+use catoptra_core::{Arithmetic, Arrival, Lane, LaneMask};
 use fearless_simd::Simd;
 
-use crate::lamps::Drawn;
-use crate::lanes::{D3, F, MOST_LANES, U, narrow3, share_of_one, splat_wide};
-use crate::search::FromPoint;
-use crate::snapshot::FlatLamp;
+use super::Shader;
+use super::direct_light::Facing;
+use super::lamps::LitPacket;
+use crate::Tile;
+use crate::film::BLOCK;
+use crate::kernel::Leaving;
+use crate::lamps::pair_of_lamp;
+use crate::lanes::{
+    D, D3, F, F3, M, MOST_LANES, U, magnitude, narrow3, outlined, share_of_one, splat_wide, widen3,
+};
+use crate::sampler::Sampler;
+use crate::search::ToPoints;
+use crate::snapshot::LampRow;
 
-/// A rectangular lamp as a point sees it, all relative to the point.
-pub(super) struct QuadRays {
-    corner: DVec3,
-    edges: [DVec3; 2],
-    normal: DVec3,
-    /// Density at (0, 0), (1, 0), (0, 1) and (1, 1).
-    density: [f32; 4],
-    /// Which share of the way things block: what is farther is the lamp, but for rounding.
-    end: f64,
+/// Points of a lamp, one in every lane, relative to the snapshot's origin.
+struct LampPoints<S: Simd> {
+    at: D3<S>,
+    /// Unit normals of the lamp there.
+    normal: F3<S>,
 }
 
-/// Weights of rays, in the order in which they are traced.
-pub(super) type Weights = Vec<f32>;
-
-impl QuadRays {
-    /// To a rectangle, given relative to the snapshot's origin as `position` is.
-    pub(super) fn new(flat: &FlatLamp, position: DVec3, normal: DVec3) -> Option<Self> {
-        let &[a, b, _, d] = flat.corners() else { return None };
-        let (corner, edges) = (a - position, [b - a, d - a]);
-        let arriving = |to: DVec3| {
-            let square = to.length_squared();
-            normal.dot(to).max(0.0) / (square * square)
-        };
-        let corners = [corner, corner + edges[0], corner + edges[1], corner + edges[0] + edges[1]];
-        let values = corners.map(arriving);
-        let largest = values.iter().fold(0.0, |most: f64, value| most.max(*value));
-        let density = if largest > 0.0 && largest.is_finite() {
-            let values = values.map(|value| value.max(largest * LEAST_DENSITY));
-            let mean = values.iter().sum::<f64>() / 4.0;
-            values.map(|value| (value / mean) as f32)
-        } else {
-            [1.0; 4]
-        };
-        let size = a.abs().element_sum() + edges[0].abs().element_sum() + edges[1].abs().element_sum();
-        let off = (size + position.abs().element_sum()) * LAMP_POINT_ROUNDING;
-        let height = flat.normal.dot(corner).abs();
-        let end = if off < height { 1.0 - off / height } else { 0.0 };
-        Some(Self { corner, edges, normal, density, end })
-    }
-
-    /// Aims `count` rays and weighs them by what would arrive along each.
+impl LampRow {
+    /// The points for two shares of 1, evenly over the area.
     #[inline(always)]
-    pub(super) fn aim<S: Simd>(
-        &self,
-        s: S,
-        drawn: &Drawn,
-        pair: u32,
-        count: u32,
-        rays: &mut FromPoint,
-        weights: &mut Weights,
-    ) {
-        let sampler = drawn.sampler.in_lanes(s);
-        let first = drawn.sample.wrapping_mul(count);
-        let [a, b, c, d] = self.density.map(|density| F::splat(s, density));
-        let half = F::splat(s, 0.5);
-        let normal = narrow3(splat_wide(s, self.normal));
-        weights.clear();
-        for k in (0..count).step_by(F::<S>::LANES) {
-            let [u, v] = sampler.pair(U::counted(s, first.wrapping_add(k)), pair).map(share_of_one);
-            let second = linear(v, (a + b) * half, (c + d) * half);
-            let (low, high) = (between(second, a, c), between(second, b, d));
-            let share = linear(u, low, high);
-            let to = self.point(s, share, second);
-            let lanes = (count - k).min(F::<S>::LANES as u32);
-            rays.push_lanes(to, self.end, lanes as usize);
-            let way = narrow3(to);
-            let square = way.dot(way);
-            let arriving = way.dot(normal).max(F::splat(s, 0.0)) / (square * square);
-            let mut found = [0.0; MOST_LANES];
-            (arriving / between(share, low, high)).store(&mut found);
-            weights.extend(&found[..lanes as usize]);
+    fn points<S: Simd>(&self, s: S, [u, v]: [F<S>; 2]) -> LampPoints<S> {
+        let one = F::splat(s, 1.0);
+        if let Some(flat) = &self.flat {
+            let corners = flat.corners();
+            let last = corners[corners.len() - 1];
+            let [along, up] = [corners[1] - corners[0], last - corners[0]].map(|edge| splat_wide(s, edge));
+            let [first, second] = if corners.len() == 4 {
+                [u, v]
+            } else {
+                let root = u.sqrt();
+                [one - root, root * v]
+            };
+            let at = along.scale_add(first.widen(), up.scale_add(second.widen(), splat_wide(s, corners[0])));
+            return LampPoints { at, normal: narrow3(splat_wide(s, flat.normal)) };
         }
+        let (center, radius) = (splat_wide(s, self.ball.center), D::splat(s, self.ball.radius));
+        let [x, y] = point_of_disk([u, v]);
+        if let Some(normal) = self.normal {
+            let (right, up) = normal.any_orthonormal_pair();
+            let aside = splat_wide(s, right).scale(x.widen()) + splat_wide(s, up).scale(y.widen());
+            return LampPoints {
+                at: aside.scale_add(radius, center),
+                normal: narrow3(splat_wide(s, normal)),
+            };
+        }
+        // A disk is laid over the sphere: what is as far from its middle as 2 sin of half the angle from the pole.
+        let square = x.mul_add(x, y * y).min(one);
+        let wide = (one - square).sqrt() * F::splat(s, 2.0);
+        let out = F3::new(x * wide, y * wide, F::splat(s, -2.0).mul_add(square, one));
+        LampPoints { at: widen3(out).scale_add(radius, center), normal: out }
     }
+}
 
+impl<S: Simd> Shader<'_, S> {
+    /// Sends rays from some lanes to a lamp. Adds what glossy lobes show of it, and returns which share of what the lamp would
+    /// give is seen.
     #[inline(always)]
-    fn point<S: Simd>(&self, s: S, u: F<S>, v: F<S>) -> D3<S> {
-        let [along, up] = self.edges.map(|edge| splat_wide(s, edge));
-        along.scale_add(u.widen(), up.scale_add(v.widen(), splat_wide(s, self.corner)))
+    pub(super) fn cast(
+        &mut self,
+        at: &LitPacket<S>,
+        lamp: &LampRow,
+        number: usize,
+        lanes: M<S>,
+        tile: &Tile,
+    ) -> F<S> {
+        let s = self.s;
+        let (zero, one) = (F::splat(s, 0.0), F::splat(s, 1.0));
+        let smooth = self.search.snapshot.columns().smooth;
+        let ground = self.chunk.normal[at.slot];
+        let normal = if smooth { self.chunk.smooth[at.slot] } else { ground };
+        let sampler = self.block_sampler(at, tile);
+        let count = self.view.lamp_rays_of_sample();
+        let first = self.sample.index.wrapping_mul(count);
+        let pair = pair_of_lamp(number, at.depth);
+        let may_be_blocked = lamp.shadow && !self.plan.lamps[number].blockers.is_empty();
+        let glossy = self.chunk.glossy[at.slot];
+        let area = F::splat(s, (lamp.area / f64::from(count)) as f32);
+        let size = lamp.ball.center.abs().element_sum() + 3.0 * lamp.ball.radius;
+        let size = magnitude(narrow3(at.refined.point)).widen() + D::splat(s, size);
+        let off = size * D::splat(s, LAMP_POINT_ROUNDING);
+        let best = self.chunk.best[at.slot];
+        let (mut open, mut all) = (zero, zero);
+        for k in 0..count {
+            let shares = sampler.pair(U::splat(s, first.wrapping_add(k)), pair).map(share_of_one);
+            let points = lamp.points(s, shares);
+            let way = narrow3(points.at - at.refined.point);
+            let inverse = one / way.dot(way).sqrt();
+            let (cosine, slope) = (way.dot(normal) * inverse, -(way.dot(points.normal) * inverse));
+            let facing = if lamp.two_sided { slope.abs() } else { slope.max(zero) };
+            let weight = cosine.max(zero) * facing * (inverse * inverse);
+            let live = lanes & zero.less(weight);
+            let above = live & zero.less(way.dot(ground));
+            let mut reached = above;
+            if may_be_blocked && above.any() {
+                self.search.stats.rays.lamp += above.count();
+                let share = off / way.dot(points.normal).abs().widen();
+                let segments = ToPoints {
+                    from: at.refined.point,
+                    to: points.at,
+                    end: (D::splat(s, 1.0_f64.next_down()) - share).max(D::splat(s, 0.0)),
+                    leaving: Leaving { prim: best.prim, facet: best.facet, any: true },
+                };
+                reached = above & !self.trace(&segments, above, number);
+            }
+            all = all + F::pick(live, weight, zero);
+            open = open + F::pick(reached, weight, zero);
+            if glossy {
+                let direction = way.scale(inverse);
+                let arrival = Arrival {
+                    direction,
+                    to_light: way,
+                    inverse_distance: inverse,
+                    distance: one / inverse,
+                    strength: facing * (inverse * inverse) * area,
+                    lit: live,
+                };
+                let color = F3::of(zero, &lamp.radiance);
+                self.add_specular(at.slot, &Facing { arrival, cosine, lanes: live }, reached, color);
+            }
+        }
+        F::pick(zero.less(all), open / all, zero)
     }
-}
 
-/// Where an even share goes under a density that is linear from `a` at 0 to `b` at 1.
-#[inline(always)]
-fn linear<S: Simd>(share: F<S>, a: F<S>, b: F<S>) -> F<S> {
-    share * (a + b) / (a + between(share, a * a, b * b).sqrt())
-}
-
-#[inline(always)]
-fn between<S: Simd>(share: F<S>, a: F<S>, b: F<S>) -> F<S> {
-    share.mul_add(b - a, a)
-}
-
-/// Which share of all weights is that of rays that are not blocked.
-pub(super) fn open_share(weights: &[f32], blocked: &[bool]) -> f64 {
-    let (mut open, mut all) = (0.0, 0.0);
-    for (weight, blocked) in weights.iter().zip(blocked) {
-        let weight = f64::from(*weight);
-        all += weight;
-        open += if *blocked { 0.0 } else { weight };
+    /// The lanes whose segments the blockers of a lamp block.
+    #[inline(always)]
+    fn trace(&mut self, segments: &ToPoints<S>, live: M<S>, number: usize) -> M<S> {
+        let (search, among) = (&mut self.search, &self.plan.lamps[number].among);
+        outlined(
+            self.s,
+            #[inline(always)]
+            || search.blocked(segments, live, among),
+        )
     }
-    if all > 0.0 { open / all } else { 0.0 }
+
+    /// The random numbers of the blocks of the film that the lanes' pixels lie in.
+    #[inline(always)]
+    fn block_sampler(&self, at: &LitPacket<S>, tile: &Tile) -> Sampler<U<S>> {
+        let (mut columns, mut rows) = ([0; MOST_LANES], [0; MOST_LANES]);
+        for lane in self.chunk.lit[at.slot].lanes() {
+            let [x, y] = tile.place_of(at.pixels.lane(lane) as usize);
+            (columns[lane], rows[lane]) = (x / BLOCK, y / BLOCK);
+        }
+        self.sample.sampler(U::load(self.s, &columns), U::load(self.s, &rows))
+    }
 }

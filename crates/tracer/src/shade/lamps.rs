@@ -3,19 +3,18 @@
 
 use catoptra_core::contour::Scratch;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Lane, LaneMask, Material, Rgb, ShadingPoint, Shape};
+use catoptra_core::{Lane, LaneMask, Rgb, ShadingPoint, Shape, Triple};
 use fearless_simd::Simd;
 
 use super::Shader;
-use super::lamp_rays::{QuadRays, Weights, open_share};
-use crate::cull::Candidates;
+use crate::cull::is_few;
 use crate::lamps::{
-    BallOutline, Drawn, Gathered, LampRay, LampRays, LitPoint, Outline, follow, follow_picked, gather, picked,
+    BallOutline, Drawn, Gathered, LitPoint, Outline, PickedRay, follow_picked, gather, picked,
 };
-use crate::lanes::{D3, F, F3, M, U, narrow3, outlined, splat_wide, widen3};
+use crate::lanes::{D3, F, F3, M, U, magnitude, narrow3, outlined, splat_wide, widen3};
 use crate::numeric::{CUT_MARGIN, SMALL_LAMP};
-use crate::search::{FromPoint, Refined, ViewCones};
-use crate::snapshot::{FlatLamp, LampRow, LampTree};
+use crate::search::{Refined, ViewCones};
+use crate::snapshot::{Ball, FlatLamp, LampRow, LampTree};
 use crate::stream::Batch;
 use crate::{SurfaceId, Tile};
 
@@ -23,23 +22,16 @@ use crate::{SurfaceId, Tile};
 #[derive(Default)]
 pub(crate) struct LampRoom {
     scratch: Scratch,
-    /// Rays from a point to lamps, and whether each is blocked.
-    rays: FromPoint,
-    blocked: Vec<bool>,
-    /// How much would arrive along each.
-    weights: Weights,
-    /// Every shape.
-    all: Candidates,
 }
 
 /// The points of a packet as lamps see them.
-struct LitPacket<S: Simd> {
-    slot: usize,
-    depth: u32,
+pub(super) struct LitPacket<S: Simd> {
+    pub(super) slot: usize,
+    pub(super) depth: u32,
     /// Places of its pixels in the tile's columns.
-    pixels: U<S>,
+    pub(super) pixels: U<S>,
     /// In `f64`, relative to the snapshot's origin.
-    refined: Refined<S>,
+    pub(super) refined: Refined<S>,
 }
 
 impl<'a, S: Simd> Shader<'a, S> {
@@ -93,21 +85,24 @@ impl<'a, S: Simd> Shader<'a, S> {
         let none = M::splat(self.s, false);
         let mut found = FoundInLanes { seen: F::splat(self.s, 0.0), answered: none, sampled: none };
         if let Some(flat) = &lamp.flat
-            && !self.chunk.glossy[at.slot]
+            && is_few(self.search.snapshot)
         {
             found = self.seen_of_flat(at, lamp, flat, number);
         }
-        let FoundInLanes { mut seen, answered, sampled } = found;
-        for lane in sampled.lanes() {
-            let open = f64::from(seen.lane(lane));
-            let found = match &lamp.flat {
-                Some(flat) => self.sample_in_lane(at, lane, flat, number, open, tile),
-                None => None,
-            };
-            seen.set(lane, found.unwrap_or_else(|| self.seen_in_lane(at, lane, lamp, number, tile)) as f32);
-        }
+        let FoundInLanes { mut seen, answered, mut sampled } = found;
         for lane in (lit & !answered & !sampled).lanes() {
-            seen.set(lane, self.seen_in_lane(at, lane, lamp, number, tile) as f32);
+            let gathered = self.gather_in_lane(at, lane, number);
+            let (Gathered::Exactly(irradiance) | Gathered::UpTo(irradiance)) = gathered;
+            seen.set(lane, irradiance as f32);
+            if matches!(gathered, Gathered::UpTo(_)) {
+                sampled = sampled | M::from_bits(self.s, 1 << lane);
+            }
+        }
+        let shown = lit & F::splat(self.s, 0.0).less(seen);
+        let cast = if self.chunk.glossy[at.slot] { shown } else { shown & sampled };
+        if cast.any() {
+            let share = self.cast(at, lamp, number, cast, tile);
+            seen = F::pick(sampled, seen * share, seen);
         }
         let radiance = F3::of(seen, &lamp.radiance);
         self.chunk.irradiance[at.slot] = radiance.scale_add(seen, self.chunk.irradiance[at.slot]);
@@ -129,7 +124,7 @@ impl<'a, S: Simd> Shader<'a, S> {
         let own = narrow3(splat_wide(s, flat.normal));
         let above = -a.dot(own);
         let (front, behind) = (zero.less(above), above.less(zero));
-        let faced = if flat.two_sided { front | behind } else { front };
+        let faced = if lamp.two_sided { front | behind } else { front };
         let smooth = self.search.snapshot.columns().smooth;
         let ground = self.chunk.normal[slot];
         let normal = if smooth { self.chunk.smooth[slot] } else { ground };
@@ -154,16 +149,33 @@ impl<'a, S: Simd> Shader<'a, S> {
         for at_blocker in 0..self.plan.lamps[number].blockers.len() {
             let prim = self.plan.lamps[number].blockers[at_blocker];
             let own = self.chunk.best[slot].prim.is(prim);
-            let ball = match &snapshot.prims()[prim as usize].shape {
-                Shape::Sphere(ball) if self.search.outside || !own.any() => ball,
-                Shape::Mesh(_) => {
-                    let [e, f, g, h, i] = outline.planes();
-                    let cones =
-                        ViewCones { tip: point, planes: [e, f, g, h, i, ground], lanes: seeing & !sampled };
-                    sampled = sampled | self.search.reaches_into(prim, &cones);
-                    continue;
-                }
-                _ => return FoundInLanes { seen: zero, answered: none, sampled: none },
+            let shape = &snapshot.prims()[prim as usize].shape;
+            if let Shape::Mesh(_) = shape {
+                let [e, f, g, h, i] = outline.planes();
+                let cones =
+                    ViewCones { tip: point, planes: [e, f, g, h, i, ground], lanes: seeing & !sampled };
+                sampled = sampled | self.search.reaches_into(prim, &cones);
+                continue;
+            }
+            // Points on a convex shape that is seen from outside have it below them, as those on a flat one have.
+            let below =
+                shape.bounds().is_none() || (self.search.outside && snapshot.columns().is_convex(prim));
+            if !below {
+                answered = answered & !own;
+            }
+            let Shape::Sphere(ball) = shape else {
+                let unknown = match shape.bounds() {
+                    Some(bounds) => {
+                        let ball = Ball::round(bounds);
+                        let towards = from_point(ball.center - snapshot.origin_in_frame());
+                        let radius = F::splat(s, (ball.radius * (1.0 + f64::from(CUT_MARGIN))) as f32);
+                        let inside = towards.dot(towards).less(radius * radius);
+                        inside | outline.may_be_hidden_by(&BallOutline::new(towards, radius))
+                    }
+                    None => !self.is_beside_plane(prim, lamp, point),
+                };
+                answered = answered & !(seeing & !own & unknown);
+                continue;
             };
             let center = ball.center() - snapshot.origin_in_frame();
             let towards = from_point(center);
@@ -178,9 +190,10 @@ impl<'a, S: Simd> Shader<'a, S> {
             let height = flat.normal.dot(center - flat.corners()[0]) / ball.radius();
             let cut = height.abs() < 1.0 + f64::from(CUT_MARGIN);
             let before = if height > 0.0 { front } else { behind };
+            let met = met & (before | M::splat(s, cut));
             answered = answered & !(met & (inside | touched | M::splat(s, cut)));
             touched = touched | met;
-            hidden = F::pick(met & before, outline.hidden_by(&seen, normal), hidden);
+            hidden = F::pick(met, outline.hidden_by(&seen, normal), hidden);
         }
         let sampled = sampled & answered;
         let seen = F::pick(sampled, open, (open - hidden).max(zero));
@@ -193,160 +206,80 @@ impl<'a, S: Simd> Shader<'a, S> {
         FoundInLanes { seen, answered, sampled }
     }
 
-    /// What a point sees of a rectangle that would give `open` if nothing blocked it; `None` if it is none.
-    fn sample_in_lane(
-        &mut self,
-        at: &LitPacket<S>,
-        lane: usize,
-        flat: &FlatLamp,
-        number: usize,
-        open: f64,
-        tile: &Tile,
-    ) -> Option<f64> {
-        let here = self.point_in_lane(at, lane, tile);
-        let rays = QuadRays::new(flat, here.shading.position.into(), here.lit.normal)?;
-        Some(open * self.open_share(&rays, &here, number))
+    /// The lanes whose points lie on the same side of a plane as all of a lamp, clear of it.
+    #[inline(always)]
+    fn is_beside_plane(&self, prim: u32, lamp: &LampRow, point: D3<S>) -> M<S> {
+        let (s, snapshot) = (self.s, self.search.snapshot);
+        let Shape::Plane(plane) = &snapshot.prims()[prim as usize].shape else { return M::splat(s, false) };
+        let (normal, on) = (plane.normal(), plane.point() - snapshot.origin_in_frame());
+        let of_lamp = normal.dot(lamp.ball.center - on);
+        let clear = of_lamp.abs() > lamp.ball.radius * (1.0 + f64::from(CUT_MARGIN));
+        let from_plane = narrow3(point - splat_wide(s, on));
+        let above = from_plane.dot(narrow3(splat_wide(s, normal * of_lamp.signum())));
+        M::splat(s, clear) & (magnitude(from_plane) * F::splat(s, CUT_MARGIN)).less(above)
     }
 
     /// A point of a packet, in `f64`.
-    fn point_in_lane(&self, at: &LitPacket<S>, lane: usize, tile: &Tile) -> LanePoint<'a> {
-        let (snapshot, slot) = (self.search.snapshot, at.slot);
+    fn lit_in_lane(&self, at: &LitPacket<S>, lane: usize) -> LitPoint {
         let vector = |v: D3<S>| DVec3::new(v.x.lane(lane), v.y.lane(lane), v.z.lane(lane));
-        let front = self.chunk.front[slot].bits() >> lane & 1 == 1;
-        let best = &self.chunk.best[slot];
-        let surface = SurfaceId { prim: best.prim.lane(lane), facet: best.facet.lane(lane) };
-        let position = vector(at.refined.point);
-        let side = if front { 1.0 } else { -1.0 };
-        let [normal, ground] = [at.refined.shading, at.refined.normal].map(|normal| vector(normal) * side);
-        let to_viewer = vector(widen3(self.chunk.to_viewer[slot]));
-        let [x, y] = tile.place_of(at.pixels.lane(lane) as usize);
-        LanePoint {
-            lit: LitPoint {
-                point: position + snapshot.origin_in_frame(),
-                normal,
-                ground,
-                surface: Some(surface),
-            },
-            shading: ShadingPoint {
-                position: position.into(),
-                normal: normal.into(),
-                to_viewer: to_viewer.into(),
-                distance: f64::from(best.t.lane(lane)),
-                front,
-            },
-            material: &snapshot.materials()[snapshot.prims()[surface.prim as usize].material as usize],
-            drawn: Drawn { sampler: self.sample.sampler(x, y), sample: self.sample.index, depth: at.depth },
+        let best = &self.chunk.best[at.slot];
+        let side = if self.is_front(at, lane) { 1.0 } else { -1.0 };
+        LitPoint {
+            point: vector(at.refined.point) + self.search.snapshot.origin_in_frame(),
+            normal: vector(at.refined.shading) * side,
+            ground: vector(at.refined.normal) * side,
+            surface: Some(SurfaceId { prim: best.prim.lane(lane), facet: best.facet.lane(lane) }),
         }
     }
 
-    /// What a point sees of a lamp under unit radiance; adds what its glossy lobes show to the packet's.
-    fn seen_in_lane(
-        &mut self,
-        at: &LitPacket<S>,
-        lane: usize,
-        lamp: &LampRow,
-        number: usize,
-        tile: &Tile,
-    ) -> f64 {
+    fn is_front(&self, at: &LitPacket<S>, lane: usize) -> bool {
+        self.chunk.front[at.slot].bits() >> lane & 1 == 1
+    }
+
+    /// Where a point of a packet is seen, and from where, in `f64`.
+    fn shading_in_lane(&self, at: &LitPacket<S>, lane: usize, lit: &LitPoint) -> ShadingPoint<f64> {
+        let viewer = widen3(self.chunk.to_viewer[at.slot]);
+        ShadingPoint {
+            position: (lit.point - self.search.snapshot.origin_in_frame()).into(),
+            normal: lit.normal.into(),
+            to_viewer: Triple::new(viewer.x.lane(lane), viewer.y.lane(lane), viewer.z.lane(lane)),
+            distance: f64::from(self.chunk.best[at.slot].t.lane(lane)),
+            front: self.is_front(at, lane),
+        }
+    }
+
+    /// What a point sees of a lamp under unit radiance, in `f64`.
+    fn gather_in_lane(&mut self, at: &LitPacket<S>, lane: usize, number: usize) -> Gathered {
         let snapshot = self.search.snapshot;
-        let here = self.point_in_lane(at, lane, tile);
-        let blockers = &self.plan.lamps[number].blockers;
-        let open = !lamp.shadow || blockers.is_empty();
+        let lit = self.lit_in_lane(at, lane);
+        let blockers = self.plan.lamps[number].blockers.iter().copied();
         let (scratch, stats) = (&mut self.lamp_room.scratch, &mut self.search.stats.lamps);
-        let gathered = gather(snapshot, lamp, blockers.iter().copied(), &here.lit, scratch, stats);
-        let glossy = self.chunk.glossy[at.slot] && gathered != Gathered::Exactly(0.0);
-        if let (Gathered::Exactly(seen), false) = (gathered, glossy) {
-            return seen;
-        }
-        if let (Gathered::UpTo(open), false, Some(flat)) = (gathered, glossy, &lamp.flat)
-            && let Some(rays) = QuadRays::new(flat, here.shading.position.into(), here.lit.normal)
-        {
-            return open * self.open_share(&rays, &here, number);
-        }
-        let rays = LampRays::new(lamp, number, &here.lit, &here.drawn, self.view.lamp_rays_of_sample());
-        if !open {
-            self.aim(rays.above(), &here.lit);
-            self.trace(Some(number));
-        }
-        let mut blocked = self.lamp_room.blocked.iter();
-        let lobes = here.material.lobes(&here.shading);
-        let (found, shown) = follow(&rays, &here.shading, &lobes, |_| !open && blocked.next() == Some(&true));
-        if glossy {
-            self.add_glossy(at.slot, lane, shown * lamp.radiance.rgb());
-        }
-        found.of(gathered)
-    }
-
-    /// Which share of what would arrive from a rectangle does arrive.
-    fn open_share(&mut self, rays: &QuadRays, here: &LanePoint<'_>, number: usize) -> f64 {
-        let room = &mut *self.lamp_room;
-        room.rays.start(here.lit.point, self.search.snapshot.origin_in_frame(), here.lit.surface);
-        let (count, pair) = (self.view.lamp_rays_of_sample(), here.drawn.pair_of(number));
-        outlined(
-            self.s,
-            #[inline(always)]
-            || rays.aim(self.s, &here.drawn, pair, count, &mut room.rays, &mut room.weights),
-        );
-        self.search.stats.rays.lamp += room.rays.len() as u64;
-        self.trace(Some(number));
-        let LampRoom { rays, weights, blocked, .. } = &mut *self.lamp_room;
-        if here.lit.ground != here.lit.normal {
-            for (i, blocked) in blocked.iter_mut().enumerate() {
-                *blocked |= !(rays.to(i).dot(here.lit.ground) > 0.0);
-            }
-        }
-        open_share(weights, blocked)
+        gather(snapshot, &snapshot.lamps().rows[number], blockers, &lit, scratch, stats)
     }
 
     /// Adds what lamps that a tree picks contribute to a point.
     fn add_picked(&mut self, at: &LitPacket<S>, lane: usize, tree: &LampTree, tile: &Tile) {
         let snapshot = self.search.snapshot;
-        let here = self.point_in_lane(at, lane, tile);
-        self.search.stats.lamps.sampled += 1;
+        let lit = self.lit_in_lane(at, lane);
+        let shading = self.shading_in_lane(at, lane, &lit);
+        let [x, y] = tile.place_of(at.pixels.lane(lane) as usize);
+        let drawn = Drawn { sampler: self.sample.sampler(x, y), sample: self.sample.index, depth: at.depth };
+        let prim = self.chunk.best[at.slot].prim.lane(lane);
+        let lobes = snapshot.materials()[snapshot.prims()[prim as usize].material as usize].lobes(&shading);
+        let stats = &mut self.search.stats;
+        stats.lamps.sampled += 1;
         let (origin, count) = (snapshot.origin_in_frame(), self.view.lamp_rays_of_sample());
-        let rays = || picked(snapshot.lamps(), tree, &here.lit, origin, &here.drawn, count);
-        self.aim(rays().filter(|ray| ray.lamp.shadow).map(|ray| ray.ray), &here.lit);
-        self.lamp_room.all.all(snapshot.columns());
-        self.trace(None);
-        let mut blocked = self.lamp_room.blocked.iter();
-        let lobes = here.material.lobes(&here.shading);
-        let shone = follow_picked(rays(), &here.shading, &lobes, |ray| {
-            ray.lamp.shadow && blocked.next() == Some(&true)
+        let rays = picked(snapshot.lamps(), tree, &lit, origin, &drawn, count);
+        let shone = follow_picked(rays, &shading, &lobes, |PickedRay { lamp, ray }| {
+            lamp.shadow && {
+                stats.rays.lamp += 1;
+                snapshot.occluded(&ray.ray, ray.span, lit.surface)
+            }
         });
-        let irradiance = &mut self.chunk.irradiance[at.slot];
-        add_in_lane(irradiance, lane, shone.irradiance);
+        add_in_lane(&mut self.chunk.irradiance[at.slot], lane, shone.irradiance);
         if self.chunk.glossy[at.slot] {
-            self.add_glossy(at.slot, lane, shone.glossy);
+            add_in_lane(&mut self.chunk.specular[at.slot], lane, shone.glossy);
         }
-    }
-
-    /// Gathers the rays from a point to lamps that need to be traced.
-    fn aim(&mut self, rays: impl Iterator<Item = LampRay>, here: &LitPoint) {
-        let room = &mut self.lamp_room.rays;
-        room.start(here.point, self.search.snapshot.origin_in_frame(), here.surface);
-        for LampRay { ray, span, .. } in rays {
-            room.push(ray.direction, span.max);
-        }
-        self.search.stats.rays.lamp += room.len() as u64;
-    }
-
-    /// Finds out which of the gathered rays the blockers of a lamp block, or of those anything does.
-    fn trace(&mut self, lamp: Option<usize>) {
-        let LampRoom { rays, blocked, all, .. } = &mut *self.lamp_room;
-        let among = match lamp {
-            Some(number) => &self.plan.lamps[number].among,
-            None => all,
-        };
-        let search = &mut self.search;
-        outlined(
-            self.s,
-            #[inline(always)]
-            || search.blocked_from(rays, among, blocked),
-        );
-    }
-
-    fn add_glossy(&mut self, slot: usize, lane: usize, light: Rgb) {
-        add_in_lane(&mut self.chunk.specular[slot], lane, light);
     }
 }
 
@@ -364,14 +297,6 @@ struct FoundInLanes<S: Simd> {
 fn is_small<S: Simd>(away: F3<S>, radius: f64) -> M<S> {
     let radius = away.x.number(radius);
     (radius * radius).less(away.dot(away) * away.x.number(f64::from(SMALL_LAMP * SMALL_LAMP)))
-}
-
-/// A point of a packet, in `f64`.
-struct LanePoint<'a> {
-    lit: LitPoint,
-    shading: ShadingPoint<f64>,
-    material: &'a Material,
-    drawn: Drawn,
 }
 
 fn add_in_lane<S: Simd>(sum: &mut F3<S>, lane: usize, light: Rgb) {

@@ -22,6 +22,11 @@ pub(crate) struct LampRow {
     pub(crate) ball: Ball,
     /// What it is like if it is flat and has straight edges.
     pub(crate) flat: Option<FlatLamp>,
+    /// Its unit normal if it is flat, on its lit side or on either.
+    pub(crate) normal: Option<DVec3>,
+    pub(crate) two_sided: bool,
+    /// Square metres on each side.
+    pub(crate) area: f64,
 }
 
 /// A flat lamp with straight edges, relative to the snapshot's origin.
@@ -31,7 +36,6 @@ pub(crate) struct FlatLamp {
     count: usize,
     /// Unit normal on its lit side, from where the corners run counter-clockwise.
     pub(crate) normal: DVec3,
-    pub(crate) two_sided: bool,
 }
 
 impl FlatLamp {
@@ -117,9 +121,11 @@ impl Lamps {
             let flat = outline.corners().map(|(corners, normal)| {
                 let mut placed = [corners[0] - origin; 4];
                 placed.iter_mut().zip(corners).for_each(|(placed, corner)| *placed = *corner - origin);
-                FlatLamp { corners: placed, count: corners.len(), normal, two_sided: emission.two_sided }
+                FlatLamp { corners: placed, count: corners.len(), normal }
             });
-            self.rows.push(LampRow { outline, radiance, prim, shadow, ball, flat });
+            let (normal, two_sided) = (outline.normal(), emission.two_sided && outline.normal().is_some());
+            let area = outline.area() / if two_sided { 2.0 } else { 1.0 };
+            self.rows.push(LampRow { outline, radiance, prim, shadow, ball, flat, normal, two_sided, area });
         }
         if let (true, Some(prim)) = (self.rows.len() == before, prim) {
             self.endless.push(prim);

@@ -1,6 +1,6 @@
 //! Counts of what a snapshot holds: shapes, materials, lights, triangles.
 
-use catoptra_core::Light;
+use catoptra_core::{EntityId, Light};
 use serde::Serialize;
 
 use super::Snapshot;
@@ -78,6 +78,17 @@ impl Snapshot {
         let named = self.parts.materials.len() as u32;
         let shapes = prims.into_iter().map(|prim| &self.prims[prim as usize]);
         shapes.filter(move |prim| prim.material < named).map(|prim| prim.shape.kind_name())
+    }
+
+    /// How many surfaces light others, where these are so many that every point asks some of them, picked at random.
+    #[must_use]
+    pub fn picked_lamps(&self) -> Option<usize> {
+        self.lamps().tree.as_ref().map(|_| self.lamps().rows.len())
+    }
+
+    /// Shapes that shine and light nothing, as they have no end.
+    pub fn endless_lamps(&self) -> impl Iterator<Item = EntityId> {
+        self.lamps().endless.iter().map(|&prim| self.entities()[prim as usize])
     }
 }
 

@@ -79,6 +79,6 @@ impl<S: Simd> TileTracer<'_, S> {
         if known {
             self.shader.plan.plan_lights(&self.planner, &reachable.points);
         }
-        known || snapshot.light_rows().is_empty()
+        known || (snapshot.light_rows().is_empty() && snapshot.lamps().asked().is_empty())
     }
 }

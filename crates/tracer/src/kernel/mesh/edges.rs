@@ -5,6 +5,7 @@ use fearless_simd::{Simd, f32x8};
 
 use super::{CommonOrigin, LeafBlock, bound_eight};
 use crate::accel::{Block8, WIDTH};
+use crate::lanes::MulAdd8;
 use crate::numeric::{BUNDLE_DEPTH, BUNDLE_EDGE, BUNDLE_TOP};
 
 /// Eight triangles as seen from the common origin.
@@ -81,7 +82,7 @@ impl CommonOrigin {
         let far = [p[0].abs() + size[0], p[1].abs() + size[1], p[2].abs() + size[2]];
         let length = size[0].max(size[1]).max(size[2]);
         let least = f32x8::splat(s, f32::MIN_POSITIVE);
-        let of_point = length.mul_add_precise(f32x8::splat(s, ray_bounds.beside), least);
+        let of_point = length.fused(f32x8::splat(s, ray_bounds.beside), least);
         let edge_error = bound_eight(s, weighted(s, products(size, far), ray_bounds.shares, of_point));
         let seen = seen(s, &planes, edge_error, &ray_bounds.slopes) & leaf.own;
         if seen == 0 {
@@ -90,15 +91,15 @@ impl CommonOrigin {
         let normal = cross(edges[1], edges[2]);
         let top = dot(p, normal);
         let areas = [size[1] * size[2], size[2] * size[0], size[0] * size[1]];
-        let of_point = (length * length).mul_add_precise(f32x8::splat(s, 6.0 * self.slack), least);
-        let top_error = dot(areas, far).mul_add_precise(f32x8::splat(s, 2.0 * BUNDLE_TOP), of_point);
+        let of_point = (length * length).fused(f32x8::splat(s, 6.0 * self.slack), least);
+        let top_error = dot(areas, far).fused(f32x8::splat(s, 2.0 * BUNDLE_TOP), of_point);
         let slope_error = weighted(s, areas, ray_bounds.shares.map(|share| share + share), least);
         let deepest = p[2].max(q[2]).max(r[2]).max(f32x8::splat(s, 0.0)) + f32x8::splat(s, 2.0 * self.slack);
-        let most = (deepest * f32x8::splat(s, 1.5)).mul_add_precise(slope_error, top_error);
+        let most = (deepest * f32x8::splat(s, 1.5)).fused(slope_error, top_error);
         let certain = (most * f32x8::splat(s, 4.0)).simd_lt(top.abs());
         let share = certain.select(f32x8::splat(s, 1.5) / top.abs(), f32x8::splat(s, f32::INFINITY));
         let of_square = bound_eight(s, slope_error * share);
-        let of_depth = bound_eight(s, top_error.mul_add_precise(share, f32x8::splat(s, BUNDLE_DEPTH)));
+        let of_depth = bound_eight(s, top_error.fused(share, f32x8::splat(s, BUNDLE_DEPTH)));
         let prepared = Prepared {
             edges: [stored(planes[0]), stored(planes[1]), stored(planes[2])],
             edge_error: edge_error.to_array(),
@@ -150,8 +151,8 @@ fn seen<S: Simd>(s: S, planes: &[Eight3<S>; 3], error: f32x8<S>, slopes: &Slopes
     let (du, dv) = (f32x8::splat(s, slopes.half[0]), f32x8::splat(s, slopes.half[1]));
     let (mut least_high, mut most_low) = (f32x8::splat(s, f32::INFINITY), f32x8::splat(s, f32::NEG_INFINITY));
     for n in planes {
-        let middle = n[0].mul_add_precise(u, n[1].mul_add_precise(v, n[2]));
-        let radius = n[0].abs().mul_add_precise(du, n[1].abs().mul_add_precise(dv, doubled));
+        let middle = n[0].fused(u, n[1].fused(v, n[2]));
+        let radius = n[0].abs().fused(du, n[1].abs().fused(dv, doubled));
         least_high = least_high.min(middle + radius);
         most_low = most_low.max(middle - radius);
     }
@@ -176,23 +177,19 @@ fn cross<S: Simd>(a: Eight3<S>, b: Eight3<S>) -> Eight3<S> {
 /// At least the sizes of a cross product's components, term by term, of vectors within boxes of these sizes.
 #[inline(always)]
 fn products<S: Simd>(a: Eight3<S>, b: Eight3<S>) -> Eight3<S> {
-    [
-        a[1].mul_add_precise(b[2], a[2] * b[1]),
-        a[2].mul_add_precise(b[0], a[0] * b[2]),
-        a[0].mul_add_precise(b[1], a[1] * b[0]),
-    ]
+    [a[1].fused(b[2], a[2] * b[1]), a[2].fused(b[0], a[0] * b[2]), a[0].fused(b[1], a[1] * b[0])]
 }
 
 #[inline(always)]
 fn dot<S: Simd>(a: Eight3<S>, b: Eight3<S>) -> f32x8<S> {
-    a[0].mul_add_precise(b[0], a[1].mul_add_precise(b[1], a[2] * b[2]))
+    a[0].fused(b[0], a[1].fused(b[1], a[2] * b[2]))
 }
 
 /// Components times their shares, and something more.
 #[inline(always)]
 fn weighted<S: Simd>(s: S, v: Eight3<S>, shares: [f32; 3], more: f32x8<S>) -> f32x8<S> {
     let [x, y, z] = [f32x8::splat(s, shares[0]), f32x8::splat(s, shares[1]), f32x8::splat(s, shares[2])];
-    v[0].mul_add_precise(x, v[1].mul_add_precise(y, v[2].mul_add_precise(z, more)))
+    v[0].fused(x, v[1].fused(y, v[2].fused(z, more)))
 }
 
 /// The largest size of each coordinate of three vectors.

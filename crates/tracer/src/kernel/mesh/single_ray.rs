@@ -11,7 +11,7 @@ use super::{
     Decision, Edges, ExactResolver, LeafBlock, RayTriangle, Visit, Visits, Waiting, bound_eight, decide,
 };
 use crate::accel::{Node8, WIDTH, WideTree};
-use crate::lanes::{Bits, outlined};
+use crate::lanes::{Bits, MulAdd8, outlined};
 use crate::numeric::{BOX_STRETCH, SINGLE_RAY_DEPTH, SINGLE_RAY_SPREAD, SINGLE_RAY_STEEP};
 
 /// A ray in a mesh's own space.
@@ -165,8 +165,8 @@ impl SingleRay {
         let z = self.seen_from_origin(s, rows, z);
         let (x, y) = (self.seen_from_origin(s, rows, x), self.seen_from_origin(s, rows, y));
         Corner {
-            x: z.mul_add_precise(-f32x8::splat(s, self.shear[0]), x),
-            y: z.mul_add_precise(-f32x8::splat(s, self.shear[1]), y),
+            x: z.fused(-f32x8::splat(s, self.shear[0]), x),
+            y: z.fused(-f32x8::splat(s, self.shear[1]), y),
             z,
         }
     }
@@ -191,8 +191,8 @@ impl SingleRay {
         let most = a.across().max(b.across()).max(c.across());
         let (u, v, w) = (edge(&c, &b), edge(&a, &c), edge(&b, &a));
         let (slack, floor) = (f32x8::splat(s, self.slack), f32x8::splat(s, self.floor));
-        let spread = most.mul_add_precise(f32x8::splat(s, SINGLE_RAY_SPREAD), slack);
-        let error = bound_eight(s, most.mul_add_precise(spread, floor));
+        let spread = most.fused(f32x8::splat(s, SINGLE_RAY_SPREAD), slack);
+        let error = bound_eight(s, most.fused(spread, floor));
         let (low, high) = (u.min(v).min(w), u.max(v).max(w));
         let maybe = !(low.simd_lt(-error) & high.simd_gt(error)).to_bitmask() & leaf.own;
         if maybe == 0 {
@@ -201,17 +201,14 @@ impl SingleRay {
         let area = u + v + w;
         let inverse = f32x8::splat(s, 1.0) / area;
         let (e, f) = (b.z - a.z, c.z - a.z);
-        let z = e.mul_add_precise(v, f * w).mul_add_precise(inverse, a.z);
+        let z = e.fused(v, f * w).fused(inverse, a.z);
         let steep = error * f32x8::splat(s, SINGLE_RAY_STEEP);
         // Products of corners of tiny scenes may underflow, and so may depths.
         let least = f32x8::splat(s, f32::MIN_POSITIVE);
-        let z_error =
-            steep.mul_add_precise(e.abs().max(f.abs()), least).mul_add_precise(inverse.abs(), slack);
+        let z_error = steep.fused(e.abs().max(f.abs()), least).fused(inverse.abs(), slack);
         let along = f32x8::splat(s, self.along);
         let t = z * along;
-        let t_error = t
-            .abs()
-            .mul_add_precise(f32x8::splat(s, SINGLE_RAY_DEPTH), z_error.mul_add_precise(along.abs(), least));
+        let t_error = t.abs().fused(f32x8::splat(s, SINGLE_RAY_DEPTH), z_error.fused(along.abs(), least));
         let t_error = bound_eight(s, t_error);
         let known = (low.simd_gt(error) | high.simd_lt(-error)) & area.abs().simd_gt(steep + steep);
         let past = (t - t_error).simd_gt(best.t + best.error) | (t + t_error).simd_lt(best.begin[0]);
