@@ -19,6 +19,7 @@ use crate::lamps::pair_of_lamp;
 use crate::lanes::{
     D, D3, F, F3, M, MOST_LANES, U, magnitude, narrow3, outlined, share_of_one, splat_wide, widen3,
 };
+use crate::numeric::DIRECTION_ERROR;
 use crate::sampler::Sampler;
 use crate::search::ToPoints;
 use crate::snapshot::LampRow;
@@ -92,7 +93,9 @@ impl<S: Simd> Shader<'_, S> {
         let area = F::splat(s, (lamp.area / f64::from(count)) as f32);
         let size = lamp.ball.center.abs().element_sum() + 3.0 * lamp.ball.radius;
         let size = magnitude(narrow3(at.refined.point)).widen() + D::splat(s, size);
-        let off = size * D::splat(s, LAMP_POINT_ROUNDING);
+        // Points on a sphere are known as directions in `f32` are.
+        let round = if lamp.normal.is_none() { lamp.ball.radius * f64::from(DIRECTION_ERROR) } else { 0.0 };
+        let off = size * D::splat(s, LAMP_POINT_ROUNDING) + D::splat(s, round);
         let best = self.chunk.best[at.slot];
         let (mut open, mut all) = (zero, zero);
         for k in 0..count {
