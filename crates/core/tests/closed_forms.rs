@@ -464,7 +464,8 @@ fn power_is_spread_over_the_surface_and_all_directions() {
         // A scaled light sends out the same power; one of a given radiance keeps that.
         let scaled = light.placed(&Placement::IDENTITY.scaled(2.0).unwrap()).lamp().unwrap();
         assert!((scaled.emission.radiance.g * 4.0 / lamp.emission.radiance.g - 1.0).abs() < 1e-14);
-        let both = light.with("radiance", Value::Color(Rgb::WHITE)).unwrap_err();
+        let both = light.values().with("radiance", Value::Color(Rgb::WHITE));
+        let both = (light.kind().make)(&both).unwrap_err();
         assert_eq!(both.to_string(), "power must not be given beside radiance, not given");
     }
     let [(rectangle, flux_of_one), (disk, _), (sphere, _)] = surface_lights(12.0);
