@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 /// The modules of the crate from top to bottom. Modules of one row stand side by side and do not use each other.
 const LAYERS: &[&[&str]] = &[
-    &["target"],
-    &["render", "query", "pick", "irradiance"],
+    &["target", "irradiance"],
+    &["render", "query", "pick"],
     &["backend"],
     &["integrator"],
     &["shade"],

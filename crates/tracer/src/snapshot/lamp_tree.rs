@@ -133,7 +133,7 @@ mod tests {
     #[test]
     fn near_and_strong_lamps_are_picked_more_often() {
         let ball = |x: f64| Ball { center: DVec3::X * x, radius: 0.1 };
-        let tree = LampTree::new(&[(ball(1.0), 1.0), (ball(10.0), 1.0), (ball(-10.0), 9.0)]);
+        let tree = LampTree::new(&[(ball(1.0), 1.0), (ball(-12.0), 1.0), (ball(-10.0), 9.0)]);
         let chance = |lamp: u32| {
             let steps = (0..1000).map(|k| f64::from(k) / 1000.0);
             steps.filter_map(|share| tree.pick(DVec3::ZERO, share)).filter(|pick| pick.0 == lamp).count()

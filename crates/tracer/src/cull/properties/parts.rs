@@ -86,7 +86,10 @@ fn some_profile(random: &mut Random) -> ProfileSource {
 fn some_part<T>(random: &mut Random, kind: &Kind<T>, size: f64) -> T {
     let mut part = || {
         let mut given = Given::default();
-        let fields = kind.fields.iter();
+        // Of two fields one is given.
+        let mut fields: Vec<_> = kind.fields.iter().collect();
+        fields.retain(|field| !(field.name == "power" && kind.field("radiance").is_some()));
+        let fields = fields.into_iter();
         let values = fields.map(|field| (field.name, given.value(random, field, size)));
         (kind.make)(&values.fold(Values::new(), |values, (name, value)| values.with(name, value)))
     };
