@@ -1,4 +1,5 @@
 //! Is the light at points that of formulas, and do surfaces that hold a point leave it free?
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 use std::f64::consts::PI;
 

@@ -150,8 +150,8 @@ mod tests {
         ProfileSource { path: "lopsided.ies".into(), profile: Arc::new(profile) }
     }
 
-    fn lamp(values: Values) -> Result<Light, InvalidPart> {
-        crate::part::make::<PointLight>(&values).map(Light::from)
+    fn lamp(values: &Values) -> Result<Light, InvalidPart> {
+        crate::part::make::<PointLight>(values).map(Light::from)
     }
 
     fn lopsided_lamp() -> Values {
@@ -169,7 +169,7 @@ mod tests {
 
     #[test]
     fn azimuths_turn_counterclockwise_from_x_seen_from_above() {
-        let light = lamp(lopsided_lamp()).unwrap();
+        let light = lamp(&lopsided_lamp()).unwrap();
         for (towards, candela) in [
             (DVec3::new(1.0, -0.1, 0.0), 20.0),
             (DVec3::new(0.0, -0.1, -1.0), 10.0),
@@ -185,7 +185,7 @@ mod tests {
     #[test]
     fn a_profile_about_the_axis_across_turns_from_nadir_to_the_horizontal() {
         let values = Values::new().with("profile", Value::Profile(lopsided(Pole::Across)));
-        let light = lamp(values).unwrap();
+        let light = lamp(&values).unwrap();
         // The pole is clockwise of +x: +z. Azimuth 0 is nadir, 90° is +x, 180° is up.
         for (towards, candela) in [
             (DVec3::new(0.0, -1.0, 0.1), 20.0),
@@ -204,14 +204,14 @@ mod tests {
             .with("profile", Value::Profile(lopsided(Pole::Nadir)))
             .with("direction", Value::Vector(DVec3::X * 3.0))
             .with("horizontal", Value::Vector(DVec3::new(5.0, 0.0, 2.0)));
-        let light = lamp(values).unwrap();
+        let light = lamp(&values).unwrap();
         near(strength(&light, DVec3::new(0.1, 0.0, 1.0)), 20.0);
         near(strength(&light, DVec3::new(0.1, -1.0, 0.0)), 5.0);
         // Without a horizontal, -y is turned to +x and so +x to +y.
         let hung = lopsided_lamp().with("direction", Value::Vector(DVec3::X));
-        near(strength(&lamp(hung).unwrap(), DVec3::new(0.1, 1.0, 0.0)), 20.0);
+        near(strength(&lamp(&hung).unwrap(), DVec3::new(0.1, 1.0, 0.0)), 20.0);
         let up = lopsided_lamp().with("direction", Value::Vector(DVec3::Y));
-        near(strength(&lamp(up).unwrap(), DVec3::new(1.0, 0.1, 0.0)), 20.0);
+        near(strength(&lamp(&up).unwrap(), DVec3::new(1.0, 0.1, 0.0)), 20.0);
     }
 
     #[test]
@@ -226,7 +226,7 @@ mod tests {
     #[test]
     fn a_placement_turns_the_whole_profile() {
         for pole in [Pole::Nadir, Pole::Across] {
-            let light = lamp(Values::new().with("profile", Value::Profile(lopsided(pole)))).unwrap();
+            let light = lamp(&Values::new().with("profile", Value::Profile(lopsided(pole)))).unwrap();
             let turned = Placement::IDENTITY
                 .turned(DVec3::ONE, DVec3::new(1.0, -2.0, 0.5), 2.0)
                 .and_then(|placement| placement.moved(DVec3::new(3.0, 0.0, 1.0)))
@@ -243,9 +243,9 @@ mod tests {
 
     #[test]
     fn intensity_scales_the_profile_and_is_one_when_left_out() {
-        let plain = lamp(lopsided_lamp()).unwrap();
+        let plain = lamp(&lopsided_lamp()).unwrap();
         assert_eq!(plain.color().rgb(), Rgb::WHITE);
-        let tinted = lamp(lopsided_lamp().with("intensity", Value::Color(Rgb::new(0.5, 0.0, 2.0)))).unwrap();
+        let tinted = lamp(&lopsided_lamp().with("intensity", Value::Color(Rgb::new(0.5, 0.0, 2.0)))).unwrap();
         let arrival = tinted.arriving(Triple::new(2.0, -0.1, 0.0));
         let irradiance = tinted.irradiance(&arrival);
         let candela = 20.0 / 4.01;
@@ -269,7 +269,7 @@ mod tests {
     #[test]
     fn what_only_a_profile_needs_is_refused_without_one() {
         let bare = Values::new().with("intensity", Value::Color(Rgb::WHITE));
-        let refused = |values: Values| lamp(values).unwrap_err().to_string();
+        let refused = |values: Values| lamp(&values).unwrap_err().to_string();
         let down = Value::Vector(-DVec3::Y);
         assert_eq!(
             refused(bare.clone().with("direction", down.clone())),
@@ -286,7 +286,7 @@ mod tests {
 
     #[test]
     fn at_the_lamp_itself_nothing_arrives() {
-        let light = lamp(lopsided_lamp()).unwrap();
+        let light = lamp(&lopsided_lamp()).unwrap();
         assert!(!light.arriving(Triple::splat(0.0)).lit);
     }
 }

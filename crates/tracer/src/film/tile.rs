@@ -112,7 +112,7 @@ impl Tile {
         });
         match &mut self.totals {
             Some(totals) => {
-                totals.iter_mut().zip(light).for_each(|(total, light)| total[i] = light * samples)
+                totals.iter_mut().zip(light).for_each(|(total, light)| total[i] = light * samples);
             }
             None => self.sums.iter_mut().zip(light).for_each(|(sum, light)| sum[i] = light as f32),
         }

@@ -108,21 +108,13 @@ impl<'a, S: Simd> Shader<'a, S> {
         self.chunk.irradiance[at.slot] = radiance.scale_add(seen, self.chunk.irradiance[at.slot]);
     }
 
-    /// What a packet sees of a flat lamp with straight edges under unit radiance, where lanes can tell.
+    /// How a packet sees a flat lamp with straight edges that nothing blocks.
     #[inline(always)]
-    fn seen_of_flat(
-        &mut self,
-        at: &LitPacket<S>,
-        lamp: &LampRow,
-        flat: &FlatLamp,
-        number: usize,
-    ) -> FoundInLanes<S> {
-        let (s, slot, point) = (self.s, at.slot, at.refined.point);
-        let (zero, none) = (F::splat(s, 0.0), M::splat(s, false));
-        let from_point = |to: DVec3| narrow3(splat_wide(s, to) - point);
+    fn view_of_flat(&self, at: &LitPacket<S>, lamp: &LampRow, flat: &FlatLamp) -> FlatView<S> {
+        let (s, slot, zero) = (self.s, at.slot, F::splat(self.s, 0.0));
+        let from_point = |to: DVec3| narrow3(splat_wide(s, to) - at.refined.point);
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| from_point(flat.corners()[i % flat.corners().len()]));
-        let own = narrow3(splat_wide(s, flat.normal));
-        let above = -a.dot(own);
+        let above = -a.dot(narrow3(splat_wide(s, flat.normal)));
         let (front, behind) = (zero.less(above), above.less(zero));
         let faced = if lamp.two_sided { front | behind } else { front };
         let smooth = self.search.snapshot.columns().smooth;
@@ -136,13 +128,30 @@ impl<'a, S: Simd> Shader<'a, S> {
             let (second, last) = (F3::select(front, c, b), F3::select(front, b, c));
             Outline::new(&[a, second, last], normal, normal)
         };
-        let mut answered = self.chunk.lit[slot] & !is_small(from_point(lamp.ball.center), lamp.ball.radius);
+        let mut known = self.chunk.lit[slot] & !is_small(from_point(lamp.ball.center), lamp.ball.radius);
         if smooth {
             // Two normals have two horizons: lanes know of those that cut nothing off.
             let below = |v: F3<S>| v.dot(normal).less(zero) | v.dot(ground).less(zero);
-            answered = answered & !(below(a) | below(b) | below(c) | below(d));
+            known = known & !(below(a) | below(b) | below(c) | below(d));
         }
         let open = F::pick(faced, outline.open(), zero);
+        FlatView { outline, normal, front, behind, open, known }
+    }
+
+    /// What a packet sees of a flat lamp with straight edges under unit radiance, where lanes can tell.
+    #[inline(always)]
+    fn seen_of_flat(
+        &mut self,
+        at: &LitPacket<S>,
+        lamp: &LampRow,
+        flat: &FlatLamp,
+        number: usize,
+    ) -> FoundInLanes<S> {
+        let (s, slot, point) = (self.s, at.slot, at.refined.point);
+        let (zero, none) = (F::splat(s, 0.0), M::splat(s, false));
+        let from_point = |to: DVec3| narrow3(splat_wide(s, to) - point);
+        let FlatView { outline, normal, front, behind, open, known } = self.view_of_flat(at, lamp, flat);
+        let (mut answered, ground) = (known, self.chunk.normal[slot]);
         let seeing = answered & zero.less(open);
         let (mut hidden, mut touched, mut sampled) = (zero, none, none);
         let snapshot = self.search.snapshot;
@@ -164,17 +173,7 @@ impl<'a, S: Simd> Shader<'a, S> {
                 answered = answered & !own;
             }
             let Shape::Sphere(ball) = shape else {
-                let unknown = match shape.bounds() {
-                    Some(bounds) => {
-                        let ball = Ball::round(bounds);
-                        let towards = from_point(ball.center - snapshot.origin_in_frame());
-                        let radius = F::splat(s, (ball.radius * (1.0 + f64::from(CUT_MARGIN))) as f32);
-                        let inside = towards.dot(towards).less(radius * radius);
-                        inside | outline.may_be_hidden_by(&BallOutline::new(towards, radius))
-                    }
-                    None => !self.is_beside_plane(prim, lamp, point),
-                };
-                answered = answered & !(seeing & !own & unknown);
+                answered = answered & !(seeing & !own & self.may_hide(&outline, prim, lamp, point));
                 continue;
             };
             let center = ball.center() - snapshot.origin_in_frame();
@@ -204,6 +203,20 @@ impl<'a, S: Simd> Shader<'a, S> {
         stats.open += (answered & seeing & !touched).count();
         stats.sampled += sampled.count();
         FoundInLanes { seen, answered, sampled }
+    }
+
+    /// The lanes from which a shape that is no ball may hide some of a lamp.
+    #[inline(always)]
+    fn may_hide(&self, outline: &Outline<F<S>>, prim: u32, lamp: &LampRow, point: D3<S>) -> M<S> {
+        let (s, snapshot) = (self.s, self.search.snapshot);
+        let Some(bounds) = snapshot.prims()[prim as usize].shape.bounds() else {
+            return !self.is_beside_plane(prim, lamp, point);
+        };
+        let ball = Ball::round(bounds);
+        let towards = narrow3(splat_wide(s, ball.center - snapshot.origin_in_frame()) - point);
+        let radius = F::splat(s, (ball.radius * (1.0 + f64::from(CUT_MARGIN))) as f32);
+        let inside = towards.dot(towards).less(radius * radius);
+        inside | outline.may_be_hidden_by(&BallOutline::new(towards, radius))
     }
 
     /// The lanes whose points lie on the same side of a plane as all of a lamp, clear of it.
@@ -281,6 +294,20 @@ impl<'a, S: Simd> Shader<'a, S> {
             add_in_lane(&mut self.chunk.specular[at.slot], lane, shone.glossy);
         }
     }
+}
+
+/// A flat lamp with straight edges as the points of a packet see it.
+struct FlatView<S: Simd> {
+    outline: Outline<F<S>>,
+    /// To shade with.
+    normal: F3<S>,
+    /// Lanes before and behind the lamp's plane.
+    front: M<S>,
+    behind: M<S>,
+    /// Irradiance under unit radiance if nothing blocks it.
+    open: F<S>,
+    /// Lanes that know it.
+    known: M<S>,
 }
 
 /// What lanes know of a lamp.
