@@ -55,7 +55,7 @@ impl FromStr for Plane {
 impl Plane {
     /// u × v, of unit length.
     fn normal(&self) -> Option<DVec3> {
-        let [u, v] = self.edges.map(|edge| edge.try_normalize());
+        let [u, v] = self.edges.map(DVec3::try_normalize);
         u?.cross(v?).try_normalize()
     }
 

@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::io::Read;
 use std::path::Path;
 
+use catoptra_core::Rgb;
 use catoptra_core::glam::DVec3;
 use catoptra_scene::printable;
 use catoptra_tracer::{InvalidReceiver, Irradiance, Receiver};
@@ -113,7 +114,7 @@ impl Points {
             let _ = match line {
                 Line::Text(line) => writeln!(text, "{line}"),
                 Line::Point(_) => {
-                    let numbers = found.next().map(|found| [found.mean, found.error].map(|v| v.to_array()));
+                    let numbers = found.next().map(|found| [found.mean, found.error].map(Rgb::to_array));
                     let words: Vec<String> =
                         numbers.iter().flatten().flatten().map(|v| in_full(*v)).collect();
                     writeln!(text, "{}", words.join(" "))

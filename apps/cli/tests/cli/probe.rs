@@ -14,15 +14,15 @@ point-light "lamp" { position 0 2 0; intensity 8 }
 
 fn with(name: &str, text: &str) -> tempfile::TempDir {
     let folder = folder();
-    std::fs::write(folder.path().join("lamp.kdl"), LAMP).unwrap();
-    std::fs::write(folder.path().join(name), text).unwrap();
+    std::fs::write(folder.path().join("lamp.kdl"), LAMP).expect("a scene is written");
+    std::fs::write(folder.path().join(name), text).expect("a file is written");
     folder
 }
 
 /// Numbers of each line that is no remark.
 fn numbers(text: &str) -> Vec<Vec<f64>> {
     let lines = text.lines().filter(|line| !line.starts_with('#') && !line.is_empty());
-    lines.map(|line| line.split(' ').map(|word| word.parse().unwrap()).collect()).collect()
+    lines.map(|line| line.split(' ').map(|word| word.parse().expect("a number")).collect()).collect()
 }
 
 #[test]
