@@ -64,7 +64,7 @@ mod tests {
         assert_eq!(all.len(), signs.len());
         assert!(all.iter().flatten().all(|row| *row < 32));
         write("48", [3, 5], |x, y| {
-            assert!((3..3 + width("48")).contains(&x) && (5..5 + HEIGHT).contains(&y))
+            assert!((3..3 + width("48")).contains(&x) && (5..5 + HEIGHT).contains(&y));
         });
     }
 }
