@@ -1,4 +1,5 @@
 //! Is the light at points what theory knows, in scenes of all kinds of lamps and of what stands between?
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 use catoptra_core::glam::DVec3;
 use catoptra_lab::closed_forms::{closed_forms, closed_rooms};

@@ -73,52 +73,55 @@ fn scene(seed: u64) -> String {
     };
     let _ = writeln!(text, "{lamp}");
     for i in 0..1 + r.bits() % 8 {
-        // A point on the way from the floor to a corner or into the lamp.
-        let (share, aside) = (r.between(0.2, 0.9), *r.pick(&[0.0, 0.0, 1.0, 0.5]));
-        let at = [x * share + size * aside * share, height * share, z * share];
-        let radius = r.between(0.05, 0.6);
-        let by = |axis: usize, by: f64| {
-            let mut moved = at;
-            moved[axis] += by;
-            moved
-        };
-        let body = match r.bits() % 6 {
-            // Tangent to the segment, or anywhere.
-            0 => format!(
-                "sphere \"b{i}\" material=\"m\" {{ center {}; radius {radius} }}",
-                written(by(0, radius))
-            ),
-            1 => format!(
-                "sphere \"b{i}\" material=\"m\" {{ center {}; radius {radius} }}",
-                written(r.point(2.0).map(|v| v + 1.0))
-            ),
-            2 => format!(
-                "box \"b{i}\" material=\"m\" {{ min {}; max {} }}",
-                written(at),
-                written(at.map(|v| v + radius))
-            ),
-            3 => format!(
-                "disk \"b{i}\" material=\"m\" {{ center {}; normal {}; radius {radius} }}",
-                written(by(2, radius)),
-                written(r.point(1.0))
-            ),
-            4 => format!(
-                "triangle \"b{i}\" material=\"m\" {{ a {}; b {}; c {} }}",
-                written(at),
-                written(by(0, radius)),
-                written(by(2, radius))
-            ),
-            _ => format!(
-                "tetrahedron \"b{i}\" material=\"m\" {{ a {}; b {}; c {}; d {} }}",
-                written(at),
-                written(by(0, radius)),
-                written(by(1, radius)),
-                written(by(2, radius))
-            ),
-        };
-        let _ = writeln!(text, "{body}");
+        let _ = writeln!(text, "{}", blocker(r, i, [x, height, z], size));
     }
     text
+}
+
+/// A blocker on the way from the floor's middle to a corner of the lamp or into it: half of them just touch that.
+fn blocker(r: &mut Random, i: u64, [x, height, z]: [f64; 3], size: f64) -> String {
+    // A point on the way from the floor to a corner or into the lamp.
+    let (share, aside) = (r.between(0.2, 0.9), *r.pick(&[0.0, 0.0, 1.0, 0.5]));
+    let at = [x * share + size * aside * share, height * share, z * share];
+    let radius = r.between(0.05, 0.6);
+    let by = |axis: usize, by: f64| {
+        let mut moved = at;
+        moved[axis] += by;
+        moved
+    };
+    match r.bits() % 6 {
+        // Tangent to the segment, or anywhere.
+        0 => {
+            format!("sphere \"b{i}\" material=\"m\" {{ center {}; radius {radius} }}", written(by(0, radius)))
+        }
+        1 => format!(
+            "sphere \"b{i}\" material=\"m\" {{ center {}; radius {radius} }}",
+            written(r.point(2.0).map(|v| v + 1.0))
+        ),
+        2 => format!(
+            "box \"b{i}\" material=\"m\" {{ min {}; max {} }}",
+            written(at),
+            written(at.map(|v| v + radius))
+        ),
+        3 => format!(
+            "disk \"b{i}\" material=\"m\" {{ center {}; normal {}; radius {radius} }}",
+            written(by(2, radius)),
+            written(r.point(1.0))
+        ),
+        4 => format!(
+            "triangle \"b{i}\" material=\"m\" {{ a {}; b {}; c {} }}",
+            written(at),
+            written(by(0, radius)),
+            written(by(2, radius))
+        ),
+        _ => format!(
+            "tetrahedron \"b{i}\" material=\"m\" {{ a {}; b {}; c {}; d {} }}",
+            written(at),
+            written(by(0, radius)),
+            written(by(1, radius)),
+            written(by(2, radius))
+        ),
+    }
 }
 
 /// How far `wide` is from the oracle: at worst, and the root mean square; `None` where any light has no closed form.
