@@ -43,7 +43,7 @@ pub(super) fn irradiance(point: DVec3, normal: DVec3, lamp: &Flat, between: &[Be
 }
 
 /// How many parts a lamp is swept in at least.
-const STRIPES: u32 = 8;
+const STRIPES: u32 = 64;
 
 /// How often a part is halved at most.
 const DEEPEST: u32 = 40;

@@ -24,8 +24,8 @@ pub(super) fn markdown(lab: &Lab) -> Result<String> {
     }
     text += "\n### All light of a closed room\n\n\
              The irradiance on the walls of a closed black room, added up, is the power of the lamp in it. Each wall is divided into \
-             2 x 2 and 4 x 4 parts of 16 x 16 points of a Gauss–Legendre rule; how far the two sums lie apart is the error of the rule, \
-             which is not smooth where a wall crosses the plane of a lamp.\n\n\
+             2 x 2 and 4 x 4 parts of 16 x 16 points of a Gauss–Legendre rule; how far the two sums lie apart is the error of the rule. \
+             The planes of flat lamps, where light on the walls begins, fall on borders between parts.\n\n\
              | lamp | power, W | sum, W | difference | of the rule |\n|---|--:|--:|--:|--:|\n";
     for room in closed_rooms() {
         text += &of_room(lab, &room)?;
@@ -37,8 +37,9 @@ fn of_form(lab: &Lab, form: &ClosedForm) -> Result<String> {
     let at = form.points.iter().map(|known| (known.point, known.normal));
     let found = measured(lab, &form.scene, at)?;
     let mut text = format!(
-        "\n### {}\n\nL = {:.6}\n\n| point | normal | truth | ours | difference, L |\n|---|---|--:|--:|--:|\n",
-        form.title, form.radiance
+        "\n### {}\n\nL = {}\n\n| point | normal | truth | ours | difference, L |\n|---|---|--:|--:|--:|\n",
+        form.title,
+        (form.radiance * 1e6).round() / 1e6
     );
     for (known, found) in form.points.iter().zip(found) {
         let [p, n] = [known.point, known.normal].map(|v| format!("{} {} {}", v.x, v.y, v.z));
