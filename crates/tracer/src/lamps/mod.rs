@@ -6,5 +6,5 @@ mod lanes;
 mod rays;
 
 pub(crate) use gather::{Gathered, LitPoint, gather};
-pub(crate) use lanes::{BallOutline, Outline};
+pub(crate) use lanes::{BallOutline, Outline, open_from_afar};
 pub(crate) use rays::{Drawn, LampRay, LampRays, PickedRay, follow, follow_picked, pair_of_lamp, picked};

@@ -9,7 +9,7 @@ use fearless_simd::Simd;
 use super::Shader;
 use crate::cull::is_few;
 use crate::lamps::{
-    BallOutline, Drawn, Gathered, LitPoint, Outline, PickedRay, follow_picked, gather, picked,
+    BallOutline, Drawn, Gathered, LitPoint, Outline, PickedRay, follow_picked, gather, open_from_afar, picked,
 };
 use crate::lanes::{D3, F, F3, M, U, magnitude, narrow3, outlined, splat_wide, widen3};
 use crate::numeric::{CUT_MARGIN, SMALL_LAMP};
@@ -112,8 +112,9 @@ impl<'a, S: Simd> Shader<'a, S> {
     #[inline(always)]
     fn view_of_flat(&self, at: &LitPacket<S>, lamp: &LampRow, flat: &FlatLamp) -> FlatView<S> {
         let (s, slot, zero) = (self.s, at.slot, F::splat(self.s, 0.0));
-        let from_point = |to: DVec3| narrow3(splat_wide(s, to) - at.refined.point);
-        let [a, b, c, d] = [0, 1, 2, 3].map(|i| from_point(flat.corners()[i % flat.corners().len()]));
+        let (corners, point) = (flat.corners(), at.refined.point);
+        let [a, b, c] = [way(s, point, corners[0]), way(s, point, corners[1]), way(s, point, corners[2])];
+        let d = if corners.len() == 4 { way(s, point, corners[3]) } else { a };
         let above = -a.dot(narrow3(splat_wide(s, flat.normal)));
         let (front, behind) = (zero.less(above), above.less(zero));
         let faced = if lamp.two_sided { front | behind } else { front };
@@ -121,21 +122,29 @@ impl<'a, S: Simd> Shader<'a, S> {
         let ground = self.chunk.normal[slot];
         let normal = if smooth { self.chunk.smooth[slot] } else { ground };
         // As seen from outside the sphere of directions, corners run counter-clockwise for a point behind the lamp.
-        let outline = if flat.corners().len() == 4 {
-            let (second, last) = (F3::select(front, d, b), F3::select(front, b, d));
-            Outline::new(&[a, second, c, last], normal, normal)
+        let others = if corners.len() == 4 {
+            [F3::select(front, d, b), c, F3::select(front, b, d)]
         } else {
-            let (second, last) = (F3::select(front, c, b), F3::select(front, b, c));
-            Outline::new(&[a, second, last], normal, normal)
+            [F3::select(front, c, b), F3::select(front, b, c), a]
         };
-        let mut known = self.chunk.lit[slot] & !is_small(from_point(lamp.ball.center), lamp.ball.radius);
-        if smooth {
+        let outline = Outline::new(&[a, others[0], others[1], others[2]], corners.len(), normal, normal);
+        let small = is_small(way(s, point, lamp.ball.center), lamp.ball.radius);
+        let (mut known, mut open) = (self.chunk.lit[slot], outline.open());
+        if smooth || small.any() {
+            let mut cut = M::splat(s, false);
+            for corner in [a, b, c, d] {
+                cut = cut | corner.dot(normal).less(zero) | corner.dot(ground).less(zero);
+            }
             // Two normals have two horizons: lanes know of those that cut nothing off.
-            let below = |v: F3<S>| v.dot(normal).less(zero) | v.dot(ground).less(zero);
-            known = known & !(below(a) | below(b) | below(c) | below(d));
+            known = known & !(cut & (small | M::splat(s, smooth)));
+            if corners.len() == 4 {
+                open = F::pick(small, open_from_afar([a, b, d], normal, lamp.area), open);
+            } else {
+                known = known & !small;
+            }
         }
-        let open = F::pick(faced, outline.open(), zero);
-        FlatView { outline, normal, front, behind, open, known }
+        let open = F::pick(faced, open, zero);
+        FlatView { outline, normal, front, behind, open, small, known }
     }
 
     /// What a packet sees of a flat lamp with straight edges under unit radiance, where lanes can tell.
@@ -149,8 +158,8 @@ impl<'a, S: Simd> Shader<'a, S> {
     ) -> FoundInLanes<S> {
         let (s, slot, point) = (self.s, at.slot, at.refined.point);
         let (zero, none) = (F::splat(s, 0.0), M::splat(s, false));
-        let from_point = |to: DVec3| narrow3(splat_wide(s, to) - point);
-        let FlatView { outline, normal, front, behind, open, known } = self.view_of_flat(at, lamp, flat);
+        let FlatView { outline, normal, front, behind, open, small, known } =
+            self.view_of_flat(at, lamp, flat);
         let (mut answered, ground) = (known, self.chunk.normal[slot]);
         let seeing = answered & zero.less(open);
         let (mut hidden, mut touched, mut sampled) = (zero, none, none);
@@ -177,7 +186,7 @@ impl<'a, S: Simd> Shader<'a, S> {
                 continue;
             };
             let center = ball.center() - snapshot.origin_in_frame();
-            let towards = from_point(center);
+            let towards = way(s, point, center);
             let radius = F::splat(s, ball.radius() as f32);
             let inside = towards.dot(towards).less(radius * radius * F::splat(s, 1.0 + CUT_MARGIN));
             let seen = BallOutline::new(towards, radius);
@@ -190,7 +199,7 @@ impl<'a, S: Simd> Shader<'a, S> {
             let cut = height.abs() < 1.0 + f64::from(CUT_MARGIN);
             let before = if height > 0.0 { front } else { behind };
             let met = met & (before | M::splat(s, cut));
-            answered = answered & !(met & (inside | touched | M::splat(s, cut)));
+            answered = answered & !(met & (inside | touched | small | M::splat(s, cut)));
             touched = touched | met;
             hidden = F::pick(met, outline.hidden_by(&seen, normal), hidden);
         }
@@ -213,7 +222,7 @@ impl<'a, S: Simd> Shader<'a, S> {
             return !self.is_beside_plane(prim, lamp, point);
         };
         let ball = Ball::round(bounds);
-        let towards = narrow3(splat_wide(s, ball.center - snapshot.origin_in_frame()) - point);
+        let towards = way(s, point, ball.center - snapshot.origin_in_frame());
         let radius = F::splat(s, (ball.radius * (1.0 + f64::from(CUT_MARGIN))) as f32);
         let inside = towards.dot(towards).less(radius * radius);
         inside | outline.may_be_hidden_by(&BallOutline::new(towards, radius))
@@ -306,6 +315,8 @@ struct FlatView<S: Simd> {
     behind: M<S>,
     /// Irradiance under unit radiance if nothing blocks it.
     open: F<S>,
+    /// Lanes that see it so small that they know it only where nothing blocks it.
+    small: M<S>,
     /// Lanes that know it.
     known: M<S>,
 }
@@ -317,6 +328,12 @@ struct FoundInLanes<S: Simd> {
     answered: M<S>,
     /// Lanes that need rays.
     sampled: M<S>,
+}
+
+/// The way from points to a place.
+#[inline(always)]
+fn way<S: Simd>(s: S, points: D3<S>, to: DVec3) -> F3<S> {
+    narrow3(splat_wide(s, to) - points)
 }
 
 /// Where a lamp is so small, seen from a point, that `f32` does not do.
