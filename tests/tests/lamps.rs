@@ -6,7 +6,9 @@ use std::fmt::Write;
 
 use catoptra_core::Scene;
 use catoptra_tests::{assert_same_bits, camera_of, film, parsed, traced};
-use catoptra_tracer::{Control, Film, Instructions, Pool, Size, Skip, Snapshot, View, backend_named, render};
+use catoptra_tracer::{
+    Control, Edges, Film, Instructions, Pool, Size, Skip, Snapshot, View, backend_named, render,
+};
 
 /// How far `wide` may be from the oracle, as a share of the radiance of the lamp.
 const PROMISED: f64 = 2e-5;
@@ -299,4 +301,36 @@ fn a_body_is_seen_and_blocks_and_an_unseen_lamp_does_neither() {
     // From behind it is black.
     let behind = looking_up("#true").replace("edge-u 2 0 0; edge-v 0 2 0", "edge-u 0 2 0; edge-v 2 0 0");
     assert_eq!(red(&behind, size, middle), 0.0);
+}
+
+/// A ball that reaches through a lamp has no closed form: its shadow is told by rays.
+const BY_RAYS: &str = "sphere \"ball\" material=\"m\" { center 0.4 1 0.2; radius 0.5 }\n\
+     rectangle-light \"l\" { corner -0.7 1 -0.5; edge-u 1.4 0 0; edge-v 0 0 1; radiance 1 }";
+
+#[test]
+fn few_rays_a_sample_are_right_in_the_mean() {
+    let (scene, size) = (with_lamp("", BY_RAYS), Size::new(64, 64));
+    let view = View::of(&scene, camera_of(&scene), size);
+    let mean = |backend: &str, samples: u32, lamp_rays: u32| {
+        let view = View { samples, lamp_rays, ..view.clone() };
+        let film = traced(&scene, backend, &view, Film::new(size), 2);
+        let pixels = (0..size.height).flat_map(|y| (0..size.width).map(move |x| (x, y)));
+        pixels.map(|(x, y)| f64::from(film.radiance(x, y)[0])).sum::<f64>() / size.pixels() as f64
+    };
+    let many = mean("wide", 16, 1 << 14);
+    for (backend, samples, lamp_rays) in [("wide", 16, 1), ("wide", 64, 64), ("scalar", 16, 1)] {
+        let few = mean(backend, samples, lamp_rays);
+        assert!((few / many - 1.0).abs() < 1e-3, "{backend}, {samples} samples: {few} instead of {many}");
+    }
+}
+
+#[test]
+fn pieces_of_pixels_may_ask_lamps_by_rays() {
+    let (scene, size) = (with_lamp("", BY_RAYS), Size::new(50, 50));
+    let view = View { edges: Edges::Exact, ..View::of(&scene, camera_of(&scene), size) };
+    let [wide, scalar] = ["wide", "scalar"].map(|backend| traced(&scene, backend, &view, Film::new(size), 2));
+    let pixels = (0..size.height).flat_map(|y| (0..size.width).map(move |x| (x, y)));
+    let apart = pixels.map(|(x, y)| f64::from(wide.radiance(x, y)[0] - scalar.radiance(x, y)[0]).powi(2));
+    let rms = (apart.sum::<f64>() / size.pixels() as f64).sqrt();
+    assert!(rms < 0.02, "{rms}");
 }

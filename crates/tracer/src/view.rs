@@ -93,8 +93,8 @@ pub struct View {
     pub range: Option<Range<u32>>,
     /// In how many sequences that know nothing of each other samples are counted off in turn; 1 is the most even.
     pub sequences: u32,
-    /// Rays to a lamp from a point where it has no closed form, in all samples of a pixel together; each sample has one at
-    /// least.
+    /// Rays to a lamp from a point where it has no closed form, in all samples of a pixel together; each sample has
+    /// four at least.
     pub lamp_rays: u32,
     /// Where in a pixel samples lie.
     pub pattern: Pattern,
@@ -228,7 +228,8 @@ impl View {
 
     /// Rays to a lamp from a point that one sample leads to, where it has no closed form.
     pub(crate) fn lamp_rays_of_sample(&self) -> u32 {
-        self.lamp_rays.div_ceil(self.samples.max(1)).max(1)
+        // Fewer would tell too little of how much of the lamp is open.
+        self.lamp_rays.div_ceil(self.samples.max(1)).max(4)
     }
 
     /// The part of the picture that is traced: what of the crop lies within it, or all of it.

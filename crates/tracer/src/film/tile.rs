@@ -39,6 +39,8 @@ pub struct Tile {
     blank: Option<Light>,
     /// The same before the trace under way.
     before: Option<Light>,
+    /// Pixels of the picture that single rays go through, where it holds those.
+    ray_places: Vec<[u32; 2]>,
 }
 
 /// Bits of red, green and blue.
@@ -63,6 +65,7 @@ impl Tile {
             entities: Arc::default(),
             blank: None,
             before: None,
+            ray_places: Vec::new(),
         }
     }
 
@@ -86,11 +89,16 @@ impl Tile {
             entities: Arc::default(),
             blank: Some([0; 3]),
             before: None,
+            ray_places: Vec::new(),
         })
     }
 
-    /// Makes room for the light of so many single rays, and clears it: each has the pixel of its number.
-    pub(crate) fn hold_rays(&mut self, count: usize) {
+    /// Makes room for the light of single rays through such pixels of the picture, and clears it: each has the place of its
+    /// number in the columns.
+    pub(crate) fn hold_rays(&mut self, places: impl ExactSizeIterator<Item = [u32; 2]>) {
+        let count = places.len();
+        self.ray_places.clear();
+        self.ray_places.extend(places);
         for light in &mut self.sums {
             if light.len() < count {
                 light.resize(count, 0.0);
@@ -286,6 +294,9 @@ impl Tile {
 
     /// Column and row in the whole picture of the pixel at an index of the columns.
     pub(crate) fn place_of(&self, i: usize) -> [u32; 2] {
+        if let Some(&place) = self.ray_places.get(i) {
+            return place;
+        }
         let (block, within) = ((i / BLOCK_PIXELS) as u32, (i % BLOCK_PIXELS) as u32);
         let (across, down) = (block % self.blocks_across(), block / self.blocks_across());
         [self.x + across * BLOCK + within % BLOCK, self.y + down * BLOCK + within / BLOCK]

@@ -7,4 +7,6 @@ mod rays;
 
 pub(crate) use gather::{Gathered, LitPoint, gather};
 pub(crate) use lanes::{BallOutline, Outline, open_from_afar};
-pub(crate) use rays::{Drawn, LampRay, LampRays, PickedRay, follow, follow_picked, pair_of_lamp, picked};
+pub(crate) use rays::{
+    Drawn, LampRay, LampRays, PickedRay, follow, follow_picked, pair_of_lamp, picked, share_seen,
+};

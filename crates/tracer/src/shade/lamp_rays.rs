@@ -15,7 +15,7 @@ use super::lamps::LitPacket;
 use crate::Tile;
 use crate::film::BLOCK;
 use crate::kernel::Leaving;
-use crate::lamps::pair_of_lamp;
+use crate::lamps::{pair_of_lamp, share_seen};
 use crate::lanes::{
     D, D3, F, F3, M, MOST_LANES, U, magnitude, narrow3, outlined, share_of_one, splat_wide, widen3,
 };
@@ -68,15 +68,15 @@ impl LampRow {
 }
 
 impl<S: Simd> Shader<'_, S> {
-    /// Sends rays from some lanes to a lamp. Adds what glossy lobes show of it, and returns which share of what the lamp would
-    /// give is seen.
+    /// Sends rays from some lanes to a lamp that would give them so much if nothing blocked it. Adds what glossy lobes show of
+    /// it, and returns which share of that is seen.
     #[inline(always)]
     pub(super) fn cast(
         &mut self,
         at: &LitPacket<S>,
         lamp: &LampRow,
         number: usize,
-        lanes: M<S>,
+        (lanes, unblocked): (M<S>, F<S>),
         tile: &Tile,
     ) -> F<S> {
         let s = self.s;
@@ -97,7 +97,7 @@ impl<S: Simd> Shader<'_, S> {
         let round = if lamp.normal.is_none() { lamp.ball.radius * f64::from(DIRECTION_ERROR) } else { 0.0 };
         let off = size * D::splat(s, LAMP_POINT_ROUNDING) + D::splat(s, round);
         let best = self.chunk.best[at.slot];
-        let (mut open, mut all) = (zero, zero);
+        let (mut open, mut all, mut brought, mut blocked) = (zero, zero, zero, zero);
         for k in 0..count {
             let shares = sampler.pair(U::splat(s, first.wrapping_add(k)), pair).map(share_of_one);
             let points = lamp.points(s, shares);
@@ -120,8 +120,10 @@ impl<S: Simd> Shader<'_, S> {
                 };
                 reached = above & !self.trace(&segments, above, number);
             }
-            all = all + F::pick(live, weight, zero);
-            open = open + F::pick(reached, weight, zero);
+            all = all + F::pick(live, one, zero);
+            open = open + F::pick(reached, one, zero);
+            brought = brought + F::pick(reached, weight, zero);
+            blocked = blocked + F::pick(live & !reached, weight, zero);
             if glossy {
                 let direction = way.scale(inverse);
                 let arrival = Arrival {
@@ -136,7 +138,8 @@ impl<S: Simd> Shader<'_, S> {
                 self.add_specular(at.slot, &Facing { arrival, cosine, lanes: live }, reached, color);
             }
         }
-        F::pick(zero.less(all), open / all, zero)
+        let of_lamp = area / unblocked;
+        share_seen([open, all], [brought * of_lamp, blocked * of_lamp])
     }
 
     /// The lanes whose segments the blockers of a lamp block.

@@ -101,7 +101,7 @@ impl<'a, S: Simd> Shader<'a, S> {
         let shown = lit & F::splat(self.s, 0.0).less(seen);
         let cast = if self.chunk.glossy[at.slot] { shown } else { shown & sampled };
         if cast.any() {
-            let share = self.cast(at, lamp, number, cast, tile);
+            let share = self.cast(at, lamp, number, (cast, seen), tile);
             seen = F::pick(sampled, seen * share, seen);
         }
         let radiance = F3::of(seen, &lamp.radiance);

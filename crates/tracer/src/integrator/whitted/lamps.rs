@@ -44,7 +44,7 @@ impl<S: Search> Walker<'_, S> {
                     let rays = LampRays::new(lamp, number, &at, drawn, self.frame.view.lamp_rays_of_sample());
                     let (found, shown) =
                         follow(&rays, &surface.shading, lobes, |ray| self.is_blocked(ray, lamp, surface));
-                    shown + brdf * found.of(seen)
+                    shown + brdf * found.of(seen, rays.count)
                 }
             };
             light += shown * lamp.radiance.rgb();

@@ -70,7 +70,7 @@ impl<S: Simd> TileTracer<'_, S> {
             #[inline(always)]
             || rays.push_camera_rays(self.s, self.frame, places),
         );
-        light.hold_rays(places.len());
+        light.hold_rays((0..places.len()).map(|at| [places.x[at] as u32, places.y[at] as u32]));
         self.shader.plan.dark.clear();
         self.trace(&*rays, visible, light, 0);
         if self.shader.next.len() > 0 {
