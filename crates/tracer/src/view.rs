@@ -96,6 +96,8 @@ pub struct View {
     /// Rays to a lamp from a point where it has no closed form, in all samples of a pixel together; each sample has
     /// four at least.
     pub lamp_rays: u32,
+    /// How light from surfaces is found.
+    pub lamp_light: LampLight,
     /// Where in a pixel samples lie.
     pub pattern: Pattern,
     /// How much each place in and round a pixel counts.
@@ -143,6 +145,18 @@ impl Edges {
     }
 }
 
+/// How light from surfaces is found; other ways than the first are there to be compared with it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LampLight {
+    /// In closed form, and by rays where there is none.
+    #[default]
+    Exact,
+    /// By rays alone, with what lamps give where nothing blocks them as control variate.
+    Rays,
+    /// By rays to points spread evenly over a lamp's area alone, as `wide` sends them; by other backends over the solid angle.
+    PlainRays,
+}
+
 /// Work that is left out because it cannot matter. Switched off, the same bits are computed the long way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Skip {
@@ -184,6 +198,7 @@ impl View {
             range: None,
             sequences: 1,
             lamp_rays: LAMP_RAYS,
+            lamp_light: LampLight::Exact,
             pattern: Pattern::ALL[0],
             filter: Filter::ALL[0],
             clamp: f32::INFINITY,

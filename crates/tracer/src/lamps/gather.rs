@@ -34,6 +34,17 @@ pub(crate) enum Gathered {
     UpTo(f64),
 }
 
+/// What a lamp gives to a point where it is left to rays to find what stands between.
+pub(crate) fn gather_for_rays(lamp: &LampRow, at: &LitPoint, stats: &mut LampStats) -> Gathered {
+    let open = contour::open(at.point, at.normal, &lamp.outline);
+    if !(open > 0.0) {
+        stats.facing_away += 1;
+        return Gathered::Exactly(0.0);
+    }
+    stats.sampled += 1;
+    Gathered::UpTo(open)
+}
+
 /// What a lamp gives to a point past the shapes that may stand between.
 pub(crate) fn gather(
     snapshot: &Snapshot,

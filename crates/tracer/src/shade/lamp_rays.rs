@@ -12,7 +12,6 @@ use fearless_simd::Simd;
 use super::Shader;
 use super::direct_light::Facing;
 use super::lamps::LitPacket;
-use crate::Tile;
 use crate::film::BLOCK;
 use crate::kernel::Leaving;
 use crate::lamps::{pair_of_lamp, share_seen};
@@ -23,6 +22,7 @@ use crate::numeric::DIRECTION_ERROR;
 use crate::sampler::Sampler;
 use crate::search::ToPoints;
 use crate::snapshot::LampRow;
+use crate::{LampLight, Tile};
 
 /// Points of a lamp, one in every lane, relative to the snapshot's origin.
 struct LampPoints<S: Simd> {
@@ -139,6 +139,9 @@ impl<S: Simd> Shader<'_, S> {
             }
         }
         let of_lamp = area / unblocked;
+        if self.view.lamp_light == LampLight::PlainRays {
+            return F::pick(lanes, brought * of_lamp, zero);
+        }
         share_seen([open, all], [brought * of_lamp, blocked * of_lamp])
     }
 

@@ -9,14 +9,15 @@ use fearless_simd::Simd;
 use super::Shader;
 use crate::cull::is_few;
 use crate::lamps::{
-    BallOutline, Drawn, Gathered, LitPoint, Outline, PickedRay, follow_picked, gather, open_from_afar, picked,
+    BallOutline, Drawn, Gathered, LitPoint, Outline, PickedRay, follow_picked, gather, gather_for_rays,
+    open_from_afar, picked,
 };
 use crate::lanes::{D3, F, F3, M, U, magnitude, narrow3, outlined, splat_wide, widen3};
 use crate::numeric::{CUT_MARGIN, SMALL_LAMP};
 use crate::search::{Refined, ViewCones};
 use crate::snapshot::{Ball, FlatLamp, LampRow, LampTree};
 use crate::stream::Batch;
-use crate::{SurfaceId, Tile};
+use crate::{LampLight, SurfaceId, Tile};
 
 /// Room for light from surfaces, kept from tile to tile.
 #[derive(Default)]
@@ -86,6 +87,7 @@ impl<'a, S: Simd> Shader<'a, S> {
         let mut found = FoundInLanes { seen: F::splat(self.s, 0.0), answered: none, sampled: none };
         if let Some(flat) = &lamp.flat
             && is_few(self.search.snapshot)
+            && self.view.lamp_light == LampLight::Exact
         {
             found = self.seen_of_flat(at, lamp, flat, number);
         }
@@ -276,7 +278,11 @@ impl<'a, S: Simd> Shader<'a, S> {
         let lit = self.lit_in_lane(at, lane);
         let blockers = self.plan.lamps[number].blockers.iter().copied();
         let (scratch, stats) = (&mut self.lamp_room.scratch, &mut self.search.stats.lamps);
-        gather(snapshot, &snapshot.lamps().rows[number], blockers, &lit, scratch, stats)
+        let lamp = &snapshot.lamps().rows[number];
+        match self.view.lamp_light {
+            LampLight::Exact => gather(snapshot, lamp, blockers, &lit, scratch, stats),
+            LampLight::Rays | LampLight::PlainRays => gather_for_rays(lamp, &lit, stats),
+        }
     }
 
     /// Adds what lamps that a tree picks contribute to a point.

@@ -7,6 +7,7 @@ mod known_light;
 mod occlusion;
 mod page;
 mod pictures;
+mod soft_shadows;
 mod visibility;
 
 use std::path::PathBuf;
@@ -38,8 +39,15 @@ pub(crate) struct ParetoArgs {
 /// Answers some questions that have much in common.
 type Ask = fn(&Lab) -> Result<Vec<Question>>;
 
-const QUESTIONS: [Ask; 6] =
-    [visibility::ask, pictures::ask, cutoffs::ask, averages::ask, occlusion::ask, closed_forms::ask];
+const QUESTIONS: [Ask; 7] = [
+    visibility::ask,
+    pictures::ask,
+    cutoffs::ask,
+    averages::ask,
+    occlusion::ask,
+    soft_shadows::ask,
+    closed_forms::ask,
+];
 
 /// A question with all ways to answer it that were tried.
 pub(super) struct Question {

@@ -3,9 +3,12 @@
 use catoptra_core::{Lobes, Rgb};
 
 use super::paths::rgb;
+use crate::LampLight;
 use crate::integrator::Search;
 use crate::integrator::walker::{SurfaceHit, Walker};
-use crate::lamps::{Drawn, Gathered, LampRay, LampRays, LitPoint, follow, follow_picked, picked};
+use crate::lamps::{
+    Drawn, Gathered, LampRay, LampRays, LitPoint, follow, follow_picked, gather_for_rays, picked,
+};
 use crate::snapshot::LampRow;
 
 impl<S: Search> Walker<'_, S> {
@@ -33,7 +36,11 @@ impl<S: Search> Walker<'_, S> {
             light += shone.glossy + brdf * shone.irradiance;
         }
         for (number, lamp) in snapshot.lamps().asked().iter().enumerate() {
-            let seen = self.sight.gather(self.search, snapshot, lamp, &at, &mut self.stats.lamps);
+            let stats = &mut self.stats.lamps;
+            let seen = match self.frame.view.lamp_light {
+                LampLight::Exact => self.sight.gather(self.search, snapshot, lamp, &at, stats),
+                LampLight::Rays | LampLight::PlainRays => gather_for_rays(lamp, &at, stats),
+            };
             if seen == Gathered::Exactly(0.0) {
                 continue;
             }
