@@ -173,7 +173,7 @@ fn no_material_spoils_what_it_is_not_on() {
         let required = kind
             .fields
             .iter()
-            .filter(|field| field.default.is_none())
+            .filter(|field| !field.may_be_missing)
             .map(|field| (field.name, color(field)));
         let values = required.fold(Values::new(), |values, (name, value)| values.with(name, value));
         let plain = (kind.make)(&values).expect("a material");

@@ -1,6 +1,6 @@
 //! What a colour is: linear Rec. 709 light, three channels.
 
-use std::ops::{Add, AddAssign, Div, Mul};
+use std::ops::{Add, AddAssign, Div, Mul, Sub};
 
 /// Linear Rec. 709 red, green and blue; a reflectance (0..=1) or an amount of light (any unit, ≥ 0).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -67,6 +67,13 @@ impl Add for Rgb {
     type Output = Self;
     fn add(self, o: Self) -> Self {
         Self::new(self.r + o.r, self.g + o.g, self.b + o.b)
+    }
+}
+
+impl Sub for Rgb {
+    type Output = Self;
+    fn sub(self, o: Self) -> Self {
+        Self::new(self.r - o.r, self.g - o.g, self.b - o.b)
     }
 }
 

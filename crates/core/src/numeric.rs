@@ -89,6 +89,18 @@ pub const MOST_SQUARES: u32 = 64;
 /// it add 2⁻⁴⁰ of its area, below what `f32` can tell.
 pub const LEAST_SLOPE: f64 = 1.0 / (1_u64 << 40) as f64;
 
+/// Slopes of a rough surface below which it counts as smooth: a reflection is then blurred by less than a hundredth of a
+/// degree, a sixth of what an eye resolves.
+pub const SMOOTH_SLOPE: f64 = 1e-4;
+
+/// The least cosine to the shading normal under which a surface is seen. A smooth normal may lean away from the viewer; what is
+/// seen there is seen at a grazing angle, and quotients by the cosine stay finite.
+pub const LEAST_COSINE: f64 = 1.0 / (1_u64 << 20) as f64;
+
+/// How far from 1 the ratio of two indices of refraction must be for them to differ: below, no light is reflected (a squared
+/// quarter of this at normal incidence) and none is bent.
+pub const LEAST_INDEX_STEP: f64 = 1e-4;
+
 /// γₙ = n·u / (1 − n·u): the relative error bound of `n` accumulated roundings in `f32`
 /// (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., lemma 3.1).
 #[must_use]

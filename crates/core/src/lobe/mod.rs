@@ -4,17 +4,49 @@
 //! with a set of them ([`Lobes`]) and integrators know every lobe in the set, so it is closed. A new lobe is one file
 //! here, its `mod` line and its line in the list below.
 
+mod albedo;
+mod boundary;
+mod bsdf;
+mod bsdf_lobe;
+mod complement;
 mod diffuse;
+pub mod fresnel;
+mod ggx;
+mod ggx_reflection;
 mod hemisphere;
+mod lane_lobes;
+mod local;
 mod mirror;
+mod passage;
 mod phong;
+mod point;
+mod quadrature;
+mod rough_diffuse;
+mod rough_interface;
 #[cfg(test)]
 mod scatter_checks;
+mod smooth_interface;
+mod smooth_reflection;
+mod thin_wall;
 
+pub use boundary::{Boundary, Roughness};
+pub use bsdf::{Bsdf, Continuation, Scattered};
+pub use bsdf_lobe::BsdfLobe;
+pub use complement::Complement;
 pub use diffuse::Diffuse;
+pub use ggx::Ggx;
+pub use ggx_reflection::GgxReflection;
 pub use hemisphere::point_of_disk;
+pub use local::{Frame, LocalLobe, LocalSample, Rays};
 pub use mirror::{Mirror, Mirrored};
+pub use passage::Passage;
 pub use phong::{Phong, PhongModel, PhongShape};
+pub use point::SurfacePoint;
+pub use rough_diffuse::RoughDiffuse;
+pub use rough_interface::RoughInterface;
+pub use smooth_interface::SmoothInterface;
+pub use smooth_reflection::SmoothReflection;
+pub use thin_wall::ThinWall;
 
 use crate::{Lane, Triple};
 

@@ -4,25 +4,36 @@
 //! that arrives. A new material is one file here, its `mod` line and its name in the list below.
 
 mod checker;
+mod clear;
 mod depth;
 mod emissive;
 mod footprint;
+mod glass;
 mod matte;
+mod medium;
+mod metal;
 mod mirror;
 mod mirror_share;
 mod phong;
+mod plastic;
+mod rubber;
 
 pub use checker::Checker;
 pub use depth::Depth;
 pub use emissive::Emissive;
 pub use footprint::Footprint;
+pub use glass::Glass;
 pub use matte::Matte;
+pub use medium::{Medium, absorption};
+pub use metal::Metal;
 pub use mirror::Mirror;
 pub use phong::Phong;
+pub use plastic::Plastic;
+pub use rubber::Rubber;
 
 use glam::DVec3;
 
-use crate::{Lane, LobeKinds, Lobes, Rgb, ShadingPoint};
+use crate::{Bsdf, Lane, LobeKinds, Lobes, Rgb, ShadingPoint, SurfacePoint};
 use mirror_share::MirrorShare;
 
 /// Light that a surface sends out by itself.
@@ -39,6 +50,22 @@ pub trait Surface {
     /// How light leaves it where and from where it is seen. Which lobes there are depends on the material alone, how
     /// strong they are on the point.
     fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L>;
+
+    /// Whether its lobes are more than lanes know: then [`lobes`](Self::lobes) tells its plain scattering at most, and
+    /// [`bsdf`](Self::bsdf) all.
+    fn needs_bsdf(&self) -> bool {
+        false
+    }
+
+    /// All that light does where and from where it is seen.
+    fn bsdf(&self, at: &SurfacePoint) -> Bsdf {
+        Bsdf::from_lobes(&self.lobes(&at.shading), at)
+    }
+
+    /// What fills a solid of it, if light goes through.
+    fn medium(&self) -> Option<Medium> {
+        None
+    }
 
     /// As [`lobes`](Self::lobes), on average over what is seen through a square of the picture.
     #[inline(always)]
@@ -96,6 +123,14 @@ crate::part::parts! {
         Mirror,
         /// Light of its own.
         Emissive,
+        /// Clear matter.
+        Glass,
+        /// Metal.
+        Metal,
+        /// Colour under a clear surface.
+        Plastic,
+        /// Rough colour under a rough surface.
+        Rubber,
     }
 }
 
@@ -131,6 +166,24 @@ impl Material {
         work: impl FnOnce(Lobes<L>) -> T,
     ) -> T {
         each_material!(self, material => work(material.mean_lobes(at, footprint)))
+    }
+
+    /// See [`Surface::needs_bsdf`].
+    #[must_use]
+    pub fn needs_bsdf(&self) -> bool {
+        each_material!(self, material => material.needs_bsdf())
+    }
+
+    /// See [`Surface::bsdf`].
+    #[must_use]
+    pub fn bsdf(&self, at: &SurfacePoint) -> Bsdf {
+        each_material!(self, material => material.bsdf(at))
+    }
+
+    /// See [`Surface::medium`].
+    #[must_use]
+    pub fn medium(&self) -> Option<Medium> {
+        each_material!(self, material => material.medium())
     }
 
     /// Which lobes it has, anywhere.

@@ -79,6 +79,19 @@ impl Given<'_> {
         if (0.0..=1.0).contains(&v) { Ok(v) } else { Err(InvalidPart::new(name, "must lie in 0..1", v)) }
     }
 
+    /// A whole number of a range.
+    ///
+    /// # Errors
+    /// Missing, not a number, not whole, or outside.
+    pub fn whole(&self, name: &'static str, least: u32, most: u32) -> Result<u32, InvalidPart> {
+        let number = self.number(name)?;
+        if !((f64::from(least)..=f64::from(most)).contains(&number) && number.fract() == 0.0) {
+            return Err(InvalidPart::new(name, format!("must be a whole number in {least}..{most}"), number));
+        }
+        // In range, so that the conversion is exact.
+        Ok(number as u32)
+    }
+
     /// A point.
     ///
     /// # Errors

@@ -202,10 +202,10 @@ impl Part for Settings {
         }
         Ok(Self {
             background: given.quantity(BACKGROUND)?,
-            max_depth: whole(given, MAX_DEPTH, 0, Self::MAX_DEPTH)?,
+            max_depth: given.whole(MAX_DEPTH, 0, Self::MAX_DEPTH)?,
             integrator: Integrator::ALL[given.choice(INTEGRATOR)?],
             occlusion_distance: limited.then(|| given.positive(OCCLUSION_DISTANCE)).transpose()?,
-            samples: whole(given, SAMPLES, 1, Self::MAX_SAMPLES)?,
+            samples: given.whole(SAMPLES, 1, Self::MAX_SAMPLES)?,
             max_error: given.has(MAX_ERROR).then(|| given.positive(MAX_ERROR)).transpose()?,
             exposure,
         })
@@ -222,16 +222,6 @@ impl Part for Settings {
         let given = optional.into_iter().filter_map(|(name, value)| value.map(|value| (name, value)));
         given.fold(values, |values, (name, value)| values.with(name, Value::Number(value)))
     }
-}
-
-/// A whole number of a range.
-fn whole(given: &Given<'_>, name: &'static str, least: u32, most: u32) -> Result<u32, InvalidPart> {
-    let number = given.number(name)?;
-    if !((f64::from(least)..=f64::from(most)).contains(&number) && number.fract() == 0.0) {
-        return Err(InvalidPart::new(name, format!("must be a whole number in {least}..{most}"), number));
-    }
-    // In range, so that the conversion is exact.
-    Ok(number as u32)
 }
 
 #[cfg(test)]

@@ -1,0 +1,14 @@
+//! How much light do rough surfaces send on in all, and how much do their formulas lose? Tables, computed once when they are first
+//! asked for.
+//!
+//! A microfacet formula counts light that leaves a facet and meets no other. What is shadowed is lost by it, though not by the
+//! surface: [`Complement`](super::Complement) gives it back (Kulla and Conty, "Revisiting physically based shading at
+//! Imageworks", SIGGRAPH 2017 course), and needs to know how much it is at each angle, to a thousandth.
+
+mod axis;
+mod cap;
+mod interface;
+mod reflection;
+
+pub(super) use interface::{Interface, Side};
+pub(super) use reflection::{lost_by_reflection, mean_lost_by_reflection};

@@ -1,0 +1,70 @@
+//! Plastic: colour under a clear, more or less smooth surface.
+
+use super::Surface;
+use crate::lobe::fresnel::Fresnel;
+use crate::lobe::{Boundary, Complement, Roughness};
+use crate::part::Given;
+use crate::{
+    Bsdf, Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, SurfacePoint, Value, Values,
+};
+
+/// Matter that scatters light evenly under a clear boundary that reflects some. What the boundary does not reflect is
+/// scattered, and all of that comes out again of which the colour leaves all: white plastic absorbs nothing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plastic {
+    color: Rgb,
+    ior: f64,
+    roughness: f64,
+}
+
+impl Part for Plastic {
+    const NAME: &'static str = "plastic";
+    const DOC: &'static str = "Colour under a clear surface, shiny or satin.";
+    const FIELDS: &'static [Field] = &[
+        Field::required(
+            "color",
+            FieldKind::Color,
+            "",
+            "Share of light that comes out again of what goes in.",
+        ),
+        Field::required("ior", FieldKind::Number, "", "Index of refraction, greater than 0.")
+            .or(|| Value::Number(1.5)),
+        Field::required("roughness", FieldKind::Fraction, "", "How blurred reflections are; 0 is polished.")
+            .or(|| Value::Number(0.2)),
+    ];
+
+    fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
+        Ok(Self {
+            color: given.color("color")?,
+            ior: given.positive("ior")?,
+            roughness: given.fraction("roughness")?,
+        })
+    }
+
+    fn values(&self) -> Values {
+        Values::new()
+            .with("color", Value::Color(self.color))
+            .with("ior", Value::Number(self.ior))
+            .with("roughness", Value::Number(self.roughness))
+    }
+}
+
+impl Surface for Plastic {
+    #[inline(always)]
+    fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L> {
+        Lobes::none(at.distance)
+    }
+
+    fn needs_bsdf(&self) -> bool {
+        true
+    }
+
+    fn bsdf(&self, at: &SurfacePoint) -> Bsdf {
+        let mut bsdf = Bsdf::new(at);
+        let fresnel = Fresnel::clear((self.ior / at.outside_ior).max(1.0));
+        let boundary = Boundary::new(Roughness::new(self.roughness), fresnel);
+        bsdf.add(Rgb::WHITE, boundary.lobe());
+        bsdf.add(Rgb::WHITE, Complement::below(boundary, self.color));
+        bsdf
+    }
+}

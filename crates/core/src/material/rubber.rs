@@ -1,0 +1,59 @@
+//! Rubber: a rough matte colour with a faint, blurred shine.
+
+use super::Surface;
+use crate::lobe::fresnel::Fresnel;
+use crate::lobe::{Boundary, RoughDiffuse, Roughness};
+use crate::part::Given;
+use crate::{
+    Bsdf, Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, SurfacePoint, Value, Values,
+};
+
+/// Rough matte matter under a boundary of the same roughness. What the boundary does not reflect to the viewer is shown of the
+/// matter below, so that white rubber absorbs nothing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rubber {
+    color: Rgb,
+    roughness: f64,
+}
+
+/// Index of refraction of natural rubber (*Polymer Handbook*, 4th ed. 1999: 1.519).
+const IOR: f64 = 1.519;
+
+impl Part for Rubber {
+    const NAME: &'static str = "rubber";
+    const DOC: &'static str = "A rough matte colour with a faint shine.";
+    const FIELDS: &'static [Field] = &[
+        Field::required("color", FieldKind::Color, "", "Share of light that is scattered below the surface."),
+        Field::required("roughness", FieldKind::Fraction, "", "How rough it is, its shine and its colour.")
+            .or(|| Value::Number(0.7)),
+    ];
+
+    fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
+        Ok(Self { color: given.color("color")?, roughness: given.fraction("roughness")? })
+    }
+
+    fn values(&self) -> Values {
+        Values::new().with("color", Value::Color(self.color)).with("roughness", Value::Number(self.roughness))
+    }
+}
+
+impl Surface for Rubber {
+    #[inline(always)]
+    fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L> {
+        Lobes::none(at.distance)
+    }
+
+    fn needs_bsdf(&self) -> bool {
+        true
+    }
+
+    fn bsdf(&self, at: &SurfacePoint) -> Bsdf {
+        let mut bsdf = Bsdf::new(at);
+        let fresnel = Fresnel::clear((IOR / at.outside_ior).max(1.0));
+        let boundary = Boundary::new(Roughness::new(self.roughness), fresnel);
+        let left = Rgb::WHITE - boundary.reflected(bsdf.cosine());
+        bsdf.add(Rgb::WHITE, boundary.lobe());
+        bsdf.add(left, RoughDiffuse::new(self.color, self.roughness));
+        bsdf
+    }
+}
