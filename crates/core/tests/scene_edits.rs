@@ -154,7 +154,7 @@ impl Draw {
             24 => Edit::RemoveTexture(self.texture(scene)),
             25 => Edit::RenameTexture(self.texture(scene), self.name(0)),
             26 => {
-                let color = Value::Color(Rgb::grey(v)).textured(TextureUse::of(self.texture(scene)));
+                let color = Value::Color(Rgb::grey(v / 2.0)).textured(TextureUse::of(self.texture(scene)));
                 Edit::Material(self.material(scene), material(v).with("color", color).unwrap())
             }
             27 => {
@@ -162,7 +162,7 @@ impl Draw {
                 Edit::Finish(self.material(scene), Finish::default().with("normal-map", map).unwrap())
             }
             28 => {
-                let opacity = Value::Number(v);
+                let opacity = Value::Number(v / 2.0);
                 Edit::Finish(self.material(scene), Finish::default().with("opacity", opacity).unwrap())
             }
             _ => Edit::Settings(Settings::new(Rgb::grey(v), u32::from(self.picks[0])).unwrap()),
