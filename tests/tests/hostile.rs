@@ -170,11 +170,8 @@ fn no_material_spoils_what_it_is_not_on() {
             "scale" | "range" => Value::Number(2.0),
             _ => Value::Color(Rgb::grey(0.4)),
         };
-        let required = kind
-            .fields
-            .iter()
-            .filter(|field| !field.may_be_missing)
-            .map(|field| (field.name, color(field)));
+        let required =
+            kind.fields.iter().filter(|field| !field.may_be_missing).map(|field| (field.name, color(field)));
         let values = required.fold(Values::new(), |values, (name, value)| values.with(name, value));
         let plain = (kind.make)(&values).expect("a material");
         for (field, value) in variants(&plain.values()) {

@@ -28,6 +28,7 @@ pub mod part;
 pub mod placement;
 pub mod ray;
 pub mod scene;
+pub mod texture;
 
 pub use bounds::Aabb;
 pub use camera::{Aim, Camera, Lens, Raster};
@@ -38,11 +39,14 @@ pub use glam;
 pub use lane::{Arithmetic, Coefficient, Constant3, Lane, LaneMask, Triple};
 pub use light::{Arrival, Emitter, IntensityProfile, Lamp, Light};
 pub use lobe::{Bsdf, Continuation, LobeKinds, Lobes, Scatter, Scattered, ShadingPoint, SurfacePoint};
-pub use material::{Emission, Material, Medium, Surface};
-pub use part::{Field, FieldKind, Kind, MeshSource, Part, ProfileSource, Value, Values};
+pub use material::{Emission, Finish, Material, Medium, NormalMap, Sides, Surface};
+pub use part::{
+    Field, FieldKind, ImageSource, Kind, MeshSource, Part, ProfileSource, Textured, Value, Values,
+};
 pub use placement::Placement;
 pub use ray::{Crossing, Ray, Span, order_of_roots};
 pub use scene::{
     Change, ChangeKind, Content, Edit, EntityId, History, Integrator, MaterialId, Node, Placed, Role, Scene,
-    SceneError, Settings, Subject, Subtree,
+    SceneError, Settings, Subject, Subtree, TextureId,
 };
+pub use texture::{Image, Level, Paint, Texture, TexturePoint, TextureSource, TextureUse};

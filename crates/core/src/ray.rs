@@ -83,7 +83,8 @@ pub struct Crossing {
     pub shading_normal: DVec3,
     /// Which flat piece of the shape was met: triangle of a mesh, face of a box; 0 for smooth shapes.
     pub facet: u32,
-    /// Texture coordinates; zero where the shape has none.
+    /// Texture coordinates where they come with the crossing (rectangles, meshes), else zero; see
+    /// [`Geometry::parametrization`](crate::Geometry::parametrization) for those of every shape.
     pub uv: DVec2,
 }
 

@@ -9,11 +9,12 @@ use std::f64::consts::PI;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use catoptra_core::glam::DVec3;
+use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::light::Pole;
 use catoptra_core::{
-    Camera, Field, FieldKind, IntensityProfile, InvalidPart, Kind, Light, Material, Part, Placement,
-    ProfileSource, Rgb, Settings, Shape, Value, Values,
+    Camera, Field, FieldKind, Finish, Image, ImageSource, IntensityProfile, InvalidPart, Kind, Light,
+    Material, Part, Placement, ProfileSource, Rgb, Settings, Shape, Texture, TextureId, TextureUse, Value,
+    Values,
 };
 use samples::samples_of;
 
@@ -33,7 +34,20 @@ fn plain(kind: FieldKind, i: usize) -> Value {
         FieldKind::Choice(words) => Value::Word(words[words.len() - 1].to_owned()),
         FieldKind::Mesh => unreachable!("meshes have samples"),
         FieldKind::Profile => profile(),
+        FieldKind::Pair => Value::Pair(DVec2::new(100.5 + n, 1000.0)),
+        FieldKind::Image => image(),
+        FieldKind::Texture => Value::Texture(texture()),
     }
+}
+
+/// A picture of two pixels.
+fn image() -> Value {
+    let image = Image::from_bytes([2, 1], 1, vec![0, 255]).unwrap();
+    Value::Image(ImageSource { path: "a.png".into(), image: Arc::new(image) })
+}
+
+fn texture() -> TextureId {
+    TextureId::from_index(7).unwrap()
 }
 
 /// A lamp that shines downwards alike.
@@ -98,7 +112,12 @@ fn bad(kind: FieldKind) -> Vec<Value> {
         }
         FieldKind::Color => [colors, vec![negative, Value::Color(Rgb::new(0.0, 0.0, 1.000_001))]].concat(),
         FieldKind::Quantity => [colors, vec![negative]].concat(),
-        FieldKind::Flag | FieldKind::Mesh | FieldKind::Profile => Vec::new(),
+        FieldKind::Pair => {
+            bad.into_iter().flat_map(|v| [DVec2::new(v, 1.0), DVec2::new(1.0, v)]).map(Value::Pair).collect()
+        }
+        FieldKind::Flag | FieldKind::Mesh | FieldKind::Profile | FieldKind::Image | FieldKind::Texture => {
+            Vec::new()
+        }
         FieldKind::Choice(_) => vec![Value::Word(String::new()), Value::Word("no such word".into())],
     }
 }
@@ -113,6 +132,9 @@ fn of_other_sorts(kind: FieldKind) -> Vec<Value> {
         Value::Word("word".into()),
         samples_of("mesh")[0].shape.values().get("file").unwrap().clone(),
         profile(),
+        Value::Pair(DVec2::ONE),
+        image(),
+        Value::Texture(texture()),
     ];
     let own = match kind {
         FieldKind::Number | FieldKind::Length | FieldKind::Count | FieldKind::Fraction | FieldKind::Angle => {
@@ -124,6 +146,9 @@ fn of_other_sorts(kind: FieldKind) -> Vec<Value> {
         FieldKind::Choice(_) => 4,
         FieldKind::Mesh => 5,
         FieldKind::Profile => 6,
+        FieldKind::Pair => 7,
+        FieldKind::Image => 8,
+        FieldKind::Texture => 9,
     };
     all.into_iter().enumerate().filter(|(sort, _)| *sort != own).map(|(_, value)| value).collect()
 }
@@ -198,6 +223,65 @@ fn every_material_describes_itself() {
     for kind in Material::KINDS {
         check(kind, &good(kind), Material::values);
     }
+}
+
+#[test]
+fn every_texture_describes_itself() {
+    check_words(Texture::KINDS);
+    for kind in Texture::KINDS {
+        check(kind, &good(kind), Texture::values);
+    }
+}
+
+/// A field that may be painted gives back its texture, and takes no channel if it is a colour; no other field takes a
+/// texture, nor does any of a texture.
+#[test]
+fn colours_and_fractions_of_materials_take_textures() {
+    let by = TextureUse::of(texture());
+    let red = TextureUse { channel: Some(catoptra_core::texture::Channel::Red), ..by };
+    for kind in Material::KINDS {
+        let good = good(kind);
+        for field in kind.fields {
+            let Some(value) = good.get(field.name) else { continue };
+            let [painted, channel] =
+                [by, red].map(|by| good.clone().with(field.name, value.clone().textured(by)));
+            if !field.kind.is_paintable() {
+                refused_by_name(&(kind.make)(&painted).unwrap_err(), field, kind.name, value);
+                continue;
+            }
+            let material = (kind.make)(&painted).unwrap_or_else(|error| panic!("{}: {error}", kind.name));
+            assert_eq!(material.values(), painted, "{}", kind.name);
+            assert!(material.is_textured(), "{} {}", kind.name, field.name);
+            assert_eq!((kind.make)(&channel).is_ok(), field.kind == FieldKind::Fraction, "{}", kind.name);
+        }
+        assert!(!(kind.make)(&good).unwrap().is_textured(), "{}", kind.name);
+    }
+    for kind in Texture::KINDS {
+        for (field, value) in kind.fields.iter().filter_map(|f| Some((f, good(kind).get(f.name)?.clone()))) {
+            let painted = good(kind).with(field.name, value.clone().textured(by));
+            refused_by_name(&(kind.make)(&painted).unwrap_err(), field, kind.name, &value);
+        }
+    }
+}
+
+#[test]
+fn finishes_describe_themselves() {
+    check_words(&[Finish::KIND]);
+    let kind = Finish::KIND;
+    let fields = kind.fields.iter().enumerate();
+    let all = fields.fold(Values::new(), |all, (i, field)| all.with(field.name, plain(field.kind, i)));
+    let finish = (kind.make)(&all).unwrap();
+    assert_eq!(finish.values(), all);
+    for field in kind.fields {
+        for value in bad(field.kind).into_iter().chain(of_other_sorts(field.kind)) {
+            let error = (kind.make)(&all.clone().with(field.name, value.clone())).unwrap_err();
+            refused_by_name(&error, field, kind.name, &value);
+        }
+    }
+    assert_eq!((kind.make)(&Values::new()).unwrap(), Finish::default());
+    assert!(Finish::default().is_plain() && !finish.is_plain());
+    let alone = (kind.make)(&Values::new().with("normal-strength", Value::Number(2.0))).unwrap_err();
+    assert_eq!(alone.field(), "normal-strength");
 }
 
 #[test]

@@ -6,8 +6,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use catoptra_core::geometry::{Plane, Sphere};
 use catoptra_core::glam::DVec3;
 use catoptra_core::{
-    Camera, ChangeKind, Content, Edit, EntityId, History, Light, Material, MaterialId, Node, Placement, Rgb,
-    Role, Scene, Settings, Shape, Subject, Subtree, Value, Values,
+    Camera, ChangeKind, Content, Edit, EntityId, Finish, History, Light, Material, MaterialId, Node, Part,
+    Placement, Rgb, Role, Scene, Settings, Shape, Subject, Subtree, Texture, TextureId, TextureUse, Value,
+    Values,
 };
 use proptest::prelude::*;
 
@@ -22,7 +23,7 @@ struct Draw {
 
 fn draws(longest: usize) -> impl Strategy<Value = Vec<Draw>> {
     let draw =
-        (0..22_u8, any::<[u8; 4]>(), 0.1..2.0).prop_map(|(kind, picks, value)| Draw { kind, picks, value });
+        (0..31_u8, any::<[u8; 4]>(), 0.1..2.0).prop_map(|(kind, picks, value)| Draw { kind, picks, value });
     prop::collection::vec(draw, 1..longest)
 }
 
@@ -38,6 +39,11 @@ fn light(value: f64) -> Light {
         .with("position", Value::Vector(DVec3::splat(value)))
         .with("intensity", Value::Color(Rgb::grey(value)));
     (Light::kind_named("point-light").unwrap().make)(&values).unwrap()
+}
+
+fn texture(value: f64) -> Texture {
+    let values = Values::new().with("color", Value::Color(Rgb::grey(value / 2.0)));
+    (Texture::kind_named("noise-texture").unwrap().make)(&values).unwrap()
 }
 
 fn material(value: f64) -> Material {
@@ -80,6 +86,14 @@ impl Draw {
             2 => Some(self.entity(scene, 3)),
             _ => groups.get(usize::from(self.picks[2]) % groups.len().max(1)).copied(),
         }
+    }
+
+    fn texture(&self, scene: &Scene) -> TextureId {
+        let all: Vec<_> = scene.textures().map(|(id, ..)| id).collect();
+        if all.is_empty() || self.picks[2] % 8 == 7 {
+            return scene.next_texture_id();
+        }
+        all[usize::from(self.picks[2]) % all.len()]
     }
 
     fn material(&self, scene: &Scene) -> MaterialId {
@@ -135,6 +149,22 @@ impl Draw {
             17 | 18 => Edit::AddMaterial { name: self.name(0), material: material(v), id: None },
             19 => Edit::RemoveMaterial(self.material(scene)),
             20 => Edit::RenameMaterial(self.material(scene), self.name(0)),
+            21 | 22 => Edit::AddTexture { name: self.name(0), texture: texture(v), id: None },
+            23 => Edit::Texture(self.texture(scene), texture(v)),
+            24 => Edit::RemoveTexture(self.texture(scene)),
+            25 => Edit::RenameTexture(self.texture(scene), self.name(0)),
+            26 => {
+                let color = Value::Color(Rgb::grey(v / 2.0)).textured(TextureUse::of(self.texture(scene)));
+                Edit::Material(self.material(scene), material(v).with("color", color).unwrap())
+            }
+            27 => {
+                let map = Value::Texture(self.texture(scene));
+                Edit::Finish(self.material(scene), Finish::default().with("normal-map", map).unwrap())
+            }
+            28 => {
+                let opacity = Value::Number(v / 2.0);
+                Edit::Finish(self.material(scene), Finish::default().with("opacity", opacity).unwrap())
+            }
             _ => Edit::Settings(Settings::new(Rgb::grey(v), u32::from(self.picks[0])).unwrap()),
         }
     }
@@ -155,7 +185,10 @@ fn dump(scene: &Scene) -> Dump {
         (Subject::Entity(id), format!("{of:?} {is:?}"))
     };
     let material = |(id, name, material): (MaterialId, &str, &Material)| {
-        (Subject::Material(id), format!("{name} {material:?}"))
+        (Subject::Material(id), format!("{name} {material:?} {:?}", scene.finish(id)))
+    };
+    let texture = |(id, name, texture): (TextureId, &str, &Texture)| {
+        (Subject::Texture(id), format!("{name} {texture:?}"))
     };
     let settings = (Subject::Settings, format!("{:?}", scene.settings()));
     let groups = scene.entities_of(Role::Group).map(Some).chain([None]);
@@ -164,6 +197,7 @@ fn dump(scene: &Scene) -> Dump {
             .entities()
             .map(entity)
             .chain(scene.materials().map(material))
+            .chain(scene.textures().map(texture))
             .chain([settings])
             .collect(),
         trees: groups.map(|group| (group, scene.children(group))).collect(),
@@ -195,6 +229,15 @@ fn holds_together(scene: &Scene) {
         assert!(scene.children(Some(id)).iter().all(|&member| scene.parent(member) == Some(id)));
         assert!(scene.ancestors(id).count() <= Scene::MAX_DEPTH);
         assert!(scene.material_of(id).is_none_or(|material| scene.find_material(material).is_some()));
+    }
+    for (id, name, _) in scene.textures() {
+        assert_eq!((scene.texture_named(name), scene.texture_name(id)), (Some(id), Some(name)));
+    }
+    for (id, _, material) in scene.materials() {
+        let finish = Part::values(&scene.finish(id));
+        for texture in material.values().textures().chain(finish.textures()) {
+            assert!(scene.find_texture(texture).is_some() && scene.painted_with(texture).contains(&id));
+        }
     }
     for (id, name, _) in scene.materials() {
         assert_eq!(scene.material_named(name), Some(id));

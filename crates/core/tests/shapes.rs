@@ -181,6 +181,43 @@ proptest! {
     }
 
     #[test]
+    fn texture_coordinates_run_along_the_surface(draw in draw(), at in placement()) {
+        for sample in samples().into_iter().flat_map(|sample| [sample.placed(&at), sample]) {
+            let ray = sample.aimed(&draw);
+            for crossing in all_crossings(&sample.shape, &ray) {
+                let (point, facet) = (ray.at(crossing.t), crossing.facet);
+                let found = sample.shape.parametrization(point, facet);
+                prop_assert_eq!(sample.shape.uv_and_tangent(point, facet), (found.uv, found.along_u));
+                let kind = sample.shape.kind_name();
+                if ["rectangle", "mesh"].contains(&kind) && crossing.uv != DVec2::ZERO {
+                    prop_assert!(found.uv.distance(crossing.uv) < 1e-6, "{found:?} of {crossing:?}");
+                }
+                let (u, v) = (found.along_u, found.along_v);
+                let tangent = found.tangent(crossing.normal);
+                prop_assert!((tangent.length() - 1.0).abs() < 1e-12 && tangent.dot(crossing.normal).abs() < 1e-9);
+                let across = |w: DVec3| w.dot(crossing.normal).abs() <= 1e-6 * w.length() + 1e-12;
+                prop_assert!(across(u) && across(v), "{found:?} leaves {kind}");
+                // Away from poles and middles, where one of the two has no direction.
+                if u.cross(v).length() < 1e-2 * u.length() * v.length() || u.length().min(v.length()) < 1e-3 * u.length().max(v.length()) {
+                    continue;
+                }
+                if kind != "disk" && kind != "mesh" {
+                    prop_assert!(u.cross(v).dot(crossing.normal) > 0.0, "{kind} is mirrored");
+                }
+                let step = 1e-4;
+                let moved = |by: DVec3| sample.shape.parametrization(point + by * step, facet).uv - found.uv;
+                let [by_u, by_v] = found.footprint([u, v]);
+                prop_assert!(by_u.distance(DVec2::X) < 1e-6 && by_v.distance(DVec2::Y) < 1e-6, "{by_u} {by_v}");
+                for (is, right) in [(moved(u), DVec2::X), (moved(v), DVec2::Y)] {
+                    // Longitudes and angles begin again after 1.
+                    let is = if is.x.abs() > 0.5 { DVec2::new(is.x - is.x.signum(), is.y) } else { is };
+                    prop_assert!((is / step).distance(right) < 0.05, "{kind}: {} for {right}", is / step);
+                }
+            }
+        }
+    }
+
+    #[test]
     fn a_ray_aimed_at_the_surface_meets_it(draw in draw(), at in placement()) {
         for sample in samples().into_iter().flat_map(|sample| [sample.placed(&at), sample]) {
             let ray = sample.aimed(&draw);

@@ -2,11 +2,12 @@
 //!
 //! Slabs after Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use super::{FacetRoot, Geometry};
+use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Located, Number, Root, Verdict};
 use crate::part::Given;
+use crate::texture::facing;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
 /// A closed box, or a flat one where its corners share a coordinate. Face `2 * axis` lies at the lower end of that
@@ -99,6 +100,24 @@ impl Geometry for Cuboid {
     fn placed(&self, placement: &Placement) -> Self {
         let to_world = self.to_world.then(placement);
         Self { bounds: self.bounds, to_world, to_object: to_world.inverse() }
+    }
+
+    fn parametrization(&self, point: DVec3, facet: u32) -> Parametrization {
+        let (normal, size) = (outwards(facet), self.bounds.size());
+        let from_min = self.to_object.point(point) - self.bounds.min;
+        // Where an axis of the face runs backwards, the coordinate runs from the other end.
+        let across = |v: DVec3| facing(v, normal);
+        let sizes = across(size);
+        let share = |along: f64, size: f64| if size == 0.0 { 0.0 } else { along / size.abs() };
+        let place = across(from_min);
+        let uv = DVec2::new(share(place.x, sizes.x), share(place.y, sizes.y))
+            + DVec2::from(sizes.to_array().map(|v| f64::from(v < 0.0)));
+        let axis = |i: usize| {
+            let is_it = |axis: &DVec3| across(*axis)[i] != 0.0;
+            let along = DVec3::AXES.into_iter().find(is_it).unwrap_or_default();
+            self.to_world.vector(along * (along.dot(size) * across(along)[i]))
+        };
+        Parametrization { uv, along_u: axis(0), along_v: axis(1) }
     }
 
     fn is_closed(&self) -> bool {

@@ -2,14 +2,15 @@
 
 use glam::DVec3;
 
+use super::parametrization::on_disk;
 use super::plane::plane_root;
-use super::{FacetRoot, Geometry};
+use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Located, Number, Vector, Verdict};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
 /// All points of the plane through `center`, perpendicular to `normal`, that lie within `radius` of the centre; the
-/// rim belongs to it. It has no texture coordinates.
+/// rim belongs to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Disk {
     center: DVec3,
@@ -120,6 +121,10 @@ impl Geometry for Disk {
             normal: upwards.normalize(),
             radius: self.radius * placement.scale(),
         }
+    }
+
+    fn parametrization(&self, point: DVec3, _: u32) -> Parametrization {
+        on_disk(point - self.center, self.normal, self.radius)
     }
 
     fn is_closed(&self) -> bool {

@@ -1,7 +1,10 @@
 //! A triangle mesh standing somewhere.
 
+use glam::DVec3;
+
+use super::parametrization::in_triangle;
 use super::triangle::{meet_triangle, unit_normal, weights};
-use super::{FacetRoot, Geometry};
+use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Located, Number, Verdict};
 use crate::part::Given;
 use crate::{
@@ -91,8 +94,7 @@ impl Geometry for Mesh {
         let corners = mesh.corners(triangle);
         let normal = unit_normal(&corners)?;
         let weights = weights(&corners, own);
-        let shading =
-            mesh.normal_at(triangle, weights).and_then(glam::DVec3::try_normalize).unwrap_or(normal);
+        let shading = mesh.normal_at(triangle, weights).and_then(DVec3::try_normalize).unwrap_or(normal);
         Some(Crossing {
             normal: self.to_world.direction(normal),
             shading_normal: self.to_world.direction(shading),
@@ -113,6 +115,14 @@ impl Geometry for Mesh {
     fn placed(&self, placement: &Placement) -> Self {
         let to_world = self.to_world.then(placement);
         Self { source: self.source.clone(), to_world, to_object: to_world.inverse() }
+    }
+
+    fn parametrization(&self, point: DVec3, triangle: u32) -> Parametrization {
+        let mesh = &self.source.mesh;
+        let own = self.to_object.point(point);
+        let found = in_triangle(&mesh.corners(triangle), mesh.corner_uvs(triangle), own);
+        let [along_u, along_v] = [found.along_u, found.along_v].map(|v| self.to_world.vector(v));
+        Parametrization { along_u, along_v, ..found }
     }
 
     fn is_closed(&self) -> bool {

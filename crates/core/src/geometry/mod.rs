@@ -5,6 +5,7 @@
 mod cuboid;
 mod disk;
 mod mesh;
+mod parametrization;
 mod plane;
 mod rectangle;
 mod sphere;
@@ -17,6 +18,7 @@ use std::cmp::Ordering;
 pub use cuboid::Cuboid;
 pub use disk::Disk;
 pub use mesh::Mesh;
+pub use parametrization::Parametrization;
 pub use plane::Plane;
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
@@ -26,6 +28,7 @@ pub use triangle_mesh::TriangleMesh;
 
 use crate::exact::{Bounded, Dyadic, Located, Number, Root, Verdict, decide};
 use crate::{Aabb, Crossing, Placement, Ray, Span};
+use glam::{DVec2, DVec3};
 
 /// What the tracer and the editor ask of a shape.
 ///
@@ -126,6 +129,27 @@ pub trait Geometry {
     where
         Self: Sized;
 
+    /// Texture coordinates at a point of a facet, in the space that the shape stands in. Of what has been placed they stay
+    /// what they are, but for planes, disks and spheres, which do not remember how they were turned: ask those in their own
+    /// space.
+    ///
+    /// | shape | u | v |
+    /// |---|---|---|
+    /// | plane | metres to the right (along x where it lies flat) | metres upwards (along −z) |
+    /// | rectangle | share of `edge-u` | share of `edge-v` |
+    /// | box | share of the face to the right, as seen from outside | upwards; of top and bottom towards −z and +z |
+    /// | sphere | longitude, 1/2 at +z, growing to +x | latitude, 0 at −y, 1 at +y |
+    /// | disk | angle counterclockwise from the right, 0..1 | distance from the middle, 0..1 |
+    /// | triangle, face of a tetrahedron | weight of the second corner | weight of the third |
+    /// | mesh | its own, else as of a triangle | |
+    fn parametrization(&self, point: DVec3, facet: u32) -> Parametrization;
+
+    /// Texture coordinates at a point of a facet, and the derivative of the point by u, in metres.
+    fn uv_and_tangent(&self, point: DVec3, facet: u32) -> (DVec2, DVec3) {
+        let found = self.parametrization(point, facet);
+        (found.uv, found.along_u)
+    }
+
     /// Whether it encloses a volume: a ray from outside that enters it leaves it again.
     fn is_closed(&self) -> bool;
 }
@@ -214,6 +238,18 @@ impl Shape {
         leaving: Option<u32>,
     ) -> Verdict<Option<Root<N>>> {
         each_shape!(self, shape => shape.root(facet, &shape.own_ray(ray), span, leaving))
+    }
+
+    /// See [`Geometry::parametrization`].
+    #[must_use]
+    pub fn parametrization(&self, point: DVec3, facet: u32) -> Parametrization {
+        each_shape!(self, shape => shape.parametrization(point, facet))
+    }
+
+    /// See [`Geometry::uv_and_tangent`].
+    #[must_use]
+    pub fn uv_and_tangent(&self, point: DVec3, facet: u32) -> (DVec2, DVec3) {
+        each_shape!(self, shape => shape.uv_and_tangent(point, facet))
     }
 
     /// See [`Geometry::bounds`].

@@ -2,9 +2,10 @@
 
 use std::cmp::Ordering;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use super::{FacetRoot, Geometry};
+use super::parametrization::level_axes;
+use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Bounded, Dyadic, Located, Number, Root, Vector, Verdict, decide};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
@@ -116,6 +117,13 @@ impl Geometry for Plane {
     fn placed(&self, placement: &Placement) -> Self {
         let upwards = placement.direction(self.upwards);
         Self { point: placement.point(self.point), upwards, normal: upwards.normalize() }
+    }
+
+    fn parametrization(&self, point: DVec3, _: u32) -> Parametrization {
+        let [along_u, along_v] = level_axes(self.normal);
+        let from_point = point - self.point;
+        let uv = DVec2::new(from_point.dot(along_u), from_point.dot(along_v));
+        Parametrization { uv, along_u, along_v }
     }
 
     fn is_closed(&self) -> bool {

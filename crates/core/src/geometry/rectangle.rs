@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{FacetRoot, Geometry};
+use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Located, Number, Root, Vector, Verdict};
 use crate::numeric::RIGHT_ANGLE_TOLERANCE;
 use crate::part::{Given, degrees};
@@ -125,9 +125,7 @@ impl Geometry for Rectangle {
 
     fn crossing(&self, own: &Ray, at: Located, facet: u32) -> Option<Crossing> {
         let normal = self.edge_u.cross(self.edge_v).try_normalize()?;
-        let from_corner = own.at(at.t) - self.corner;
-        let along = |edge: DVec3| from_corner.dot(edge) / edge.length_squared();
-        let uv = DVec2::new(along(self.edge_u), along(self.edge_v));
+        let Parametrization { uv, .. } = self.parametrization(own.at(at.t), facet);
         Some(Crossing { uv, ..Crossing::flat(at, normal, facet) })
     }
 
@@ -142,6 +140,13 @@ impl Geometry for Rectangle {
             edge_u: placement.vector(self.edge_u),
             edge_v: placement.vector(self.edge_v),
         }
+    }
+
+    fn parametrization(&self, point: DVec3, _: u32) -> Parametrization {
+        let from_corner = point - self.corner;
+        let along = |edge: DVec3| from_corner.dot(edge) / edge.length_squared();
+        let uv = DVec2::new(along(self.edge_u), along(self.edge_v));
+        Parametrization { uv, along_u: self.edge_u, along_v: self.edge_v }
     }
 
     fn is_closed(&self) -> bool {

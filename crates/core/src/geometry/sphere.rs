@@ -7,7 +7,8 @@ use std::cmp::Ordering;
 
 use glam::DVec3;
 
-use super::{FacetRoot, Geometry};
+use super::parametrization::on_sphere;
+use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Located, Number, Radical, Root, Vector, Verdict};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
@@ -130,6 +131,10 @@ impl Geometry for Sphere {
 
     fn placed(&self, placement: &Placement) -> Self {
         Self { center: placement.point(self.center), radius: self.radius * placement.scale() }
+    }
+
+    fn parametrization(&self, point: DVec3, _: u32) -> Parametrization {
+        on_sphere(point - self.center, self.radius)
     }
 
     fn is_closed(&self) -> bool {

@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
+use super::parametrization::{BARYCENTRIC, in_triangle};
 use super::triangle::{check_area, corner_values, meet_triangle, unit_normal};
-use super::{FacetRoot, Geometry};
+use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Located, Number, Vector, Verdict};
 use crate::numeric::EDGE_ROUNDING;
 use crate::part::Given;
@@ -101,6 +102,10 @@ impl Geometry for Tetrahedron {
 
     fn placed(&self, placement: &Placement) -> Self {
         Self { corners: self.corners.map(|p| placement.point(p)) }
+    }
+
+    fn parametrization(&self, point: DVec3, facet: u32) -> Parametrization {
+        in_triangle(&self.face(facet), BARYCENTRIC, point)
     }
 
     fn is_closed(&self) -> bool {

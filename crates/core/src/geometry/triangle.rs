@@ -4,7 +4,8 @@ use std::cmp::Ordering;
 
 use glam::{DVec2, DVec3};
 
-use super::{FacetRoot, Geometry};
+use super::parametrization::{BARYCENTRIC, in_triangle};
+use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Dyadic, Located, Number, Root, Vector, Verdict};
 use crate::numeric::{EDGE_ROUNDING, EDGE_VALUE_ERROR, NORMAL_SINE};
 use crate::part::Given;
@@ -73,6 +74,10 @@ impl Geometry for Triangle {
 
     fn placed(&self, placement: &Placement) -> Self {
         Self { corners: self.corners.map(|p| placement.point(p)) }
+    }
+
+    fn parametrization(&self, point: DVec3, _: u32) -> Parametrization {
+        in_triangle(&self.corners, BARYCENTRIC, point)
     }
 
     fn is_closed(&self) -> bool {

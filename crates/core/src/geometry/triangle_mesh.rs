@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::parametrization::BARYCENTRIC;
 use crate::{Aabb, InvalidPart};
 
 /// Triangles over shared corners, with optional normals and texture coordinates per corner.
@@ -94,6 +95,20 @@ impl TriangleMesh {
         let normals = self.normals.as_ref()?;
         let corners = self.triangles[triangle as usize];
         Some((0..3).map(|k| widen(normals[corners[k] as usize]) * weights[k]).sum())
+    }
+
+    /// The texture coordinates of a triangle's corners; 0 0, 1 0 and 0 1 in a mesh that has none.
+    ///
+    /// # Panics
+    /// A triangle number out of range.
+    #[must_use]
+    pub fn corner_uvs(&self, triangle: u32) -> [DVec2; 3] {
+        match &self.uvs {
+            Some(uvs) => {
+                self.triangles[triangle as usize].map(|i| DVec2::from(uvs[i as usize].map(f64::from)))
+            }
+            None => BARYCENTRIC,
+        }
     }
 
     /// The texture coordinates at a point given by corner weights; zero without any.

@@ -4,9 +4,9 @@ use glam::DVec3;
 
 use super::footprint::{Footprint, mean_sign};
 use super::{MirrorShare, Surface};
-use crate::lane::Constant3;
 use crate::numeric::{PATTERN_ERROR, PATTERN_SHIFT};
 use crate::part::Given;
+use crate::texture::{Paint, TexturePoint, TextureSource};
 use crate::{
     Coefficient, Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, Triple, Value, Values,
 };
@@ -14,8 +14,8 @@ use crate::{
 /// Matte; `color` where `|⌊x·scale⌋ + ⌊z·scale⌋|` is odd, `other` where it is even. On any shape, by position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checker {
-    color: Constant3,
-    other: Constant3,
+    color: Paint,
+    other: Paint,
     scale: Coefficient,
     /// Cell numbers along x and z at the origin that positions are relative to, less a multiple of two.
     phase: [Coefficient; 2],
@@ -66,18 +66,18 @@ impl Part for Checker {
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         Ok(Self {
-            color: given.color("color")?.into(),
-            other: given.color("other")?.into(),
+            color: given.paint("color")?,
+            other: given.paint("other")?,
             scale: Coefficient::new(given.positive("scale")?),
             phase: [Coefficient::new(PATTERN_SHIFT); 2],
-            mirror: MirrorShare::given(given, Rgb::WHITE)?,
+            mirror: MirrorShare::given(given, Rgb::WHITE.into())?,
         })
     }
 
     fn values(&self) -> Values {
         Values::new()
-            .with("color", Value::Color(self.color.rgb()))
-            .with("other", Value::Color(self.other.rgb()))
+            .with("color", self.color.value())
+            .with("other", self.other.value())
             .with("scale", Value::Number(self.scale.wide))
             .with("reflectiveness", self.mirror.value())
     }
@@ -90,7 +90,8 @@ impl Surface for Checker {
         let cell = x.floor() + z.floor();
         let half = cell * cell.number(0.5);
         let odd = cell.number(0.25).less(half - half.floor());
-        let albedo = Triple::select(odd, Triple::of(cell, &self.color), Triple::of(cell, &self.other));
+        let albedo =
+            Triple::select(odd, Triple::of(cell, self.color.base()), Triple::of(cell, self.other.base()));
         self.mirror.over(Lobes::matte(albedo))
     }
 
@@ -99,7 +100,7 @@ impl Surface for Checker {
         let [x, z] = footprint.coordinates(at, self.cells(at), at.distance.of(self.scale));
         let half = at.distance.number(0.5);
         let odd = half - half * mean_sign(&x, &z);
-        let (color, other) = (Triple::of(odd, &self.color), Triple::of(odd, &self.other));
+        let (color, other) = (Triple::of(odd, self.color.base()), Triple::of(odd, self.other.base()));
         self.mirror.over(Lobes::matte(color.scale_add(odd, other.scale(at.distance.number(1.0) - odd))))
     }
 
@@ -132,6 +133,19 @@ impl Surface for Checker {
         };
         let [x, z] = self.phase;
         DVec3::new(middle(position.x, x), position.y, middle(position.z, z))
+    }
+
+    fn is_textured(&self) -> bool {
+        self.color.is_textured() || self.other.is_textured() || self.mirror.is_textured()
+    }
+
+    fn resolved(&self, textures: &impl TextureSource, at: &TexturePoint) -> Self {
+        Self {
+            color: self.color.resolved(textures, at),
+            other: self.other.resolved(textures, at),
+            mirror: self.mirror.resolved(textures, at),
+            ..self.clone()
+        }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Colour that fades to black with distance, tinted by the normal; needs no light.
 
 use super::{MirrorShare, Surface};
-use crate::lane::Constant3;
 use crate::part::Given;
+use crate::texture::{Paint, TexturePoint, TextureSource};
 use crate::{
     Coefficient, Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, Triple, Value, Values,
 };
@@ -11,7 +11,7 @@ use crate::{
 /// unit normal on the viewer's side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Depth {
-    color: Constant3,
+    color: Paint,
     range: f64,
     inverse_range: Coefficient,
     mirror: MirrorShare,
@@ -34,16 +34,16 @@ impl Part for Depth {
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         let range = given.positive("range")?;
         Ok(Self {
-            color: given.color("color")?.into(),
+            color: given.paint("color")?,
             range,
             inverse_range: Coefficient::new(1.0 / range),
-            mirror: MirrorShare::given(given, Rgb::WHITE)?,
+            mirror: MirrorShare::given(given, Rgb::WHITE.into())?,
         })
     }
 
     fn values(&self) -> Values {
         Values::new()
-            .with("color", Value::Color(self.color.rgb()))
+            .with("color", self.color.value())
             .with("range", Value::Number(self.range))
             .with("reflectiveness", self.mirror.value())
     }
@@ -68,7 +68,20 @@ impl Surface for Depth {
         let near = one - (at.distance * at.distance.of(self.inverse_range)).min(one);
         let shown = at.normal.scale_add(at.distance.of(TINT), Triple::splat(near));
         let shown = Triple::new(shown.x.max(zero), shown.y.max(zero), shown.z.max(zero));
-        let emission = shown.times(Triple::of(at.distance, &self.color));
+        let emission = shown.times(Triple::of(at.distance, self.color.base()));
         self.mirror.over(Lobes { emission, ..Lobes::none(at.distance) })
+    }
+
+    fn is_textured(&self) -> bool {
+        self.color.is_textured() || self.mirror.is_textured()
+    }
+
+    fn resolved(&self, textures: &impl TextureSource, at: &TexturePoint) -> Self {
+        Self {
+            color: self.color.resolved(textures, at),
+            mirror: self.mirror.resolved(textures, at),
+            range: self.range,
+            inverse_range: self.inverse_range,
+        }
     }
 }

@@ -1,15 +1,15 @@
 //! A surface that shines by itself.
 
 use super::{Emission, Surface};
-use crate::lane::Constant3;
 use crate::part::Given;
+use crate::texture::{Paint, TexturePoint, TextureSource};
 use crate::{Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, Triple, Value, Values};
 
 /// Shines with the same radiance everywhere and in all directions: to the side that its shape's normal points to (of a
 /// closed shape the outside), or to both. It reflects nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Emissive {
-    radiance: Constant3,
+    radiance: Paint,
     two_sided: bool,
 }
 
@@ -44,20 +44,18 @@ impl Part for Emissive {
     ];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
-        Ok(Self { radiance: given.quantity("radiance")?.into(), two_sided: given.flag("two-sided")? })
+        Ok(Self { radiance: given.light("radiance")?, two_sided: given.flag("two-sided")? })
     }
 
     fn values(&self) -> Values {
-        Values::new()
-            .with("radiance", Value::Color(self.radiance.rgb()))
-            .with("two-sided", Value::Flag(self.two_sided))
+        Values::new().with("radiance", self.radiance.value()).with("two-sided", Value::Flag(self.two_sided))
     }
 }
 
 impl Surface for Emissive {
     #[inline(always)]
     fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L> {
-        let radiance = Triple::of(at.distance, &self.radiance);
+        let radiance = Triple::of(at.distance, self.radiance.base());
         let dark = Triple::splat(at.distance.number(0.0));
         let emission = if self.two_sided { radiance } else { Triple::select(at.front, radiance, dark) };
         Lobes { emission, ..Lobes::none(at.distance) }
@@ -65,5 +63,13 @@ impl Surface for Emissive {
 
     fn emission(&self) -> Option<Emission> {
         Some(Emission { radiance: self.radiance.rgb(), two_sided: self.two_sided })
+    }
+
+    fn is_textured(&self) -> bool {
+        self.radiance.is_textured()
+    }
+
+    fn resolved(&self, textures: &impl TextureSource, at: &TexturePoint) -> Self {
+        Self { radiance: self.radiance.resolved_light(textures, at), two_sided: self.two_sided }
     }
 }

@@ -19,10 +19,10 @@ pub struct Footprint<L: Lane> {
 
 /// A coordinate over the square, whose sides reach from −1/2 to 1/2: (at + slopes·p + at (bends·p)) / (1 + bends·p) at p.
 #[derive(Clone, Copy)]
-pub(super) struct Coordinate<L: Lane> {
-    pub(super) at: L,
-    pub(super) slopes: [L; 2],
-    pub(super) bends: [L; 2],
+pub(crate) struct Coordinate<L: Lane> {
+    pub(crate) at: L,
+    pub(crate) slopes: [L; 2],
+    pub(crate) bends: [L; 2],
 }
 
 /// A half-plane: where one + x p + y q ≥ 0.
@@ -104,7 +104,7 @@ fn sign<L: Lane>(whole: L) -> L {
 
 /// The mean over the square of (−1)^(⌊u⌋ + ⌊v⌋); 0 for more squares than can be told apart.
 #[inline(always)]
-pub(super) fn mean_sign<L: Lane>(u: &Coordinate<L>, v: &Coordinate<L>) -> L {
+pub(crate) fn mean_sign<L: Lane>(u: &Coordinate<L>, v: &Coordinate<L>) -> L {
     let (zero, one) = (u.at.number(0.0), u.at.number(1.0));
     let ((first_u, count_u), (first_v, count_v)) = (u.jumps(), v.jumps());
     let most = zero.number(f64::from(MOST_SQUARES) - 0.5);

@@ -1,14 +1,14 @@
 //! The matte surface: light leaves alike in all directions (Lambert 1760).
 
 use super::{MirrorShare, Surface};
-use crate::lane::Constant3;
 use crate::part::Given;
+use crate::texture::{Paint, TexturePoint, TextureSource};
 use crate::{Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, Triple, Value, Values};
 
 /// Lambert surface with the BRDF `color / π`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Matte {
-    color: Constant3,
+    color: Paint,
     mirror: MirrorShare,
 }
 
@@ -31,19 +31,25 @@ impl Part for Matte {
     ];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
-        Ok(Self { color: given.color("color")?.into(), mirror: MirrorShare::given(given, Rgb::WHITE)? })
+        Ok(Self { color: given.paint("color")?, mirror: MirrorShare::given(given, Rgb::WHITE.into())? })
     }
 
     fn values(&self) -> Values {
-        Values::new()
-            .with("color", Value::Color(self.color.rgb()))
-            .with("reflectiveness", self.mirror.value())
+        Values::new().with("color", self.color.value()).with("reflectiveness", self.mirror.value())
     }
 }
 
 impl Surface for Matte {
     #[inline(always)]
     fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L> {
-        self.mirror.over(Lobes::matte(Triple::of(at.distance, &self.color)))
+        self.mirror.over(Lobes::matte(Triple::of(at.distance, self.color.base())))
+    }
+
+    fn is_textured(&self) -> bool {
+        self.color.is_textured() || self.mirror.is_textured()
+    }
+
+    fn resolved(&self, textures: &impl TextureSource, at: &TexturePoint) -> Self {
+        Self { color: self.color.resolved(textures, at), mirror: self.mirror.resolved(textures, at) }
     }
 }

@@ -2,12 +2,12 @@
 
 use super::{MirrorShare, Surface};
 use crate::part::Given;
+use crate::texture::{TexturePoint, TextureSource};
 use crate::{Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, Value, Values};
 
 /// Perfect mirror, tinted by a colour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mirror {
-    color: Rgb,
     mirror: MirrorShare,
 }
 
@@ -32,12 +32,11 @@ impl Part for Mirror {
     ];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
-        let color = given.color("color")?;
-        Ok(Self { color, mirror: MirrorShare::given(given, color)? })
+        Ok(Self { mirror: MirrorShare::given(given, given.paint("color")?)? })
     }
 
     fn values(&self) -> Values {
-        Values::new().with("color", Value::Color(self.color)).with("reflectiveness", self.mirror.value())
+        Values::new().with("color", self.mirror.color().value()).with("reflectiveness", self.mirror.value())
     }
 }
 
@@ -45,5 +44,13 @@ impl Surface for Mirror {
     #[inline(always)]
     fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L> {
         self.mirror.over(Lobes::none(at.distance))
+    }
+
+    fn is_textured(&self) -> bool {
+        self.mirror.is_textured()
+    }
+
+    fn resolved(&self, textures: &impl TextureSource, at: &TexturePoint) -> Self {
+        Self { mirror: self.mirror.resolved(textures, at) }
     }
 }

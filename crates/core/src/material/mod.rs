@@ -7,6 +7,7 @@ mod checker;
 mod clear;
 mod depth;
 mod emissive;
+mod finish;
 mod footprint;
 mod glass;
 mod matte;
@@ -21,7 +22,9 @@ mod rubber;
 pub use checker::Checker;
 pub use depth::Depth;
 pub use emissive::Emissive;
+pub use finish::{Finish, NormalMap, Sides};
 pub use footprint::Footprint;
+pub(crate) use footprint::{Coordinate, mean_sign};
 pub use glass::Glass;
 pub use matte::Matte;
 pub use medium::{Medium, absorption};
@@ -33,6 +36,7 @@ pub use rubber::Rubber;
 
 use glam::DVec3;
 
+use crate::texture::{HalfGrey, TexturePoint, TextureSource};
 use crate::{Bsdf, Lane, LobeKinds, Lobes, Rgb, ShadingPoint, SurfacePoint};
 use mirror_share::MirrorShare;
 
@@ -82,7 +86,23 @@ pub trait Surface {
         self.clone()
     }
 
-    /// The light of its own with which it lights others, if there is any.
+    /// Whether a texture multiplies any of its values. Such a material is [`resolved`](Self::resolved) at every point
+    /// before anything else is asked of it; unresolved it answers as if every texture were white.
+    fn is_textured(&self) -> bool {
+        false
+    }
+
+    /// The same material with every textured value replaced by what it is at a point, and no texture left. It has at most
+    /// the lobes that [`Material::lobe_kinds`] tells of. Takes neither memory nor time for checks.
+    #[must_use]
+    fn resolved(&self, _textures: &impl TextureSource, _at: &TexturePoint) -> Self
+    where
+        Self: Clone,
+    {
+        self.clone()
+    }
+
+    /// The light of its own with which it lights others, if there is any: as if its textures were white.
     fn emission(&self) -> Option<Emission> {
         None
     }
@@ -189,7 +209,20 @@ impl Material {
     /// Which lobes it has, anywhere.
     #[must_use]
     pub fn lobe_kinds(&self) -> LobeKinds {
-        self.lobes(&ShadingPoint::HEAD_ON).kinds()
+        let somewhere = self.resolved(&HalfGrey, &TexturePoint::default());
+        somewhere.lobes(&ShadingPoint::HEAD_ON).kinds()
+    }
+
+    /// See [`Surface::is_textured`].
+    #[must_use]
+    pub fn is_textured(&self) -> bool {
+        each_material!(self, material => material.is_textured())
+    }
+
+    /// See [`Surface::resolved`].
+    #[must_use]
+    pub fn resolved(&self, textures: &impl TextureSource, at: &TexturePoint) -> Self {
+        each_material!(self, material => material.resolved(textures, at).into())
     }
 }
 

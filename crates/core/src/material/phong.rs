@@ -1,17 +1,17 @@
 //! The glossy surface: ambient, diffuse and specular parts.
 
 use super::{MirrorShare, Surface};
-use crate::lane::Constant3;
 use crate::lobe::{self, PhongModel, PhongShape};
 use crate::part::Given;
+use crate::texture::{Paint, TexturePoint, TextureSource};
 use crate::{Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, Triple, Value, Values};
 
 /// A diffuse lobe under a [highlight](lobe::Phong), and an ambient response of its own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phong {
-    ambient: Constant3,
-    diffuse: Constant3,
-    specular: Constant3,
+    ambient: Paint,
+    diffuse: Paint,
+    specular: Paint,
     shape: PhongShape,
     mirror: MirrorShare,
 }
@@ -45,19 +45,19 @@ impl Part for Phong {
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         let (shininess, model) = (given.not_negative("shininess")?, MODELS[given.choice("model")?]);
         Ok(Self {
-            ambient: given.color("ambient")?.into(),
-            diffuse: given.color("diffuse")?.into(),
-            specular: given.color("specular")?.into(),
+            ambient: given.paint("ambient")?,
+            diffuse: given.paint("diffuse")?,
+            specular: given.paint("specular")?,
             shape: PhongShape::new(shininess, model),
-            mirror: MirrorShare::given(given, Rgb::WHITE)?,
+            mirror: MirrorShare::given(given, Rgb::WHITE.into())?,
         })
     }
 
     fn values(&self) -> Values {
         Values::new()
-            .with("ambient", Value::Color(self.ambient.rgb()))
-            .with("diffuse", Value::Color(self.diffuse.rgb()))
-            .with("specular", Value::Color(self.specular.rgb()))
+            .with("ambient", self.ambient.value())
+            .with("diffuse", self.diffuse.value())
+            .with("specular", self.specular.value())
             .with("shininess", Value::Number(self.shape.exponent()))
             .with("model", Value::Word(MODEL_WORDS[self.shape.model() as usize].to_owned()))
             .with("reflectiveness", self.mirror.value())
@@ -68,11 +68,28 @@ impl Surface for Phong {
     #[inline(always)]
     fn lobes<L: Lane>(&self, at: &ShadingPoint<L>) -> Lobes<L> {
         let like = at.distance;
-        let highlight = lobe::Phong { specular: Triple::of(like, &self.specular), shape: self.shape };
+        let highlight = lobe::Phong { specular: Triple::of(like, self.specular.base()), shape: self.shape };
         self.mirror.over(Lobes {
-            ambient: Triple::of(like, &self.ambient),
+            ambient: Triple::of(like, self.ambient.base()),
             phong: if self.specular.rgb() == Rgb::BLACK { None } else { Some(highlight) },
-            ..Lobes::matte(Triple::of(like, &self.diffuse))
+            ..Lobes::matte(Triple::of(like, self.diffuse.base()))
         })
+    }
+
+    fn is_textured(&self) -> bool {
+        self.ambient.is_textured()
+            || self.diffuse.is_textured()
+            || self.specular.is_textured()
+            || self.mirror.is_textured()
+    }
+
+    fn resolved(&self, textures: &impl TextureSource, at: &TexturePoint) -> Self {
+        Self {
+            ambient: self.ambient.resolved(textures, at),
+            diffuse: self.diffuse.resolved(textures, at),
+            specular: self.specular.resolved(textures, at),
+            mirror: self.mirror.resolved(textures, at),
+            shape: self.shape,
+        }
     }
 }

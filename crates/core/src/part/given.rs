@@ -1,9 +1,10 @@
 //! Checked access of a part's constructor to its values, each of the kind and range that its field states.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use super::{Field, FieldKind, MeshSource, ProfileSource, Value, Values};
-use crate::{InvalidPart, Rgb};
+use super::{Field, FieldKind, ImageSource, MeshSource, ProfileSource, Textured, Value, Values};
+use crate::texture::{Level, Paint, TextureUse};
+use crate::{InvalidPart, Rgb, TextureId};
 
 /// The largest magnitude of a number in a part, about 3.4e38: SIMD code keeps numbers in `f32` too, where a larger
 /// one would be infinite.
@@ -20,10 +21,24 @@ pub struct Given<'a> {
 
 impl Given<'_> {
     fn value(&self, name: &'static str) -> Result<Value, InvalidPart> {
+        match self.value_and_texture(name)? {
+            (value, None) => Ok(value),
+            (_, Some(_)) => Err(InvalidPart::new(name, "must be a plain value", "one with a texture")),
+        }
+    }
+
+    /// A value, and the texture that multiplies it.
+    fn value_and_texture(&self, name: &'static str) -> Result<(Value, Option<TextureUse>), InvalidPart> {
         let default =
             || self.fields.iter().find(|f| f.name == name).and_then(|f| f.default).map(|make| make());
-        let value = self.values.get(name).cloned().or_else(default);
-        value.ok_or_else(|| InvalidPart::new(name, "must be given", "missing"))
+        match self.values.get(name).cloned().or_else(default) {
+            Some(Value::Textured(textured)) => {
+                let Textured { base, by } = *textured;
+                Ok((base, Some(by)))
+            }
+            Some(value) => Ok((value, None)),
+            None => Err(InvalidPart::new(name, "must be given", "missing")),
+        }
     }
 
     /// Refuses a number; the message gives angles in degrees, as they are written.
@@ -75,8 +90,52 @@ impl Given<'_> {
     /// # Errors
     /// Missing, not a number, or outside.
     pub fn fraction(&self, name: &'static str) -> Result<f64, InvalidPart> {
+        fraction(name, self.number(name)?)
+    }
+
+    /// A number in 0..=1, which a texture may multiply.
+    ///
+    /// # Errors
+    /// Missing, not a number, or outside.
+    pub fn level(&self, name: &'static str) -> Result<Level, InvalidPart> {
+        match self.value_and_texture(name)? {
+            (Value::Number(v), texture) => Ok(Level::new(fraction(name, v)?, texture)),
+            (other, _) => Err(wrong(name, "must be a finite number", &other)),
+        }
+    }
+
+    /// Two numbers.
+    ///
+    /// # Errors
+    /// Missing, not two numbers, not finite, or beyond [`LARGEST`].
+    pub fn pair(&self, name: &'static str) -> Result<DVec2, InvalidPart> {
+        match self.value(name)? {
+            Value::Pair(v) if v.abs().max_element() <= LARGEST && v.is_finite() => Ok(v),
+            other @ Value::Pair(v) if v.is_finite() => Err(wrong(name, WITHIN_LARGEST, &other)),
+            other => Err(wrong(name, "must be two finite numbers", &other)),
+        }
+    }
+
+    /// Two numbers greater than 0.
+    ///
+    /// # Errors
+    /// Missing, not two numbers, not finite, or one not greater than 0.
+    pub fn positive_pair(&self, name: &'static str) -> Result<DVec2, InvalidPart> {
+        let v = self.pair(name)?;
+        let is_positive = v.x > 0.0 && v.y > 0.0;
+        if is_positive { Ok(v) } else { Err(wrong(name, "must be greater than 0", &Value::Pair(v))) }
+    }
+
+    /// A whole number within a range.
+    ///
+    /// # Errors
+    /// Missing, not a number, not whole, or outside.
+    pub fn count(&self, name: &'static str, [least, most]: [u32; 2]) -> Result<u32, InvalidPart> {
         let v = self.number(name)?;
-        if (0.0..=1.0).contains(&v) { Ok(v) } else { Err(InvalidPart::new(name, "must lie in 0..1", v)) }
+        if v.fract() == 0.0 && (f64::from(least)..=f64::from(most)).contains(&v) {
+            return Ok(v as u32);
+        }
+        Err(self.refuse(name, &format!("must be a whole number in {least}..{most}"), v))
     }
 
     /// A whole number of a range.
@@ -118,10 +177,25 @@ impl Given<'_> {
     /// # Errors
     /// Missing, not a colour, or a channel outside 0..=1.
     pub fn color(&self, name: &'static str) -> Result<Rgb, InvalidPart> {
-        match self.value(name)? {
-            Value::Color(c) if c.all(|v| (0.0..=1.0).contains(&v)) => Ok(c),
-            other => Err(wrong(name, "must be a colour with channels in 0..1", &other)),
-        }
+        color(name, &self.value(name)?)
+    }
+
+    /// A reflectance, which a texture may multiply.
+    ///
+    /// # Errors
+    /// Missing, not a colour, a channel outside 0..=1, or a texture of which a single channel is named.
+    pub fn paint(&self, name: &'static str) -> Result<Paint, InvalidPart> {
+        let (value, texture) = self.value_and_texture(name)?;
+        Ok(Paint::new(color(name, &value)?, colored(name, texture)?))
+    }
+
+    /// An amount of light, which a texture may multiply.
+    ///
+    /// # Errors
+    /// As for [`quantity`](Self::quantity), or a texture of which a single channel is named.
+    pub fn light(&self, name: &'static str) -> Result<Paint, InvalidPart> {
+        let (value, texture) = self.value_and_texture(name)?;
+        Ok(Paint::new(quantity(name, &value)?, colored(name, texture)?))
     }
 
     /// An amount of light.
@@ -129,13 +203,7 @@ impl Given<'_> {
     /// # Errors
     /// Missing, not a colour, or a channel negative, not finite, or beyond [`LARGEST`].
     pub fn quantity(&self, name: &'static str) -> Result<Rgb, InvalidPart> {
-        match self.value(name)? {
-            Value::Color(c) if c.all(|v| (0.0..=LARGEST).contains(&v)) => Ok(c),
-            other @ Value::Color(c) if c.all(|v| v >= 0.0 && v.is_finite()) => {
-                Err(wrong(name, WITHIN_LARGEST, &other))
-            }
-            other => Err(wrong(name, "must be light with finite channels of at least 0", &other)),
-        }
+        quantity(name, &self.value(name)?)
     }
 
     /// Yes or no.
@@ -191,6 +259,59 @@ impl Given<'_> {
             other => Err(wrong(name, "must be an IES file", &other)),
         }
     }
+
+    /// A picture.
+    ///
+    /// # Errors
+    /// Missing or not a picture.
+    pub fn image(&self, name: &'static str) -> Result<ImageSource, InvalidPart> {
+        match self.value(name)? {
+            Value::Image(image) => Ok(image),
+            other => Err(wrong(name, "must be a picture file", &other)),
+        }
+    }
+
+    /// One of the scene's textures; whether it has that one, the scene checks.
+    ///
+    /// # Errors
+    /// Missing or not a texture.
+    pub fn texture(&self, name: &'static str) -> Result<TextureId, InvalidPart> {
+        match self.value(name)? {
+            Value::Texture(texture) => Ok(texture),
+            other => Err(wrong(name, "must be a texture", &other)),
+        }
+    }
+}
+
+fn fraction(name: &'static str, v: f64) -> Result<f64, InvalidPart> {
+    if (0.0..=1.0).contains(&v) { Ok(v) } else { Err(InvalidPart::new(name, "must lie in 0..1", v)) }
+}
+
+fn color(name: &'static str, value: &Value) -> Result<Rgb, InvalidPart> {
+    match value {
+        Value::Color(c) if c.all(|v| (0.0..=1.0).contains(&v)) => Ok(*c),
+        other => Err(wrong(name, "must be a colour with channels in 0..1", other)),
+    }
+}
+
+fn quantity(name: &'static str, value: &Value) -> Result<Rgb, InvalidPart> {
+    match value {
+        Value::Color(c) if c.all(|v| (0.0..=LARGEST).contains(&v)) => Ok(*c),
+        Value::Color(c) if c.all(|v| v >= 0.0 && v.is_finite()) => Err(wrong(name, WITHIN_LARGEST, value)),
+        other => Err(wrong(name, "must be light with finite channels of at least 0", other)),
+    }
+}
+
+/// Refuses a single channel, of which no colour is made.
+fn colored(name: &'static str, texture: Option<TextureUse>) -> Result<Option<TextureUse>, InvalidPart> {
+    match texture.and_then(|by| by.channel) {
+        Some(channel) => {
+            let found = format!("by its channel \"{}\" alone", channel.word());
+            let refused = InvalidPart::new(name, "must be multiplied by all of the texture's colour", found);
+            Err(refused.with_hint("leave channel away: a channel is for fractions"))
+        }
+        None => Ok(texture),
+    }
 }
 
 /// An angle in degrees, rounded to the ten digits that come back from radians as they were written.
@@ -214,6 +335,10 @@ fn wrong(name: &'static str, requirement: &str, found: &Value) -> InvalidPart {
         Value::Word(w) => format!("\"{w}\""),
         Value::Mesh(m) => format!("the mesh {}", m.path),
         Value::Profile(p) => format!("the profile {}", p.path),
+        Value::Pair(v) => v.to_array().map(short).join(" "),
+        Value::Image(i) => format!("the picture {}", i.path),
+        Value::Texture(texture) => texture.to_string(),
+        Value::Textured(_) => "a value with a texture".to_owned(),
     };
     InvalidPart::new(name, requirement, found)
 }

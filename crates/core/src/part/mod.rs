@@ -6,7 +6,7 @@ mod value;
 
 pub(crate) use given::degrees;
 pub use given::{Given, LARGEST};
-pub use value::{MeshSource, ProfileSource, Value, Values};
+pub use value::{ImageSource, MeshSource, ProfileSource, Textured, Value, Values};
 
 use crate::InvalidPart;
 
@@ -39,6 +39,20 @@ pub enum FieldKind {
     Mesh,
     /// How a luminaire shines by direction, read from a file.
     Profile,
+    /// Two numbers; one stands for both.
+    Pair,
+    /// A picture read from a file.
+    Image,
+    /// One of the scene's textures, by its name.
+    Texture,
+}
+
+impl FieldKind {
+    /// Whether a value of this kind can be multiplied by a texture; a material says which of its fields are.
+    #[must_use]
+    pub fn is_paintable(self) -> bool {
+        matches!(self, Self::Color | Self::Quantity | Self::Fraction)
+    }
 }
 
 /// One named parameter of a part.

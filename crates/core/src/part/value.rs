@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use crate::{IntensityProfile, Rgb, TriangleMesh};
+use crate::texture::{Image, TextureUse};
+use crate::{IntensityProfile, Rgb, TextureId, TriangleMesh};
 
 /// A triangle mesh and the file it came from.
 #[derive(Debug, Clone)]
@@ -37,6 +38,30 @@ impl PartialEq for ProfileSource {
     }
 }
 
+/// A picture and the file it came from.
+#[derive(Debug, Clone)]
+pub struct ImageSource {
+    /// Path as written in the scene, relative to the scene's folder.
+    pub path: String,
+    /// The picture.
+    pub image: Arc<Image>,
+}
+
+impl PartialEq for ImageSource {
+    fn eq(&self, other: &Self) -> bool {
+        self.path == other.path && (Arc::ptr_eq(&self.image, &other.image) || self.image == other.image)
+    }
+}
+
+/// A colour or a number, and the texture that multiplies it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Textured {
+    /// What is multiplied: [`Value::Color`] or [`Value::Number`].
+    pub base: Value,
+    /// By what.
+    pub by: TextureUse,
+}
+
 /// The value of a field.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
@@ -54,6 +79,41 @@ pub enum Value {
     Mesh(MeshSource),
     /// For [`FieldKind::Profile`](super::FieldKind::Profile).
     Profile(ProfileSource),
+    /// For [`FieldKind::Pair`](super::FieldKind::Pair).
+    Pair(DVec2),
+    /// For [`FieldKind::Image`](super::FieldKind::Image).
+    Image(ImageSource),
+    /// For [`FieldKind::Texture`](super::FieldKind::Texture).
+    Texture(TextureId),
+    /// For [`FieldKind::Color`](super::FieldKind::Color), `Quantity` and `Fraction`, times a texture.
+    Textured(Box<Textured>),
+}
+
+impl Value {
+    /// The same value, times a texture.
+    #[must_use]
+    pub fn textured(self, by: TextureUse) -> Self {
+        Self::Textured(Box::new(Textured { base: self.untextured(), by }))
+    }
+
+    /// The same value without a texture.
+    #[must_use]
+    pub fn untextured(self) -> Self {
+        match self {
+            Self::Textured(textured) => textured.base,
+            plain => plain,
+        }
+    }
+
+    /// The texture that it names, if it names one.
+    #[must_use]
+    pub fn texture(&self) -> Option<TextureId> {
+        match self {
+            Self::Texture(texture) => Some(*texture),
+            Self::Textured(textured) => Some(textured.by.texture),
+            _ => None,
+        }
+    }
 }
 
 /// Values by field name, in order.
@@ -93,6 +153,11 @@ impl Values {
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&Value> {
         self.0.iter().find(|(n, _)| *n == name).map(|(_, v)| v)
+    }
+
+    /// The textures that they name, one for each value.
+    pub fn textures(&self) -> impl Iterator<Item = TextureId> {
+        self.0.iter().filter_map(|(_, value)| value.texture())
     }
 
     /// All of them, in order.

@@ -1,11 +1,12 @@
 //! How is an edit checked, done, written down and inverted?
 
 use super::component::{Members, Name, Parent, Touched};
+use super::painting::Worn;
 use super::{
     Change, ChangeKind, Content, Edit, EntityId, MaterialId, Node, Role, Scene, SceneError, Subject, Subtree,
     new_revision,
 };
-use crate::{Camera, Light, Placement, Shape};
+use crate::{Camera, Finish, Light, Part, Placement, Shape};
 
 impl Scene {
     /// Does an edit, writes it into the log, and answers with the edit that takes it back: ids, names, order and
@@ -16,12 +17,12 @@ impl Scene {
     /// What the edit names is not there, or the scene would no longer hold together; the scene is then as it was.
     pub fn apply(&mut self, edit: Edit) -> Result<Edit, SceneError> {
         let written = self.log.len();
-        let (ids, material_ids) = (self.ids, self.materials.ids);
+        let ids = (self.ids, self.materials.ids, self.textures.ids);
         let before = std::mem::replace(&mut self.revision, new_revision());
         let outcome = self.perform(edit);
         if outcome.is_err() {
             self.log.truncate(written);
-            (self.ids, self.materials.ids) = (ids, material_ids);
+            (self.ids, self.materials.ids, self.textures.ids) = ids;
         }
         if self.log.len() == written {
             self.revision = before;
@@ -45,12 +46,14 @@ impl Scene {
             Edit::Order(id, index) => self.order(id, index),
             Edit::Name(id, name) => self.rename(id, name),
             Edit::Material(id, material) => {
-                let old = self.materials.replace(id, material)?;
+                self.check_textures(&material.values())?;
+                let old = std::mem::replace(&mut self.materials.get_mut(id)?.material, material);
                 self.record(Subject::Material(id), ChangeKind::Value);
                 Ok(Edit::Material(id, old))
             }
             Edit::AddMaterial { name, material, id } => {
-                let id = self.materials.add(name, material, id)?;
+                self.check_textures(&material.values())?;
+                let id = self.materials.add(name, Worn { material, finish: Finish::default() }, id)?;
                 self.record(Subject::Material(id), ChangeKind::Added);
                 Ok(Edit::RemoveMaterial(id))
             }
@@ -59,6 +62,33 @@ impl Scene {
                 let old = self.materials.rename(id, name)?;
                 self.record(Subject::Material(id), ChangeKind::Name);
                 Ok(Edit::RenameMaterial(id, old))
+            }
+            Edit::Finish(id, finish) => {
+                self.check_textures(&finish.values())?;
+                let old = std::mem::replace(&mut self.materials.get_mut(id)?.finish, finish);
+                self.record(Subject::Material(id), ChangeKind::Finish);
+                Ok(Edit::Finish(id, old))
+            }
+            Edit::Texture(id, texture) => {
+                let old = std::mem::replace(self.textures.get_mut(id)?, texture);
+                self.record(Subject::Texture(id), ChangeKind::Value);
+                Ok(Edit::Texture(id, old))
+            }
+            Edit::AddTexture { name, texture, id } => {
+                let id = self.textures.add(name, texture, id)?;
+                self.record(Subject::Texture(id), ChangeKind::Added);
+                Ok(Edit::RemoveTexture(id))
+            }
+            Edit::RemoveTexture(id) => {
+                self.check_unused(id)?;
+                let (name, texture) = self.textures.remove(id)?;
+                self.record(Subject::Texture(id), ChangeKind::Removed);
+                Ok(Edit::AddTexture { name, texture, id: Some(id) })
+            }
+            Edit::RenameTexture(id, name) => {
+                let old = self.textures.rename(id, name)?;
+                self.record(Subject::Texture(id), ChangeKind::Name);
+                Ok(Edit::RenameTexture(id, old))
             }
             Edit::Settings(settings) => {
                 self.record(Subject::Settings, ChangeKind::Value);
@@ -216,9 +246,13 @@ impl Scene {
                 others: wearers.len() - 1,
             });
         }
-        let (name, material) = self.materials.remove(id)?;
+        let (name, Worn { material, finish }) = self.materials.remove(id)?;
         self.record(Subject::Material(id), ChangeKind::Removed);
-        Ok(Edit::AddMaterial { name, material, id: Some(id) })
+        let back = Edit::AddMaterial { name, material, id: Some(id) };
+        if finish == Finish::default() {
+            return Ok(back);
+        }
+        Ok(Edit::Batch(vec![back, Edit::Finish(id, finish)]))
     }
 }
 

@@ -49,6 +49,12 @@ impl Scene {
     pub fn free_material_name(&self, wish: &str) -> String {
         free_name(wish, |name| self.material_named(name).is_some())
     }
+
+    /// The same for textures.
+    #[must_use]
+    pub fn free_texture_name(&self, wish: &str) -> String {
+        free_name(wish, |name| self.texture_named(name).is_some())
+    }
 }
 
 /// "ball", "ball 2", "ball 3" ...: the first that is free. A wish that ends in such a number counts on from it.
@@ -65,10 +71,15 @@ fn free_name(wish: &str, is_taken: impl Fn(&str) -> bool) -> String {
         .unwrap_or_default()
 }
 
-/// A scene of its own with the same ids, names, materials, settings, revision and log.
+/// A scene of its own with the same ids, names, materials, textures, settings, revision and log.
 impl Clone for Scene {
     fn clone(&self) -> Self {
-        let mut copy = Self { materials: self.materials.clone(), settings: self.settings, ..Self::new() };
+        let mut copy = Self {
+            materials: self.materials.clone(),
+            textures: self.textures.clone(),
+            settings: self.settings,
+            ..Self::new()
+        };
         for root in &self.roots {
             if let Some(node) = self.node(*root) {
                 copy.spawn(node, None);
@@ -95,7 +106,8 @@ impl PartialEq for Scene {
     fn eq(&self, other: &Self) -> bool {
         self.roots == other.roots
             && self.settings == other.settings
-            && self.materials().eq(other.materials())
+            && self.materials.iter().eq(other.materials.iter())
+            && self.textures().eq(other.textures())
             && self.roots.iter().all(|&root| self.node(root) == other.node(root))
     }
 }
@@ -105,7 +117,8 @@ impl std::fmt::Debug for Scene {
         let roots: Vec<Node> = self.roots.iter().filter_map(|&id| self.node(id)).collect();
         f.debug_struct("Scene")
             .field("roots", &roots)
-            .field("materials", &self.materials().collect::<Vec<_>>())
+            .field("materials", &self.materials.iter().collect::<Vec<_>>())
+            .field("textures", &self.textures().collect::<Vec<_>>())
             .field("settings", &self.settings)
             .field("revision", &self.revision)
             .finish_non_exhaustive()

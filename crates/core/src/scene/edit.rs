@@ -1,7 +1,7 @@
 //! What can be changed in a scene, and how is a change written down?
 
-use super::{EntityId, MaterialId, Settings, Subtree};
-use crate::{Camera, Light, Material, Placement, Shape};
+use super::{EntityId, MaterialId, Settings, Subtree, TextureId};
+use crate::{Camera, Finish, Light, Material, Placement, Shape, Texture};
 
 /// One change to a [`Scene`](super::Scene). [`Scene::apply`](super::Scene::apply) does it and answers with the
 /// edit that takes it back.
@@ -30,7 +30,7 @@ pub enum Edit {
     Name(EntityId, String),
     /// Changes a material, on every shape that has it.
     Material(MaterialId, Material),
-    /// Adds a material. Its inverse is `RemoveMaterial` with the new material's id.
+    /// Adds a material, with no special finish. Its inverse is `RemoveMaterial` with the new material's id.
     AddMaterial {
         /// The name, unique among the scene's materials.
         name: String,
@@ -43,6 +43,23 @@ pub enum Edit {
     RemoveMaterial(MaterialId),
     /// Renames a material.
     RenameMaterial(MaterialId, String),
+    /// Changes what shapes of a material have beside its lobes.
+    Finish(MaterialId, Finish),
+    /// Changes a texture, in every material that is painted with it.
+    Texture(TextureId, Texture),
+    /// Adds a texture. Its inverse is `RemoveTexture` with the new texture's id.
+    AddTexture {
+        /// The name, unique among the scene's textures.
+        name: String,
+        /// The texture.
+        texture: Texture,
+        /// The id to have; `None` for a new one. This is how an undone removal keeps its id.
+        id: Option<TextureId>,
+    },
+    /// Removes a texture that no material is painted with.
+    RemoveTexture(TextureId),
+    /// Renames a texture.
+    RenameTexture(TextureId, String),
     /// Changes the settings.
     Settings(Settings),
     /// All of these, one after the other, as one edit: if one is refused, none is done.
@@ -76,6 +93,8 @@ pub enum Subject {
     Entity(EntityId),
     /// A material; the shapes that wear it are not named.
     Material(MaterialId),
+    /// A texture; the materials that are painted with it are not named.
+    Texture(TextureId),
     /// The settings of the scene.
     Settings,
 }
@@ -101,8 +120,10 @@ pub enum ChangeKind {
     Parent,
     /// The place of an entity among its siblings.
     Order,
-    /// The name of an entity or of a material.
+    /// The name of an entity, of a material or of a texture.
     Name,
-    /// The values of a material or of the settings.
+    /// The values of a material, of a texture or of the settings.
     Value,
+    /// The finish of a material.
+    Finish,
 }

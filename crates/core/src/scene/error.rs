@@ -1,6 +1,6 @@
 //! Why is an edit of a scene refused?
 
-use super::{EntityId, MaterialId, Role, Scene};
+use super::{EntityId, MaterialId, Role, Scene, TextureId};
 
 /// Why a [`Scene`] refused an edit; the scene is then exactly as it was before.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -12,6 +12,9 @@ pub enum SceneError {
     /// No such material, or it has been removed.
     #[error("there is no {0} in this scene")]
     UnknownMaterial(MaterialId),
+    /// No such texture, or it has been removed.
+    #[error("there is no {0} in this scene")]
+    UnknownTexture(TextureId),
     /// A name without any letter.
     #[error("a name must not be empty")]
     EmptyName,
@@ -21,12 +24,18 @@ pub enum SceneError {
     /// Two materials may not have one name.
     #[error("the name \"{0}\" is taken by another material")]
     MaterialNameTaken(String),
+    /// Two textures may not have one name.
+    #[error("the name \"{0}\" is taken by another texture")]
+    TextureNameTaken(String),
     /// An inserted entity names an id that is in use.
     #[error("{0} is in the scene already")]
     IdTaken(EntityId),
     /// An added material names an id that is in use.
     #[error("{0} is in the scene already")]
     MaterialIdTaken(MaterialId),
+    /// An added texture names an id that is in use.
+    #[error("{0} is in the scene already")]
+    TextureIdTaken(TextureId),
     /// Every number that an id can have has been used.
     #[error("the scene has no numbers left for new parts")]
     IdsExhausted,
@@ -60,7 +69,7 @@ pub enum SceneError {
     #[error("\"{0}\" would lie inside more than {max} groups", max = Scene::MAX_DEPTH)]
     TooDeep(String),
     /// A material that shapes still wear cannot be removed.
-    #[error("the material \"{material}\" is in use by \"{shape}\"{}", and_others(*.others))]
+    #[error("the material \"{material}\" is in use by \"{shape}\"{}", and_others(*.others, "shape"))]
     MaterialInUse {
         /// The material that was to be removed.
         material: String,
@@ -69,12 +78,22 @@ pub enum SceneError {
         /// How many other shapes have it.
         others: usize,
     },
+    /// A texture that materials are painted with cannot be removed.
+    #[error("the texture \"{texture}\" is in use by \"{material}\"{}", and_others(*.others, "material"))]
+    TextureInUse {
+        /// The texture that was to be removed.
+        texture: String,
+        /// The oldest material that is painted with it.
+        material: String,
+        /// How many other materials are.
+        others: usize,
+    },
 }
 
-fn and_others(count: usize) -> String {
+fn and_others(count: usize, what: &str) -> String {
     match count {
         0 => String::new(),
-        1 => " and 1 other shape".to_owned(),
-        _ => format!(" and {count} other shapes"),
+        1 => format!(" and 1 other {what}"),
+        _ => format!(" and {count} other {what}s"),
     }
 }

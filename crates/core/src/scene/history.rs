@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::{Edit, EntityId, MaterialId, Scene, SceneError};
+use super::{Edit, EntityId, MaterialId, Scene, SceneError, TextureId};
 
 /// The steps that led to the present state of one scene, to undo and redo them.
 ///
@@ -162,6 +162,8 @@ enum Slot {
     Placement(EntityId),
     MaterialOf(EntityId),
     Material(MaterialId),
+    Finish(MaterialId),
+    Texture(TextureId),
     Settings,
 }
 
@@ -174,6 +176,8 @@ fn slot_of(edit: &Edit) -> Option<Slot> {
         Edit::Placement(id, _) => Some(Slot::Placement(id)),
         Edit::MaterialOf(id, _) => Some(Slot::MaterialOf(id)),
         Edit::Material(id, _) => Some(Slot::Material(id)),
+        Edit::Finish(id, _) => Some(Slot::Finish(id)),
+        Edit::Texture(id, _) => Some(Slot::Texture(id)),
         Edit::Settings(_) => Some(Slot::Settings),
         _ => None,
     }

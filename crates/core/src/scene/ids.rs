@@ -1,4 +1,4 @@
-//! By what handle is an entity or a material of a scene named, for as long as the scene lives?
+//! By what handle is an entity, a material or a texture of a scene named, for as long as the scene lives?
 //!
 //! A handle is a small number that the scene gives out once and never again: after a removal the number stays
 //! unused, except that undoing the removal brings the same thing back under the same number.
@@ -15,6 +15,10 @@ pub struct EntityId(NonZeroU32);
 /// Names one material of a [`Scene`](super::Scene). Ordered by creation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct MaterialId(NonZeroU32);
+
+/// Names one texture of a [`Scene`](super::Scene). Ordered by creation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct TextureId(NonZeroU32);
 
 impl EntityId {
     /// The id with this number, or `None` for 0. That the number came from [`Self::index`] of the same scene is
@@ -46,6 +50,21 @@ impl MaterialId {
     }
 }
 
+impl TextureId {
+    /// The id with this number, or `None` for 0. That the number came from [`Self::index`] of the same scene is
+    /// the caller's to know; a scene refuses ids it has no texture for.
+    #[must_use]
+    pub fn from_index(index: u32) -> Option<Self> {
+        NonZeroU32::new(index).map(Self)
+    }
+
+    /// The number, from 1 up.
+    #[must_use]
+    pub fn index(self) -> u32 {
+        self.0.get()
+    }
+}
+
 impl fmt::Display for EntityId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "entity {}", self.0)
@@ -55,6 +74,12 @@ impl fmt::Display for EntityId {
 impl fmt::Display for MaterialId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "material {}", self.0)
+    }
+}
+
+impl fmt::Display for TextureId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "texture {}", self.0)
     }
 }
 
@@ -103,6 +128,14 @@ impl Counter {
 
     pub(super) fn peek_material(self) -> MaterialId {
         MaterialId(self.peek())
+    }
+
+    pub(super) fn take_texture(&mut self) -> TextureId {
+        TextureId(self.take())
+    }
+
+    pub(super) fn peek_texture(self) -> TextureId {
+        TextureId(self.peek())
     }
 }
 

@@ -1,7 +1,7 @@
 //! Where do the parts of a scene live, how are they found, and how are they changed?
 //!
 //! A [`Scene`] is a [`hecs::World`] behind stable ids. An entity is a [`Shape`], a [`Light`] or a [`Camera`] with
-//! a [`Placement`], or a group whose members move with it. Materials are shared by [`MaterialId`]. Every change is an
+//! a [`Placement`], or a group whose members move with it. Materials are shared by [`MaterialId`], textures by [`TextureId`]. Every change is an
 //! [`Edit`] that goes through [`Scene::apply`], which checks it, answers with its inverse, and writes into the edit log
 //! what was changed; [`History`] makes undo and redo of it.
 
@@ -17,8 +17,9 @@ mod fixture;
 mod history;
 mod ids;
 mod integrator;
-mod materials;
+mod library;
 mod node;
+mod painting;
 mod query;
 mod settings;
 mod tree;
@@ -30,18 +31,19 @@ pub use component::Role;
 pub use edit::{Change, ChangeKind, Edit, Subject};
 pub use error::SceneError;
 pub use history::History;
-pub use ids::{EntityId, MaterialId};
+pub use ids::{EntityId, MaterialId, TextureId};
 pub use integrator::Integrator;
 pub use node::{Content, Node, Subtree};
 pub use query::Placed;
 pub use settings::Settings;
 
-use crate::{Camera, Light, Material, Placement, Shape};
+use crate::{Camera, Light, Material, Placement, Shape, Texture};
 use component::Name;
 use ids::Counter;
-use materials::Materials;
+use library::Library;
+use painting::Worn;
 
-/// Shapes, lights, cameras, groups, materials and settings, and a log of how they were changed.
+/// Shapes, lights, cameras, groups, materials, textures and settings, and a log of how they were changed.
 pub struct Scene {
     world: hecs::World,
     entities: BTreeMap<EntityId, hecs::Entity>,
@@ -49,7 +51,8 @@ pub struct Scene {
     /// What lies in no group, in order.
     roots: Vec<EntityId>,
     ids: Counter,
-    materials: Materials,
+    textures: Library<TextureId, Texture>,
+    materials: Library<MaterialId, Worn>,
     settings: Settings,
     log: Vec<Change>,
     revision: u64,
@@ -68,7 +71,8 @@ impl Scene {
             by_name: HashMap::new(),
             roots: Vec::new(),
             ids: Counter::START,
-            materials: Materials::new(),
+            textures: Library::new(),
+            materials: Library::new(),
             settings: Settings::default(),
             log: Vec::new(),
             revision: 0,
@@ -168,7 +172,7 @@ impl Scene {
     /// A material, `None` once it has been removed.
     #[must_use]
     pub fn find_material(&self, id: MaterialId) -> Option<&Material> {
-        self.materials.get(id).map(|(_, material)| material)
+        self.materials.get(id).map(|(_, worn)| &worn.material)
     }
 
     /// The name of a material.
@@ -188,7 +192,7 @@ impl Scene {
 
     /// All materials with their names, oldest first.
     pub fn materials(&self) -> impl Iterator<Item = (MaterialId, &str, &Material)> {
-        self.materials.iter()
+        self.materials.iter().map(|(id, name, worn)| (id, name, &worn.material))
     }
 
     /// The shapes that wear a material, oldest first.

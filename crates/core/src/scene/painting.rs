@@ -1,0 +1,96 @@
+//! Which textures does a scene have, what is painted with them, and how does a material finish?
+
+use super::{Edit, MaterialId, Scene, SceneError, TextureId};
+use crate::texture::{Texture, TextureSource};
+use crate::{Finish, Material, Part, Values};
+
+/// Textures, and the finish of materials.
+impl Scene {
+    /// Adds a texture.
+    ///
+    /// # Errors
+    /// A name that is empty or that another texture has.
+    pub fn add_texture(&mut self, name: &str, texture: impl Into<Texture>) -> Result<TextureId, SceneError> {
+        let id = self.next_texture_id();
+        self.apply(Edit::AddTexture { name: name.to_owned(), texture: texture.into(), id: None })?;
+        Ok(id)
+    }
+
+    /// A texture, `None` once it has been removed.
+    #[must_use]
+    pub fn find_texture(&self, id: TextureId) -> Option<&Texture> {
+        self.textures.get(id).map(|(_, texture)| texture)
+    }
+
+    /// The name of a texture, `None` once it has been removed.
+    #[must_use]
+    pub fn texture_name(&self, id: TextureId) -> Option<&str> {
+        self.textures.get(id).map(|(name, _)| name)
+    }
+
+    /// The texture of that name.
+    #[must_use]
+    pub fn texture_named(&self, name: &str) -> Option<TextureId> {
+        self.textures.named(name)
+    }
+
+    /// All textures with their names, oldest first.
+    pub fn textures(&self) -> impl Iterator<Item = (TextureId, &str, &Texture)> {
+        self.textures.iter()
+    }
+
+    /// The id that the next new texture gets. A batch uses it to name what it adds.
+    #[must_use]
+    pub fn next_texture_id(&self) -> TextureId {
+        self.textures.ids.peek_texture()
+    }
+
+    /// The materials that a texture is used in, oldest first.
+    #[must_use]
+    pub fn painted_with(&self, id: TextureId) -> Vec<MaterialId> {
+        let uses = |values: &Values| values.textures().any(|texture| texture == id);
+        let painted = |(_, _, worn): &(MaterialId, &str, &Worn)| {
+            uses(&worn.material.values()) || uses(&worn.finish.values())
+        };
+        self.materials.iter().filter(painted).map(|(id, ..)| id).collect()
+    }
+
+    /// What shapes of a material have beside its lobes; nothing special for a material that is not there.
+    #[must_use]
+    pub fn finish(&self, id: MaterialId) -> Finish {
+        self.materials.get(id).map(|(_, worn)| worn.finish).unwrap_or_default()
+    }
+
+    /// Whether the scene has every texture that these values name.
+    pub(super) fn check_textures(&self, values: &Values) -> Result<(), SceneError> {
+        let unknown = values.textures().find(|&texture| self.find_texture(texture).is_none());
+        unknown.map_or(Ok(()), |texture| Err(SceneError::UnknownTexture(texture)))
+    }
+
+    /// Whether no material is painted with a texture.
+    pub(super) fn check_unused(&self, id: TextureId) -> Result<(), SceneError> {
+        let painted = self.painted_with(id);
+        let Some(&first) = painted.first() else { return Ok(()) };
+        Err(SceneError::TextureInUse {
+            texture: self.texture_name(id).unwrap_or_default().to_owned(),
+            material: self.material_name(first).to_owned(),
+            others: painted.len() - 1,
+        })
+    }
+}
+
+impl TextureSource for Scene {
+    fn texture(&self, id: TextureId) -> Option<&Texture> {
+        self.find_texture(id)
+    }
+}
+
+/// What a shape wears.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Worn {
+    pub(super) material: Material,
+    pub(super) finish: Finish,
+}
+
+#[cfg(test)]
+mod tests;
