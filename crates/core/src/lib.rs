@@ -37,7 +37,7 @@ pub use error::InvalidPart;
 pub use geometry::{Geometry, Shape, TriangleMesh};
 pub use glam;
 pub use lane::{Arithmetic, Coefficient, Constant3, Lane, LaneMask, Triple};
-pub use light::{Arrival, Emitter, IntensityProfile, Lamp, Light};
+pub use light::{Arrival, Emitter, Environment, FromAfar, IntensityProfile, Lamp, Light};
 pub use lobe::{Bsdf, Continuation, LobeKinds, Lobes, Scatter, Scattered, ShadingPoint, SurfacePoint};
 pub use material::{Emission, Finish, Material, Medium, NormalMap, Sides, Surface};
 pub use part::{

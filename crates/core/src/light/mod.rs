@@ -6,6 +6,7 @@
 mod ambient;
 mod directional;
 mod disk;
+mod environment;
 mod luminaire;
 mod point;
 mod profile;
@@ -17,6 +18,7 @@ mod spot;
 pub use ambient::AmbientLight;
 pub use directional::DirectionalLight;
 pub use disk::DiskLight;
+pub use environment::{Environment, EnvironmentLight, FromAfar};
 pub use point::PointLight;
 pub use profile::{IntensityProfile, Pole};
 pub use rectangle::RectangleLight;
@@ -90,6 +92,11 @@ pub trait Emitter {
         None
     }
 
+    /// What surrounds the scene, of a light that is that; it [arrives](Self::arriving) from nowhere else.
+    fn environment(&self) -> Option<&Environment> {
+        None
+    }
+
     /// What a field that stands [instead of](Field::instead_of) another would have to be for the same light; `None` for
     /// other fields. Of a placed light it is what holds for its size in the world.
     fn equivalent(&self, _field: &str) -> Option<Value> {
@@ -139,6 +146,8 @@ crate::part::parts! {
         DiskLight,
         /// Light from a sphere.
         SphereLight,
+        /// Light from all around, infinitely far away.
+        EnvironmentLight,
     }
 }
 
@@ -184,6 +193,12 @@ impl Light {
     #[must_use]
     pub fn lamp(&self) -> Option<Lamp> {
         each_light!(self, light => light.lamp())
+    }
+
+    /// See [`Emitter::environment`].
+    #[must_use]
+    pub fn environment(&self) -> Option<&Environment> {
+        each_light!(self, light => light.environment())
     }
 
     /// See [`Emitter::equivalent`].

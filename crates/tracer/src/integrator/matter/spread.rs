@@ -1,0 +1,52 @@
+//! Over which part of a surface is what a ray shows to be averaged?
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Ray, Raster};
+
+/// How far the rays beside a ray lie from it: those of the pixels to the right and below.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Spread {
+    /// A camera ray: what the pixels beside add to its direction.
+    Pixel([DVec3; 2]),
+    /// After a bounce, a cone (Akenine-Möller and others, "Texture level of detail strategies for real-time ray tracing", Ray
+    /// Tracing Gems, 2019): metres across at its start, and what each metre of the way adds.
+    Cone { width: f64, growth: f64 },
+}
+
+impl Spread {
+    /// Of a camera ray that stands for a square of the picture of that side, in pixels.
+    pub(super) fn of_pixel(raster: &Raster, side: f64) -> Self {
+        Self::Pixel([raster.across * side, raster.down * side])
+    }
+
+    /// How far the points beside lie from where a ray meets a surface that is as good as flat, metres.
+    pub(super) fn on_surface(&self, ray: &Ray, t: f64, normal: DVec3) -> [DVec3; 2] {
+        let along = ray.direction.dot(normal);
+        let sides = match *self {
+            Self::Pixel(sides) => sides.map(|side| {
+                let beside = ray.direction + side;
+                beside * (t * along / beside.dot(normal)) - ray.direction * t
+            }),
+            Self::Cone { width, growth } => {
+                let unit = ray.direction.normalize_or_zero();
+                let across = width + growth * t * ray.direction.length();
+                let (right, up) = unit.any_orthonormal_pair();
+                [right, up].map(|side| {
+                    let side = side * across;
+                    side - ray.direction * (side.dot(normal) / along)
+                })
+            }
+        };
+        sides.map(|side| if side.is_finite() { side } else { DVec3::ZERO })
+    }
+
+    /// The cone that goes on from there, wider by so many radians where the surface is rough.
+    pub(super) fn after(&self, ray: &Ray, t: f64, wider: f64) -> Self {
+        let length = ray.direction.length();
+        let (width, growth) = match *self {
+            Self::Pixel(sides) => (0.0, sides[0].length().max(sides[1].length()) / length),
+            Self::Cone { width, growth } => (width, growth),
+        };
+        Self::Cone { width: width + growth * t * length, growth: growth + wider }
+    }
+}

@@ -1,0 +1,89 @@
+//! What do surfaces of a scene need that lanes do not know: lobes of many kinds, textures, finishes, media, light from all around?
+
+use std::collections::BTreeMap;
+
+use catoptra_core::texture::{Texture, TextureSource};
+use catoptra_core::{Environment, Finish, Material, Medium, Shape, Sides, TextureId};
+
+use super::Prim;
+
+/// What is particular about a material.
+#[derive(Debug, Clone)]
+pub(crate) struct MatterRow {
+    pub(crate) finish: Finish,
+    pub(crate) is_textured: bool,
+    /// What fills a solid of it.
+    pub(crate) medium: Option<Medium>,
+    /// The same without an inside, for surfaces that enclose nothing.
+    pub(crate) thin: Option<Material>,
+}
+
+impl MatterRow {
+    fn new(material: &Material, finish: Finish) -> Self {
+        let medium = material.medium();
+        let thin = || material.with("thin", catoptra_core::Value::Flag(true)).ok();
+        Self { finish, is_textured: material.is_textured(), medium, thin: medium.and_then(|_| thin()) }
+    }
+
+    /// Whether any light goes straight through.
+    pub(crate) fn is_see_through(&self) -> bool {
+        self.medium.is_some() || self.finish.is_see_through() || self.finish.sides() == Sides::Single
+    }
+
+    /// Whether lanes know all of it.
+    fn is_plain(&self) -> bool {
+        self.finish.is_plain() && !self.is_textured && self.medium.is_none()
+    }
+}
+
+/// What a snapshot holds beside what lanes know.
+#[derive(Debug, Default)]
+pub(crate) struct Matter {
+    /// By the index of the material.
+    pub(crate) rows: Vec<MatterRow>,
+    textures: BTreeMap<TextureId, Texture>,
+    /// Light from all around, if the scene has any; without one the background.
+    pub(crate) environment: Option<Environment>,
+    /// Whether any surface is see-through.
+    pub(crate) is_see_through: bool,
+    /// Whether lanes alone cannot shade the scene.
+    pub(crate) is_needed: bool,
+}
+
+impl Matter {
+    pub(super) fn new<'a>(
+        materials: impl Iterator<Item = (&'a Material, Finish)>,
+        textures: BTreeMap<TextureId, Texture>,
+        environment: Option<Environment>,
+    ) -> Self {
+        let (mut rows, mut is_needed) = (Vec::new(), environment.is_some());
+        for (material, finish) in materials {
+            let row = MatterRow::new(material, finish);
+            is_needed |= material.needs_bsdf() || !row.is_plain();
+            rows.push(row);
+        }
+        let is_see_through = rows.iter().any(MatterRow::is_see_through);
+        Self { rows, textures, environment, is_see_through, is_needed }
+    }
+
+    /// Of a shape.
+    pub(crate) fn row(&self, prim: &Prim) -> &MatterRow {
+        &self.rows[prim.material as usize]
+    }
+
+    /// What fills a shape; nothing fills one that encloses nothing.
+    pub(crate) fn medium_in(&self, prim: &Prim) -> Option<Medium> {
+        self.row(prim).medium.filter(|_| !is_a_sheet(&prim.shape))
+    }
+}
+
+impl TextureSource for Matter {
+    fn texture(&self, id: TextureId) -> Option<&Texture> {
+        self.textures.get(&id)
+    }
+}
+
+/// Whether a shape is a piece of a surface that has no inside. Planes bound half of space, and meshes are taken for solids.
+pub(crate) fn is_a_sheet(shape: &Shape) -> bool {
+    matches!(shape, Shape::Rectangle(_) | Shape::Disk(_) | Shape::Triangle(_))
+}
