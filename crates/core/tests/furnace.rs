@@ -13,7 +13,7 @@ fn seen_under(cosine: f64) -> SurfacePoint {
 
 /// What is shown in an even surrounding of radiance 1.
 fn shown(material: &Material, at: &SurfacePoint) -> Rgb {
-    const COUNT: u32 = 1 << 13;
+    const COUNT: u32 = 1 << 14;
     let bsdf = material.bsdf(at);
     let sum = (0..COUNT).fold(Rgb::BLACK, |sum, k| {
         // Roberts' sequence of three dimensions.

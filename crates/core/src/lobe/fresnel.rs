@@ -4,12 +4,10 @@
 //! "Fresnel equations considered harmful", MAM 2019): Schlick's curve from the colour at normal incidence, less a dip that
 //! multiplies it by the edge colour at the angle of cosine 1/7, about 82°.
 
-use std::sync::LazyLock;
-
 use crate::Rgb;
 use crate::numeric::LEAST_INDEX_STEP;
 
-use super::quadrature::{Node, gauss_legendre};
+use super::quadrature::mean_over_cosines;
 
 /// Share of unpolarised light that the boundary between two clear media reflects: the mean of both polarisations. `cosine` in
 /// 0..=1 is that of the angle to the normal on the side that the light is on, `eta` the index of refraction beyond over that
@@ -38,9 +36,7 @@ pub fn transmitted_cosine(cosine: f64, eta: f64) -> Option<f64> {
 /// `eta` of at least 1.
 #[must_use]
 pub fn mean_dielectric(eta: f64) -> f64 {
-    static NODES: LazyLock<Vec<Node>> = LazyLock::new(|| gauss_legendre(32));
-    // By the root of the cosine, as the curve is steepest at grazing angles.
-    NODES.iter().map(|n| 4.0 * n.at.powi(3) * dielectric(n.at * n.at, eta) * n.weight).sum()
+    mean_over_cosines(|cosine| dielectric(cosine, eta))
 }
 
 /// Whether two media are one, optically.

@@ -69,11 +69,20 @@ impl Ggx {
     /// A normal of those that are seen from `o`, as dense as they are seen, chosen by two numbers in 0..1.
     #[must_use]
     pub fn visible_normal(&self, o: DVec3, [turn, along]: [f64; 2]) -> DVec3 {
-        let stretched = DVec3::new(o.x * self.x, o.y * self.y, o.z).normalize();
+        let (sin, cos) = (2.0 * PI * turn).sin_cos();
+        self.normal_on_cap(self.stretched(o), [cos, sin], along)
+    }
+
+    /// A direction as it is seen where this surface is stretched to a half sphere.
+    pub(super) fn stretched(&self, o: DVec3) -> DVec3 {
+        DVec3::new(o.x * self.x, o.y * self.y, o.z).normalize()
+    }
+
+    /// The visible normal that belongs to a direction mirrored by the half sphere: those are spread evenly over a cap.
+    pub(super) fn normal_on_cap(&self, stretched: DVec3, turn: [f64; 2], along: f64) -> DVec3 {
         let z = (1.0 - along) * (1.0 + stretched.z) - stretched.z;
         let across = (1.0 - z * z).max(0.0).sqrt();
-        let (sin, cos) = (2.0 * PI * turn).sin_cos();
-        let h = DVec3::new(across * cos, across * sin, z) + stretched;
+        let h = DVec3::new(across * turn[0], across * turn[1], z) + stretched;
         // Only where the cap's rim is hit to the last digit is there nothing to normalise.
         DVec3::new(h.x * self.x, h.y * self.y, h.z.max(0.0)).try_normalize().unwrap_or(DVec3::Z)
     }

@@ -1,8 +1,7 @@
 //! At which points is an integral taken?
 
+use std::ops::{Add, Mul};
 use std::sync::LazyLock;
-
-use crate::Rgb;
 
 /// A place in 0..1 and what it counts for.
 #[derive(Debug, Clone, Copy)]
@@ -12,9 +11,10 @@ pub(super) struct Node {
 }
 
 /// The rule of Gauss and Legendre with `n` points over 0..1, by Newton's method on the recurrence of Legendre's polynomials.
-pub(super) fn gauss_legendre(n: u32) -> Vec<Node> {
-    let root = |k: u32| {
-        let mut x = (std::f64::consts::PI * (f64::from(k) + 0.75) / (f64::from(n) + 0.5)).cos();
+pub(super) fn gauss_legendre<const N: usize>() -> [Node; N] {
+    let n = N as u32;
+    std::array::from_fn(|k| {
+        let mut x = (std::f64::consts::PI * (k as f64 + 0.75) / (f64::from(n) + 0.5)).cos();
         let mut slope = 1.0;
         // Convergence is quadratic from a start that is good to some thousandths.
         for _ in 0..6 {
@@ -23,19 +23,14 @@ pub(super) fn gauss_legendre(n: u32) -> Vec<Node> {
             x -= value / slope;
         }
         Node { at: f64::midpoint(1.0, x), weight: 1.0 / ((1.0 - x * x) * slope * slope) }
-    };
-    (0..n).map(root).collect()
+    })
 }
 
-/// The mean of two colours over cosines from 0 to 1, weighted by twice the cosine.
-pub(super) fn mean_over_cosines(value: impl Fn(f64) -> [Rgb; 2]) -> [Rgb; 2] {
-    static NODES: LazyLock<Vec<Node>> = LazyLock::new(|| gauss_legendre(24));
-    // By the root of the cosine, as what is reflected changes most at grazing angles.
-    NODES.iter().fold([Rgb::BLACK; 2], |[a, b], node| {
-        let [more_a, more_b] = value(node.at * node.at);
-        let weight = 4.0 * node.at.powi(3) * node.weight;
-        [a + more_a * weight, b + more_b * weight]
-    })
+/// ∫ 2µ `value`(µ) dµ over cosines µ from 0 to 1: by the cube root of µ, as what surfaces do changes most at grazing angles.
+pub(super) fn mean_over_cosines<T: Add<Output = T> + Mul<f64, Output = T>>(value: impl Fn(f64) -> T) -> T {
+    static NODES: LazyLock<[Node; 32]> = LazyLock::new(gauss_legendre);
+    let [first, rest @ ..] = NODES.each_ref().map(|n| value(n.at.powi(3)) * (6.0 * n.at.powi(5) * n.weight));
+    rest.into_iter().fold(first, Add::add)
 }
 
 /// The polynomials of degree n and n − 1.
@@ -51,12 +46,21 @@ mod tests {
 
     #[test]
     fn polynomials_are_integrated_exactly() {
-        for n in [1, 2, 5, 16, 32] {
-            let nodes = gauss_legendre(n);
-            for power in 0..(2 * n as i32) {
-                let sum: f64 = nodes.iter().map(|node| node.at.powi(power) * node.weight).sum();
-                assert!((sum * f64::from(power + 1) - 1.0).abs() < 1e-12, "{n} {power}: {sum}");
-            }
+        exact(&gauss_legendre::<1>());
+        exact(&gauss_legendre::<5>());
+        exact(&gauss_legendre::<32>());
+    }
+
+    fn exact(nodes: &[Node]) {
+        for power in 0..(2 * nodes.len() as i32) {
+            let sum: f64 = nodes.iter().map(|node| node.at.powi(power) * node.weight).sum();
+            assert!((sum * f64::from(power + 1) - 1.0).abs() < 1e-12, "{} {power}: {sum}", nodes.len());
         }
+    }
+
+    #[test]
+    fn means_over_cosines_are_weighted_by_twice_the_cosine() {
+        assert!((mean_over_cosines(|_| 1.0) - 1.0).abs() < 1e-14);
+        assert!((mean_over_cosines(|cosine| (1.0 - cosine).powi(5)) - 1.0 / 21.0).abs() < 1e-14);
     }
 }

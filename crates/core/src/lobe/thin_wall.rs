@@ -9,6 +9,7 @@ use super::fresnel::{dielectric, transmitted_cosine};
 use super::ggx::Ggx;
 use super::ggx_reflection::half_angle_cosine;
 use super::local::{LocalLobe, LocalSample, Rays, mirrored};
+use super::quadrature::mean_over_cosines;
 use crate::Rgb;
 use crate::optics::reflect;
 
@@ -39,7 +40,7 @@ impl ThinWall {
     /// The mean of [`shares`](Self::shares), weighted by twice the cosine.
     #[must_use]
     pub fn mean_shares(&self) -> [Rgb; 2] {
-        super::quadrature::mean_over_cosines(|cosine| self.shares(cosine))
+        [0, 1].map(|way| mean_over_cosines(|cosine| self.shares(cosine)[way]))
     }
 }
 

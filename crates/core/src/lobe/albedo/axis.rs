@@ -20,9 +20,10 @@ impl Stencil {
         Self { first, weights: [-b * c * d / 6.0, a * c * d / 2.0, -a * b * d / 2.0, a * b * c / 6.0] }
     }
 
-    /// The value there.
+    /// The value there. Values that do not count are not asked for.
     pub(super) fn of(&self, value: impl Fn(usize) -> f64) -> f64 {
-        (0..4).map(|k| self.weights[k] * value(self.first + k)).sum()
+        let counted = self.weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0);
+        counted.map(|(k, weight)| weight * value(self.first + k)).sum()
     }
 }
 
@@ -75,6 +76,27 @@ pub(super) fn cosine_at(place: f64, scale: f64) -> f64 {
     scale * place / (1.0 + scale - place)
 }
 
+/// Cosines on an axis that is fine within `scale` of 0 and of a cosine `edge`, which stands in its middle.
+pub(super) fn place_about_edge(cosine: f64, edge: f64, scale: f64) -> f64 {
+    if cosine < edge {
+        let (x, scale) = (cosine / edge, scale / edge);
+        0.25 * (place_of_cosine(x, scale) + 1.0 - place_of_cosine(1.0 - x, scale))
+    } else {
+        let rest = 1.0 - edge;
+        0.5 + 0.5 * place_of_cosine((cosine - edge) / rest, scale / rest)
+    }
+}
+
+/// The cosine that stands there, by bisection.
+pub(super) fn cosine_about_edge(place: f64, edge: f64, scale: f64) -> f64 {
+    let [mut low, mut high] = [0.0, 1.0];
+    for _ in 0..f64::MANTISSA_DIGITS {
+        let middle = f64::midpoint(low, high);
+        if place_about_edge(middle, edge, scale) < place { low = middle } else { high = middle }
+    }
+    high
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -94,6 +116,7 @@ mod tests {
         for x in [0.0, 0.2, 0.7, 1.0] {
             assert!((place_of_alpha(alpha_at(x)) - x).abs() < 1e-14);
             assert!((place_of_cosine(cosine_at(x, 0.05), 0.05) - x).abs() < 1e-14);
+            assert!((place_about_edge(cosine_about_edge(x, 0.7, 0.05), 0.7, 0.05) - x).abs() < 1e-14);
         }
     }
 }

@@ -1,15 +1,11 @@
 //! What is a quantity on average over the facets of a rough surface that are seen?
 
-use std::sync::LazyLock;
+use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::super::ggx::Ggx;
-use super::super::quadrature::{Node, gauss_legendre};
+use crate::lobe::ggx::Ggx;
 use crate::numeric::LEAST_COSINE;
-
-/// Nodes round the normal (half a turn, as the other half is its mirror image) and along it.
-static NODES: LazyLock<[Vec<Node>; 2]> = LazyLock::new(|| [gauss_legendre(14), gauss_legendre(22)]);
 
 /// Where a surface is seen from, under that cosine.
 pub(super) fn seen_under(cosine: f64) -> DVec3 {
@@ -17,18 +13,35 @@ pub(super) fn seen_under(cosine: f64) -> DVec3 {
     DVec3::new((1.0 - cosine * cosine).max(0.0).sqrt(), 0.0, cosine)
 }
 
-/// The mean of `value` over the facet normals that are visible from `o`, which lies over the x axis.
-pub(super) fn mean_over_visible(ggx: &Ggx, o: DVec3, value: impl Fn(DVec3) -> f64) -> f64 {
-    let [round, along] = &*NODES;
-    let at = |turn: &Node, along: &Node| {
-        turn.weight * along.weight * value(ggx.visible_normal(o, [0.5 * turn.at, along.at]))
-    };
-    round.iter().map(|turn| along.iter().map(|along| at(turn, along)).sum::<f64>()).sum()
+/// Points that stand for all visible facets: the numbers that choose them, and what each counts for.
+///
+/// Places turn by the golden ratio, and steps along are finer where facets are steep, as edges of what is seen lie there.
+/// Products of one-dimensional rules do worse: what is asked has edges at the horizon and at the angle of total reflection.
+#[derive(Debug, Clone)]
+pub(super) struct CapPoints(Vec<CapPoint>);
+
+#[derive(Debug, Clone, Copy)]
+struct CapPoint {
+    /// Cosine and sine of the turn.
+    turn: [f64; 2],
+    along: f64,
+    weight: f64,
 }
 
-/// ∫ 2µ `value`(µ) dµ over cosines µ from 0 to 1, for what changes most where they are small.
-pub(super) fn mean_over_cosines(value: impl Fn(f64) -> f64) -> f64 {
-    static NODES: LazyLock<Vec<Node>> = LazyLock::new(|| gauss_legendre(40));
-    // By the cube root: µ = t³.
-    NODES.iter().map(|n| 6.0 * n.at.powi(5) * n.weight * value(n.at.powi(3))).sum()
+impl CapPoints {
+    pub(super) fn new(count: u32) -> Self {
+        let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+        let point = |k: u32| {
+            let left = 1.0 - (f64::from(k) + 0.5) / f64::from(count);
+            let (sin, cos) = ((f64::from(k) * golden).fract() * TAU).sin_cos();
+            CapPoint { turn: [cos, sin], along: 1.0 - left * left, weight: 2.0 * left / f64::from(count) }
+        };
+        Self((0..count).map(point).collect())
+    }
+
+    /// The mean of `value` over the facet normals that are visible from `o`.
+    pub(super) fn mean(&self, ggx: &Ggx, o: DVec3, value: impl Fn(DVec3) -> f64) -> f64 {
+        let stretched = ggx.stretched(o);
+        self.0.iter().map(|p| p.weight * value(ggx.normal_on_cap(stretched, p.turn, p.along))).sum()
+    }
 }
