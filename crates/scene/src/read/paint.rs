@@ -65,7 +65,7 @@ impl Reader<'_> {
                 Some(name @ (TEXTURE | CHANNEL)) => {
                     let painted = painted.get_or_insert_default();
                     let word = self.read_word(name, entry);
-                    *(if name == TEXTURE { &mut painted.texture } else { &mut painted.channel }) = word;
+                    *(if name == TEXTURE { &mut painted.texture } else { &mut painted.channel }) = Some(word);
                     painted.spans.push(span);
                 }
                 name => {
@@ -78,16 +78,16 @@ impl Reader<'_> {
         (values, painted)
     }
 
-    /// A word in quotes behind a property.
-    fn read_word(&mut self, name: &str, entry: &KdlEntry) -> Option<Word> {
+    /// A word in quotes behind a property; empty where it is none, which is complained about.
+    fn read_word(&mut self, name: &str, entry: &KdlEntry) -> Word {
         self.refuse_odd_quotes(entry);
         let span = value_span(entry);
-        let value = entry.value().as_string();
-        if value.is_none() {
+        let value = entry.value().as_string().unwrap_or_default().to_owned();
+        if value.is_empty() {
             let what = if name == TEXTURE { "the name of a texture" } else { "the name of a channel" };
             self.complaints.add(span.clone(), format!("{name} needs {what} in quotes"));
         }
-        value.map(|value| Word { value: value.to_owned(), span })
+        Word { value, span }
     }
 
     /// A value with the texture that multiplies it; `None` where that was complained about.
@@ -108,7 +108,7 @@ impl Reader<'_> {
 
     fn read_channel(&mut self, word: &Word) -> Option<Channel> {
         let found = Channel::named(&word.value);
-        if found.is_none() {
+        if found.is_none() && !word.value.is_empty() {
             let known = Channel::ALL.map(Channel::word);
             let message = format!("{CHANNEL} is one of {}, not \"{}\"", known.join(", "), word.value);
             self.complaints.add_with(
@@ -123,7 +123,7 @@ impl Reader<'_> {
     /// The texture of that name.
     pub(super) fn texture_of(&mut self, name: &Word) -> Option<TextureId> {
         let found = self.textures.get(&name.value).copied();
-        if found.is_none() {
+        if found.is_none() && !name.value.is_empty() {
             let mut known: Vec<&str> = self.textures.keys().map(String::as_str).collect();
             known.sort_unstable();
             let help = self.complaints.hint(|| words::hint(&name.value, &known, "textures"));
