@@ -1,10 +1,10 @@
-//! How a scene is built from what its text says: materials first, then entities group by group.
+//! How a scene is built from what its text says: textures and materials first, then entities group by group.
 
 use std::collections::HashMap;
 
-use catoptra_core::scene::{Content, Edit, EntityId, MaterialId, Node, Scene, Subtree};
+use catoptra_core::scene::{Content, Edit, EntityId, MaterialId, Node, Scene, Subtree, TextureId};
 
-use crate::outline::{Item, Outline, Part, Word};
+use crate::outline::{Item, Outline, Part, Sort, Word};
 use crate::report::Complaints;
 use crate::words;
 
@@ -12,6 +12,7 @@ use crate::words;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Id {
     Settings,
+    Texture(TextureId),
     Material(MaterialId),
     Entity(EntityId),
 }
@@ -28,6 +29,7 @@ pub(crate) fn build(outline: &Outline, complaints: &mut Complaints) -> (Scene, V
         ids: vec![None; outline.items.len()],
     };
     builder.check_names(outline);
+    builder.add_textures(outline);
     builder.add_materials(outline);
     builder.add_entities(outline);
     let ids = builder.ids.into_iter().map(|id| id.unwrap_or(Id::Settings)).collect();
@@ -37,8 +39,8 @@ pub(crate) fn build(outline: &Outline, complaints: &mut Complaints) -> (Scene, V
 struct Builder<'a> {
     scene: Scene,
     complaints: &'a mut Complaints,
-    /// Where every name was first given; materials have names of their own.
-    first: HashMap<(bool, &'a str), usize>,
+    /// Where every name was first given, by what shares a list of names.
+    first: HashMap<(&'static str, &'a str), usize>,
     materials: HashMap<&'a str, MaterialId>,
     /// Names of all materials, those that could not be made too.
     names: Vec<&'a str>,
@@ -63,15 +65,19 @@ impl<'a> Builder<'a> {
     }
 
     fn check_name(&mut self, item: &Item, name: &'a Word) {
-        let key = (item.sort.is_entity(), name.value.as_str());
+        let whose = match item.sort {
+            Sort::Texture(_) => "texture",
+            Sort::Material(_) => "material",
+            _ => "shape, light, camera or group",
+        };
+        let key = (whose, name.value.as_str());
         if let Some(&first) = self.first.get(&key) {
-            let whose = if key.0 { "shape, light, camera or group" } else { "material" };
             let message = format!("the name \"{}\" is taken by another {whose}", name.value);
             self.again(name.span.clone(), message, first);
             return;
         }
         self.first.insert(key, item.span.start);
-        if !key.0 {
+        if matches!(item.sort, Sort::Material(_)) {
             self.names.push(&name.value);
         }
     }
@@ -80,10 +86,30 @@ impl<'a> Builder<'a> {
         self.complaints.add_again(span, message, first);
     }
 
+    fn add_textures(&mut self, outline: &Outline) {
+        for (i, item) in outline.items.iter().enumerate() {
+            let (Some(Part::Texture(texture)), Some(name)) = (&item.part, &item.name) else { continue };
+            let id = outline.textures.get(&name.value).copied();
+            let add = Edit::AddTexture { name: name.value.clone(), texture: texture.clone(), id };
+            match self.scene.apply(add) {
+                Ok(_) => self.ids[i] = self.scene.texture_named(&name.value).map(Id::Texture),
+                Err(error) => self.refused(item, &error),
+            }
+        }
+    }
+
     fn add_materials(&mut self, outline: &'a Outline) {
         for (i, item) in outline.items.iter().enumerate() {
-            let (Some(Part::Material(material)), Some(name)) = (&item.part, &item.name) else { continue };
-            match self.scene.add_material(&name.value, material.clone()) {
+            let (Some(Part::Material(material, finish)), Some(name)) = (&item.part, &item.name) else {
+                continue;
+            };
+            let mut added = self.scene.add_material(&name.value, material.clone());
+            if let (Ok(id), false) = (&added, finish.is_plain())
+                && let Err(error) = self.scene.apply(Edit::Finish(*id, *finish))
+            {
+                added = Err(error);
+            }
+            match added {
                 Ok(id) => {
                     self.ids[i] = Some(Id::Material(id));
                     self.materials.insert(&name.value, id);
@@ -100,7 +126,7 @@ impl<'a> Builder<'a> {
                 continue;
             };
             let content = match part {
-                Part::Material(_) => continue,
+                Part::Texture(_) | Part::Material(..) => continue,
                 Part::Settings(settings) => {
                     if let Err(error) = self.scene.apply(Edit::Settings(*settings)) {
                         self.refused(item, &error);

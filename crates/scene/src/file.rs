@@ -107,7 +107,7 @@ pub fn parse(text: &str, name: &str, base: Option<&Path>) -> Result<(Scene, Scen
     let mended = slip::mend(text);
     let mut complaints = Complaints::new();
     if mended.as_ref().is_none_or(Mended::is_doubtful) {
-        let outline = read::read(text, &mut files, &mut complaints);
+        let outline = read::read(text, None, &mut files, &mut complaints);
         let (scene, ids) = build::build(&outline, &mut complaints);
         if complaints.count() == 0 {
             let text = text.to_owned();
@@ -126,7 +126,7 @@ fn without_slips(mended: &Mended, files: &mut Files) -> Complaints {
     let (mut slips, mut behind) = (Complaints::new(), Complaints::new());
     mended.tell(&mut slips);
     if mended.is_to_be_read() {
-        let outline = read::read(&mended.text, files, &mut behind);
+        let outline = read::read(&mended.text, None, files, &mut behind);
         build::build(&outline, &mut behind);
         slips.take_over(behind, |at| mended.place(at));
     }
@@ -181,6 +181,11 @@ impl SceneFile {
         self.files.profile_paths()
     }
 
+    /// Where the pictures lie that it names.
+    pub fn image_paths(&self) -> impl Iterator<Item = PathBuf> {
+        self.files.image_paths()
+    }
+
     /// The text, as of the last [`Self::update`].
     #[must_use]
     pub fn text(&self) -> String {
@@ -226,30 +231,34 @@ impl SceneFile {
             };
             values.iter().for_each(|(_, value)| self.files.know(value));
         }
+        for (_, _, texture) in scene.textures() {
+            texture.values().iter().for_each(|(_, value)| self.files.know(value));
+        }
     }
 
     fn follow(&mut self, scene: &Scene) -> Option<()> {
-        self.splice(write::edit(&self.text, &self.outline, &self.ids, scene))?;
+        self.splice(scene, write::edit(&self.text, &self.outline, &self.ids, scene))?;
         // Every call settles at least one node.
         for _ in 0..=self.ids.len() + scene.entities().len() + 2 {
             let splices = write::arrange(&self.text, &self.outline, &self.ids, scene);
             if splices.is_empty() {
                 break;
             }
-            self.splice(splices)?;
+            self.splice(scene, splices)?;
         }
-        self.splice(write::remove(&self.text, &self.outline, &self.ids, scene))
+        self.splice(scene, write::remove(&self.text, &self.outline, &self.ids, scene))
     }
 
     /// Changes the text and reads it again; `None` if it does not say then what it should.
-    fn splice(&mut self, splices: Vec<Splice>) -> Option<()> {
+    fn splice(&mut self, scene: &Scene, splices: Vec<Splice>) -> Option<()> {
         if splices.is_empty() {
             return Some(());
         }
         let starts: Vec<usize> = self.outline.items.iter().map(|item| item.span.start).collect();
         let (text, moved, new) = write::apply(&self.text, splices, &starts);
         let mut complaints = Complaints::new();
-        let outline = read::read(&text, &mut self.files, &mut complaints);
+        let names = scene.textures().map(|(id, name, _)| (name.to_owned(), id)).collect();
+        let outline = read::read(&text, Some(names), &mut self.files, &mut complaints);
         if complaints.count() > 0 {
             return None;
         }

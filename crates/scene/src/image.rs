@@ -1,10 +1,17 @@
-//! How pictures go out to PNG files and come in from them.
+//! How pictures go out to PNG files and come in from them, and from JPEG, OpenEXR and Radiance files.
+
+mod jpeg;
+mod load;
+mod openexr;
+mod png_texture;
+mod radiance;
 
 use std::fs::File;
 use std::io::{self, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use crate::{atomic, printable};
+pub use load::{load, load_bytes};
 
 /// A picture of 8-bit red, green, blue: row-major from the top left, `3 * width * height` bytes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -56,6 +63,18 @@ pub struct ImageError {
 impl ImageError {
     fn new(path: &Path, message: impl std::fmt::Display) -> Self {
         Self { path: path.to_owned(), message: message.to_string() }
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn file(&self) -> &Path {
+        &self.path
+    }
+
+    /// What is wrong, without the file; as the file spells it, controls included.
+    #[must_use]
+    pub fn message(&self) -> &str {
+        &self.message
     }
 }
 

@@ -1,9 +1,12 @@
 //! What scene text says, and where in the text it says it: the ground for building a scene and for changing the text.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use catoptra_core::scene::Settings;
-use catoptra_core::{Camera, Field, InvalidPart, Kind, Light, Material, Placement, Shape, Values};
+use catoptra_core::{
+    Camera, Field, Finish, InvalidPart, Kind, Light, Material, Placement, Shape, Texture, TextureId, Values,
+};
 
 /// A place in the text, in bytes.
 pub(crate) type Span = Range<usize>;
@@ -12,6 +15,7 @@ pub(crate) type Span = Range<usize>;
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Sort {
     Settings,
+    Texture(&'static Kind<Texture>),
     Material(&'static Kind<Material>),
     Shape(&'static Kind<Shape>),
     Light(&'static Kind<Light>),
@@ -34,6 +38,9 @@ impl Sort {
         if let Some(kind) = Material::kind_named(word) {
             return Some(Self::Material(kind));
         }
+        if let Some(kind) = Texture::kind_named(word) {
+            return Some(Self::Texture(kind));
+        }
         match word {
             GROUP => Some(Self::Group),
             _ if word == Camera::KIND.name => Some(Self::Camera),
@@ -42,13 +49,14 @@ impl Sort {
         }
     }
 
-    /// Every word that [`Self::named`] knows; without materials and settings where those cannot stand.
+    /// Every word that [`Self::named`] knows; without materials, textures and settings where those cannot stand.
     pub(crate) fn words(in_group: bool) -> Vec<&'static str> {
         let mut words: Vec<&'static str> = Shape::KINDS.iter().map(|k| k.name).collect();
         words.extend(Light::KINDS.iter().map(|k| k.name));
         words.extend([Camera::KIND.name, GROUP]);
         if !in_group {
             words.extend(Material::KINDS.iter().map(|k| k.name));
+            words.extend(Texture::KINDS.iter().map(|k| k.name));
             words.push(Settings::KIND.name);
         }
         words
@@ -58,6 +66,7 @@ impl Sort {
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Settings => Settings::KIND.name,
+            Self::Texture(kind) => kind.name,
             Self::Material(kind) => kind.name,
             Self::Shape(kind) => kind.name,
             Self::Light(kind) => kind.name,
@@ -66,23 +75,32 @@ impl Sort {
         }
     }
 
-    /// Its fields.
-    pub(crate) fn fields(self) -> &'static [Field] {
-        match self {
+    /// Its fields; of a material also those that any has.
+    pub(crate) fn fields(self) -> impl Iterator<Item = &'static Field> {
+        let own: &[Field] = match self {
             Self::Settings => Settings::KIND.fields,
+            Self::Texture(kind) => kind.fields,
             Self::Material(kind) => kind.fields,
             Self::Shape(kind) => kind.fields,
             Self::Light(kind) => kind.fields,
             Self::Camera => Camera::KIND.fields,
             Self::Group => &[],
-        }
+        };
+        let common: &[Field] = if matches!(self, Self::Material(_)) { Finish::KIND.fields } else { &[] };
+        own.iter().chain(common)
+    }
+
+    /// The field of that name.
+    pub(crate) fn field(self, name: &str) -> Option<&'static Field> {
+        self.fields().find(|field| field.name == name)
     }
 
     /// Makes the part from its values.
     pub(crate) fn make(self, values: &Values) -> Result<Part, InvalidPart> {
         Ok(match self {
             Self::Settings => Part::Settings((Settings::KIND.make)(values)?),
-            Self::Material(kind) => Part::Material((kind.make)(values)?),
+            Self::Texture(kind) => Part::Texture((kind.make)(values)?),
+            Self::Material(kind) => Part::Material((kind.make)(values)?, (Finish::KIND.make)(values)?),
             Self::Shape(kind) => Part::Shape((kind.make)(values)?),
             Self::Light(kind) => Part::Light((kind.make)(values)?),
             Self::Camera => Part::Camera((Camera::KIND.make)(values)?),
@@ -100,7 +118,8 @@ impl Sort {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Part {
     Settings(Settings),
-    Material(Material),
+    Texture(Texture),
+    Material(Material, Finish),
     Shape(Shape),
     Light(Light),
     Camera(Camera),
@@ -112,7 +131,8 @@ impl Part {
     pub(crate) fn sort(&self) -> Sort {
         match self {
             Self::Settings(_) => Sort::Settings,
-            Self::Material(material) => Sort::Material(material.kind()),
+            Self::Texture(texture) => Sort::Texture(texture.kind()),
+            Self::Material(material, _) => Sort::Material(material.kind()),
             Self::Shape(shape) => Sort::Shape(shape.kind()),
             Self::Light(light) => Sort::Light(light.kind()),
             Self::Camera(_) => Sort::Camera,
@@ -124,7 +144,11 @@ impl Part {
     pub(crate) fn values(&self) -> Values {
         match self {
             Self::Settings(settings) => settings.values(),
-            Self::Material(material) => material.values(),
+            Self::Texture(texture) => texture.values(),
+            Self::Material(material, finish) => {
+                let finish = catoptra_core::Part::values(finish);
+                finish.iter().fold(material.values(), |all, (name, value)| all.with(name, value.clone()))
+            }
             Self::Shape(shape) => shape.values(),
             Self::Light(light) => light.values(),
             Self::Camera(camera) => catoptra_core::Part::values(camera),
@@ -150,6 +174,19 @@ pub(crate) struct FieldText {
     pub(crate) values: Vec<Span>,
     /// Whether it is a property of its node.
     pub(crate) property: bool,
+    /// Its value, where that is the name of a texture.
+    pub(crate) word: Option<String>,
+    /// The texture that multiplies its value.
+    pub(crate) painted: Option<Painted>,
+}
+
+/// The texture that multiplies a value, as written.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Painted {
+    pub(crate) texture: Option<Word>,
+    pub(crate) channel: Option<Word>,
+    /// The properties, with their names.
+    pub(crate) spans: Vec<Span>,
 }
 
 /// One step of a placement, as written.
@@ -162,7 +199,7 @@ pub(crate) struct StepText {
     pub(crate) before: Placement,
 }
 
-/// A node: a material, an entity or the settings.
+/// A node: a material, a texture, an entity or the settings.
 #[derive(Debug, Clone)]
 pub(crate) struct Item {
     pub(crate) sort: Sort,
@@ -191,4 +228,6 @@ pub(crate) struct Item {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Outline {
     pub(crate) items: Vec<Item>,
+    /// The ids that the names of textures stand for.
+    pub(crate) textures: HashMap<String, TextureId>,
 }

@@ -22,9 +22,16 @@ impl State {
     pub(crate) fn of(scene: &Scene, id: Id) -> Option<Self> {
         match id {
             Id::Settings => Some(Self::unplaced(Part::Settings(*scene.settings()), String::new())),
+            Id::Texture(id) => {
+                let texture = scene.find_texture(id)?.clone();
+                Some(Self::unplaced(Part::Texture(texture), scene.texture_name(id)?.to_owned()))
+            }
             Id::Material(id) => {
                 let material = scene.find_material(id)?.clone();
-                Some(Self::unplaced(Part::Material(material), scene.material_name(id).to_owned()))
+                Some(Self::unplaced(
+                    Part::Material(material, scene.finish(id)),
+                    scene.material_name(id).to_owned(),
+                ))
             }
             Id::Entity(id) => Self::of_entity(scene, id),
         }

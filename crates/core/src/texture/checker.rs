@@ -11,7 +11,7 @@ use crate::{Field, FieldKind, InvalidPart, Part, Rgb, Value, Values};
 pub struct CheckerTexture {
     color: Rgb,
     other: Rgb,
-    transform: Transform,
+    pub(super) transform: Transform,
 }
 
 impl Part for CheckerTexture {

@@ -3,6 +3,8 @@
 //! Perlin, "Improving Noise", SIGGRAPH 2002, with a hash of whole numbers in place of a table. Octaves finer than a pixel are
 //! faded out, as in Ebert et al., *Texturing and Modeling* (3rd ed., 2003), ch. 2.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
 use super::transform::Solid;
@@ -10,8 +12,8 @@ use super::transform::Solid;
 /// Each octave weighs half of the one before, and is twice as fine.
 const GAIN: f64 = 0.5;
 
-/// The mean of the magnitude of gradient noise, over all space: measured, 10⁷ points, ± 1e-4.
-pub(super) const MEAN_MAGNITUDE: f64 = 0.2045;
+/// The mean of the magnitude of gradient noise, over all space: measured over 10⁷ points.
+pub(super) const MEAN_MAGNITUDE: f64 = 0.2202;
 
 /// Gradient noise: about −1..1, 0 on average and on whole coordinates.
 pub(super) fn noise(p: DVec3) -> f64 {
@@ -72,10 +74,14 @@ pub(super) fn octaves(at: &Solid, octaves: u32, mean: f64, shape: impl Fn(f64) -
     sum / weights
 }
 
-/// How much of an octave is shown by a pixel so many of its cells wide: all up to a quarter, nothing from one on. What the
-/// box of a pixel makes of a wave that is a cell and a half long (the middle of the noise's spectrum) is half of it where the
-/// pixel is some 0.6 cells wide; a smooth step stands for it.
+/// How much of an octave is shown by a pixel so many of its cells wide: what the box of the pixel leaves of a wave of 4/3
+/// cells, which is about the middle of the noise's spectrum; nothing from 4/3 cells on.
 fn shown(width: f64) -> f64 {
-    let share = ((1.0 - width) / 0.75).clamp(0.0, 1.0);
-    if share.is_nan() { 0.0 } else { share * share * (3.0 - 2.0 * share) }
+    let phase = 0.75 * PI * width;
+    match () {
+        () if phase < 1e-9 => 1.0,
+        () if phase < PI => phase.sin() / phase,
+        // Also where the width is no number.
+        () => 0.0,
+    }
 }

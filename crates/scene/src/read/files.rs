@@ -1,12 +1,12 @@
-//! How the meshes and profiles that a scene names are found and read, each once.
+//! How the meshes, profiles and pictures that a scene names are found and read, each once.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use catoptra_core::{IntensityProfile, MeshSource, ProfileSource, TriangleMesh, Value};
+use catoptra_core::{Image, ImageSource, IntensityProfile, MeshSource, ProfileSource, TriangleMesh, Value};
 
-use crate::{ies, mesh};
+use crate::{ies, image, mesh};
 
 /// The files of one scene, by the path that the text names, and why some cannot be had.
 #[derive(Debug, Clone, Default)]
@@ -14,6 +14,7 @@ pub(crate) struct Files {
     base: Option<PathBuf>,
     meshes: Known<TriangleMesh>,
     profiles: Known<IntensityProfile>,
+    images: Known<Image>,
 }
 
 /// What is known of files of one kind.
@@ -27,14 +28,26 @@ impl Files {
 
     /// The mesh at `path`, read now or before.
     pub(crate) fn mesh(&mut self, path: &str) -> Result<MeshSource, String> {
-        let mesh = get(&mut self.meshes, self.base.as_deref(), path, mesh::read)?;
+        let mesh = get(&mut self.meshes, self.base.as_deref(), path, |file| mesh::read(file).map(Arc::new))?;
         Ok(MeshSource { path: path.to_owned(), mesh })
     }
 
     /// The intensity profile at `path`, read now or before.
     pub(crate) fn profile(&mut self, path: &str) -> Result<ProfileSource, String> {
-        let profile = get(&mut self.profiles, self.base.as_deref(), path, ies::read)?;
+        let profile =
+            get(&mut self.profiles, self.base.as_deref(), path, |file| ies::read(file).map(Arc::new))?;
         Ok(ProfileSource { path: path.to_owned(), profile })
+    }
+
+    /// The picture at `path`, read now or before.
+    pub(crate) fn image(&mut self, path: &str) -> Result<ImageSource, String> {
+        let image = get(&mut self.images, self.base.as_deref(), path, image::load)?;
+        Ok(ImageSource { path: path.to_owned(), image })
+    }
+
+    /// Where all pictures that are known lie.
+    pub(crate) fn image_paths(&self) -> impl Iterator<Item = PathBuf> {
+        self.images.keys().filter_map(|path| place(self.base.as_deref(), path))
     }
 
     /// Where all meshes that are known lie.
@@ -56,6 +69,9 @@ impl Files {
             Value::Profile(source) => {
                 self.profiles.insert(source.path.clone(), Ok(Arc::clone(&source.profile)));
             }
+            Value::Image(source) => {
+                self.images.insert(source.path.clone(), Ok(Arc::clone(&source.image)));
+            }
             _ => {}
         }
     }
@@ -65,7 +81,7 @@ fn get<T, E: ToString>(
     known: &mut Known<T>,
     base: Option<&Path>,
     path: &str,
-    read: impl Fn(&Path) -> Result<T, E>,
+    read: impl Fn(&Path) -> Result<Arc<T>, E>,
 ) -> Result<Arc<T>, String> {
     if let Some(known) = known.get(path) {
         return known.clone();
@@ -73,7 +89,7 @@ fn get<T, E: ToString>(
     let Some(file) = place(base, path) else {
         return Err(format!("{path}: the scene lies in no folder from which to find it"));
     };
-    let found = read(&file).map(Arc::new).map_err(|e| e.to_string());
+    let found = read(&file).map_err(|e| e.to_string());
     known.insert(path.to_owned(), found.clone());
     found
 }

@@ -4,9 +4,13 @@
 
 mod files;
 mod node;
+mod paint;
 mod placement;
 mod value;
 
+use std::collections::HashMap;
+
+use catoptra_core::TextureId;
 use kdl::KdlDocument;
 
 use crate::outline::{Outline, Sort, Span};
@@ -14,8 +18,9 @@ use crate::report::Complaints;
 use crate::scan;
 pub(crate) use files::Files;
 pub(crate) use node::MATERIAL;
+pub(crate) use paint::{CHANNEL, TEXTURE};
 pub(crate) use placement::{ABOUT, STEPS};
-pub(crate) use value::arity;
+pub(crate) use value::{arity, is_word};
 
 /// Longer scene text is refused: the parser needs about a second for each megabyte.
 pub(crate) const LONGEST: usize = 16 << 20;
@@ -23,8 +28,14 @@ pub(crate) const LONGEST: usize = 16 << 20;
 /// Bytes of stack for the parser; the system gives memory for what is used of it.
 const DEEP_STACK: usize = 256 << 20;
 
-/// What the text says; what is wrong with it goes to `complaints`.
-pub(crate) fn read(text: &str, files: &mut Files, complaints: &mut Complaints) -> Outline {
+/// What the text says; what is wrong with it goes to `complaints`. The names of textures stand for `textures`, where the
+/// scene is there already, else for new ones.
+pub(crate) fn read(
+    text: &str,
+    textures: Option<HashMap<String, TextureId>>,
+    files: &mut Files,
+    complaints: &mut Complaints,
+) -> Outline {
     let mut outline = Outline::default();
     if text.len() > LONGEST {
         complaints.add(0..0, format!("the text is longer than {} MiB", LONGEST >> 20));
@@ -37,7 +48,9 @@ pub(crate) fn read(text: &str, files: &mut Files, complaints: &mut Complaints) -
     }
     match parse_kdl(&scan::without_comments(text)) {
         Ok(document) => {
-            let mut reader = Reader { text, files, complaints, outline: &mut outline };
+            let textures = textures.unwrap_or_else(|| paint::textures_of(&document));
+            outline.textures.clone_from(&textures);
+            let mut reader = Reader { text, files, complaints, textures: &textures, outline: &mut outline };
             for node in document.nodes() {
                 reader.read_node(node, None);
             }
@@ -63,6 +76,7 @@ struct Reader<'a> {
     text: &'a str,
     files: &'a mut Files,
     complaints: &'a mut Complaints,
+    textures: &'a HashMap<String, TextureId>,
     outline: &'a mut Outline,
 }
 

@@ -1,6 +1,6 @@
 //! How a node is read: its kind, its name, its fields, its placement and, for a group, its members.
 
-use catoptra_core::{Field, Placement, Values};
+use catoptra_core::{Field, FieldKind, Placement, Values};
 use kdl::{KdlEntry, KdlNode};
 
 use super::placement::STEPS;
@@ -136,18 +136,16 @@ impl Reader<'_> {
 
     fn read_property(&mut self, name: &str, entry: &KdlEntry, item: &mut Item) {
         let span = span_of(entry.span());
-        match item.sort.fields().iter().find(|f| f.name == name) {
+        match item.sort.field(name) {
             None => self.unknown(name, entry.name().map_or(span, |n| span_of(n.span())), item.sort),
             Some(field) if !fits_property(field.kind) => {
                 let help = format!("write it in the block of the node: {name} x y z");
                 self.complaints.add_with(span, format!("{name} takes three numbers"), help);
             }
             Some(field) => {
-                self.read_field(
-                    FieldText { field, span, values: Vec::new(), property: true },
-                    &[entry],
-                    item,
-                );
+                let written =
+                    FieldText { field, span, values: Vec::new(), property: true, word: None, painted: None };
+                self.read_field(written, &[entry], item);
             }
         }
     }
@@ -158,16 +156,14 @@ impl Reader<'_> {
         for child in node.children().map(kdl::KdlDocument::nodes).unwrap_or_default() {
             let word = child.name().value();
             let name_span = span_of(child.name().span());
-            if let Some(field) = item.sort.fields().iter().find(|f| f.name == word) {
+            if let Some(field) = item.sort.field(word) {
                 let span = span_of(child.span());
                 let span = span.start..span.start + self.text[span].trim_end().len();
-                let entries = self.arguments(child);
+                let (entries, painted) = self.values_and_paint(child, field, item.sort);
                 self.refuse_block(child);
-                self.read_field(
-                    FieldText { field, span, values: Vec::new(), property: false },
-                    &entries,
-                    item,
-                );
+                let written =
+                    FieldText { field, span, values: Vec::new(), property: false, word: None, painted };
+                self.read_field(written, &entries, item);
             } else if item.sort.is_entity() && STEPS.iter().any(|(step, ..)| *step == word) {
                 self.read_step(child, item);
             } else if matches!(item.sort, Sort::Group) {
@@ -190,8 +186,16 @@ impl Reader<'_> {
             self.complaints.add_again(written.span, format!("{} is given twice", field.name), first);
             return;
         }
-        if let Some(value) = self.read_value(field, entries, written.span.clone()) {
+        let value = self.read_value(field, entries, written.span.clone());
+        let value = value.and_then(|value| match &written.painted {
+            Some(painted) => self.paint(value, painted, field),
+            None => Some(value),
+        });
+        if let Some(value) = value {
             item.given.set(field.name, value);
+        }
+        if matches!(field.kind, FieldKind::Texture) {
+            written.word = entries.first().and_then(|e| e.value().as_string()).map(str::to_owned);
         }
         written.values = entries.iter().map(|e| value_span(e)).collect();
         item.fields.push(written);
@@ -222,7 +226,7 @@ impl Reader<'_> {
     }
 
     fn unknown(&mut self, name: &str, span: Span, sort: Sort) {
-        let mut known: Vec<&str> = sort.fields().iter().map(|f| f.name).collect();
+        let mut known: Vec<&str> = sort.fields().map(|f| f.name).collect();
         if matches!(sort, Sort::Shape(_)) {
             known.push(MATERIAL);
         }
@@ -260,13 +264,14 @@ impl Reader<'_> {
 }
 
 fn missing(item: &Item, field: &str) -> bool {
-    item.sort.fields().iter().any(|f| f.name == field && f.default.is_none())
+    item.sort.field(field).is_some_and(|f| f.default.is_none())
 }
 
 /// What has to be given, for hints.
 fn needs(sort: Sort, missing: &str) -> String {
-    let needed = |field: &&Field| field.default.is_none() && (!field.may_be_missing || field.name == missing);
-    let required: Vec<&str> = sort.fields().iter().filter(needed).map(|f| f.name).collect();
+    let needed =
+        |field: &&'static Field| field.default.is_none() && (!field.may_be_missing || field.name == missing);
+    let required: Vec<&str> = sort.fields().filter(needed).map(|f| f.name).collect();
     format!("{} must be given {}", one(sort.word()), required.join(", "))
 }
 

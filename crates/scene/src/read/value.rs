@@ -1,11 +1,11 @@
 //! How the value of a field is read from the values of a KDL node.
 
-use catoptra_core::glam::DVec3;
+use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::{Field, FieldKind, Rgb, Value};
 use kdl::{KdlEntry, KdlValue};
 
 use super::{Files, Reader, span_of};
-use crate::outline::Span;
+use crate::outline::{Span, Word};
 use crate::{slip, words};
 
 /// How many values a kind of field takes: the numbers allowed, and in words.
@@ -16,12 +16,23 @@ pub(crate) fn arity(kind: FieldKind) -> (&'static [usize], &'static str) {
         FieldKind::Choice(_) => (&[1], "one word"),
         FieldKind::Mesh => (&[1], "the path of a mesh file"),
         FieldKind::Profile => (&[1], "the path of an IES file"),
+        FieldKind::Image => (&[1], "the path of a picture"),
+        FieldKind::Texture => (&[1], "the name of a texture"),
+        FieldKind::Pair => (&[2, 1], "two numbers or one"),
         FieldKind::Flag => (&[1], "#true or #false"),
         FieldKind::Angle => (&[1], "one number (degrees)"),
         FieldKind::Number | FieldKind::Length | FieldKind::Count | FieldKind::Fraction => {
             (&[1], "one number")
         }
     }
+}
+
+/// Whether a value of that kind is a word or a path in quotes.
+pub(crate) fn is_word(kind: FieldKind) -> bool {
+    matches!(
+        kind,
+        FieldKind::Choice(_) | FieldKind::Mesh | FieldKind::Profile | FieldKind::Image | FieldKind::Texture
+    )
 }
 
 /// Whether a field of that kind can be written as a property.
@@ -46,7 +57,7 @@ impl Reader<'_> {
                 .add(span, format!("{} takes {words}, not {found} value{}", field.name, plural(found)));
             return None;
         }
-        if matches!(field.kind, FieldKind::Choice(_) | FieldKind::Mesh | FieldKind::Profile) {
+        if is_word(field.kind) {
             self.refuse_odd_quotes(entries[0]);
         }
         match field.kind {
@@ -58,6 +69,14 @@ impl Reader<'_> {
             FieldKind::Profile => self.read_file(field, entries[0], "profile", |files, path| {
                 files.profile(path).map(Value::Profile)
             }),
+            FieldKind::Image => self
+                .read_file(field, entries[0], "picture", |files, path| files.image(path).map(Value::Image)),
+            FieldKind::Texture => self.read_texture(field, entries[0]),
+            FieldKind::Pair => {
+                let x = self.read_number(field.name, entries[0])?;
+                let y = entries.get(1).map_or(Some(x), |entry| self.read_number(field.name, entry))?;
+                Some(Value::Pair(DVec2::new(x, y)))
+            }
             FieldKind::Point | FieldKind::Direction => {
                 let [x, y, z] = self.read_three(field.name, entries)?;
                 Some(Value::Vector(DVec3::new(x, y, z)))
@@ -155,6 +174,15 @@ impl Reader<'_> {
                 None
             }
         }
+    }
+
+    fn read_texture(&mut self, field: &Field, entry: &KdlEntry) -> Option<Value> {
+        let Some(name) = entry.value().as_string() else {
+            self.expect("the name of a texture in quotes", field.name, entry);
+            return None;
+        };
+        let name = Word { value: name.to_owned(), span: value_span(entry) };
+        self.texture_of(&name).map(Value::Texture)
     }
 
     fn expect(&mut self, what: &str, name: &str, entry: &KdlEntry) {

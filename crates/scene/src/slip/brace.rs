@@ -46,7 +46,7 @@ impl Builder<'_> {
     /// A brace closes what a node has not opened: its fields stand behind it.
     pub(super) fn open_what_was_not_opened(&mut self) -> bool {
         let statements = &self.out.statements;
-        let is_field = |sort: Sort, word: &str| sort.fields().iter().any(|field| field.name == word);
+        let is_field = |sort: Sort, word: &str| sort.field(word).is_some();
         let tail = statements
             .iter()
             .rposition(|s| s.parent.is_none() && s.open.is_none() && s.sort(self.text).is_some());

@@ -7,8 +7,7 @@ use super::statement::{Takes, takes};
 use super::value::{BRACKETS, Values};
 use super::word::{is_annotation, is_identifier, is_keyword};
 use crate::outline::{Sort, Span};
-use crate::read::MATERIAL;
-use catoptra_core::FieldKind;
+use crate::read::{MATERIAL, is_word};
 
 impl Values<'_> {
     /// A name or a property before a block; answers with how many tokens more than one were looked at.
@@ -74,12 +73,9 @@ impl Values<'_> {
         if opens(&text[value.clone()]) && !is_annotation(&text[value.clone()]) {
             return self.vector(tokens, span.start, key);
         }
-        let field = sort.and_then(|sort| sort.fields().iter().find(|field| field.name == key));
+        let field = sort.and_then(|sort| sort.field(key));
         let inner = &text[value.clone()];
-        let takes_words = key == MATERIAL
-            || field.is_some_and(|f| {
-                matches!(f.kind, FieldKind::Mesh | FieldKind::Profile | FieldKind::Choice(_))
-            });
+        let takes_words = key == MATERIAL || field.is_some_and(|field| is_word(field.kind));
         if inner.is_empty() || is_number(inner) || (is_identifier(inner) && !inner.contains(',')) {
             return 0;
         }
@@ -128,5 +124,5 @@ impl Values<'_> {
 }
 
 fn is_property(key: &str, sort: Option<Sort>) -> bool {
-    key == MATERIAL || sort.is_some_and(|sort| sort.fields().iter().any(|field| field.name == key))
+    key == MATERIAL || sort.is_some_and(|sort| sort.field(key).is_some())
 }

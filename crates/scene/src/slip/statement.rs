@@ -7,7 +7,7 @@ use super::value::Values;
 use super::word::{is_annotation, is_identifier, shown};
 use super::{Help, Touch};
 use crate::outline::Sort;
-use crate::read::{ABOUT, MATERIAL, STEPS, arity};
+use crate::read::{ABOUT, MATERIAL, STEPS, arity, is_word};
 use catoptra_core::FieldKind;
 
 /// What stands behind the word of a statement.
@@ -81,9 +81,9 @@ pub(super) fn takes(word: &str, sort: Option<Sort>, within: Option<&str>, is_nod
     if let Some(own) = Sort::named(word) {
         return Takes::Head(Some(own));
     }
-    if let Some(field) = sort.and_then(|sort| sort.fields().iter().find(|field| field.name == word)) {
+    if let Some(field) = sort.and_then(|sort| sort.field(word)) {
         return match field.kind {
-            FieldKind::Mesh | FieldKind::Profile | FieldKind::Choice(_) => Takes::Words,
+            kind if is_word(kind) => Takes::Words,
             FieldKind::Flag => Takes::Flag,
             kind => Takes::Numbers(arity(kind).0),
         };

@@ -6,7 +6,7 @@ use super::statement::{Takes, takes};
 use super::word::{is_annotation, is_identifier, is_keyword, is_valid_property, is_value_of_property, shown};
 use super::{Help, Touch};
 use crate::outline::{Sort, Span};
-use crate::read::STEPS;
+use crate::read::{CHANNEL, STEPS, TEXTURE};
 
 /// Marks that stand round numbers elsewhere.
 pub(super) const BRACKETS: &str = "[](){}<>";
@@ -37,7 +37,7 @@ impl<'a> Values<'a> {
         let mut i = 0;
         while i < tokens.len() && self.unknown.is_none() {
             let token = &tokens[i];
-            if token.kind == Kind::Word {
+            if token.kind == Kind::Word && !self.is_paint(token) {
                 i += match self.takes {
                     Takes::Head(sort) => self.property_or_name(&tokens[i..], sort),
                     Takes::Words => self.one_word(token.span.clone()),
@@ -46,6 +46,15 @@ impl<'a> Values<'a> {
             }
             i += 1;
         }
+    }
+
+    /// Whether a token begins `texture="wood"` or `channel="r"` behind the value of a field.
+    fn is_paint(&self, token: &Token) -> bool {
+        let of_material = matches!(self.owner, Some(Sort::Material(_)));
+        let property = self.text[token.span.clone()].split_once('=').filter(|_| of_material);
+        property.is_some_and(|(key, word)| {
+            [TEXTURE, CHANNEL].contains(&key) && (word.is_empty() || is_identifier(word))
+        })
     }
 
     /// Takes away the brackets of `sphere("ball")`: what opens at `open`, and what closes before `end`.
@@ -191,8 +200,8 @@ impl<'a> Values<'a> {
         let Some(owner) = self.owner.filter(|_| !matches!(self.takes, Takes::Numbers(&[]))) else {
             return false;
         };
-        let known = owner.fields().iter().any(|field| field.name == key)
-            || (owner.is_entity() && STEPS.iter().any(|(step, ..)| *step == key));
+        let known =
+            owner.field(key).is_some() || (owner.is_entity() && STEPS.iter().any(|(step, ..)| *step == key));
         if !known {
             return false;
         }

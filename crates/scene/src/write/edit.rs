@@ -1,12 +1,12 @@
 //! How the nodes that are in the text already follow the scene: names, values, materials, placements.
 
+use catoptra_core::Value;
 use catoptra_core::scene::Scene;
-use catoptra_core::{Field, Value};
 
 use super::layout::{self, INDENT};
 use super::splice::Splice;
 use super::value::{quoted, words};
-use super::{node, placement};
+use super::{node, paint, placement};
 use crate::build::Id;
 use crate::outline::{FieldText, Item, Outline, Part};
 use crate::scan;
@@ -17,13 +17,13 @@ pub(crate) fn edit(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -> 
     let mut splices = Vec::new();
     for (item, &id) in outline.items.iter().zip(ids) {
         if let Some(now) = State::of(scene, id) {
-            edit_item(text, item, &now, &mut splices);
+            edit_item(text, item, &now, scene, &mut splices);
         }
     }
     splices
 }
 
-fn edit_item(text: &str, item: &Item, now: &State, splices: &mut Vec<Splice>) {
+fn edit_item(text: &str, item: &Item, now: &State, scene: &Scene, splices: &mut Vec<Splice>) {
     let word = now.part.sort().word();
     if word != item.sort.word() {
         splices.push(Splice::new(item.word.clone(), word));
@@ -36,7 +36,7 @@ fn edit_item(text: &str, item: &Item, now: &State, splices: &mut Vec<Splice>) {
     {
         splices.push(Splice::new(old.span.clone(), quoted(new)));
     }
-    let mut lines = edit_fields(text, item, &now.part, splices);
+    let mut lines = edit_fields(text, item, &now.part, scene, splices);
     let steps = placement::edit(text, item, &now.placement, splices);
     if matches!(now.part, Part::Group) {
         put_at_start(text, item, &steps, splices);
@@ -47,60 +47,74 @@ fn edit_item(text: &str, item: &Item, now: &State, splices: &mut Vec<Splice>) {
 }
 
 /// Changes and removes fields; answers with the lines of those that are new.
-fn edit_fields(text: &str, item: &Item, now: &Part, splices: &mut Vec<Splice>) -> Vec<String> {
+fn edit_fields(text: &str, item: &Item, now: &Part, scene: &Scene, splices: &mut Vec<Splice>) -> Vec<String> {
     let before = item.part.as_ref().map(Part::values).unwrap_or_default();
     let values = now.values();
-    let fields = now.sort().fields();
-    for written in item.fields.iter().filter(|w| !fields.iter().any(|f| f.name == w.field.name)) {
+    let sort = now.sort();
+    for written in item.fields.iter().filter(|w| sort.field(w.field.name).is_none()) {
         splices.push(removal(text, written));
     }
     let mut lines = Vec::new();
-    for field in fields {
+    for field in sort.fields() {
         let written = item.fields.iter().find(|w| w.field.name == field.name);
         match (written, values.get(field.name)) {
             (Some(written), None) => splices.push(removal(text, written)),
-            (Some(_), Some(new)) if before.get(field.name) == Some(new) => {}
+            (Some(written), Some(new))
+                if before.get(field.name) == Some(new) && paint::is_named_so(written, new, scene) => {}
             (Some(written), Some(new)) => {
-                let old = before.get(field.name);
-                lines.extend(edit_field(text, written, field, old, new, splices));
+                let change = Change { written, old: before.get(field.name), new, scene };
+                lines.extend(change.splice(text, splices));
             }
-            (None, Some(new)) => lines.extend(node::field_line(field, new)),
+            (None, Some(new)) => lines.extend(node::field_line(field, new, scene)),
             (None, None) => {}
         }
     }
     lines
 }
 
-/// Replaces the words of a field that differ. A grey given by one number that is no grey any more needs three;
-/// where those do not fit (a property) the field becomes a new line.
-fn edit_field(
-    text: &str,
-    written: &FieldText,
-    field: &'static Field,
-    old: Option<&Value>,
-    new: &Value,
-    splices: &mut Vec<Splice>,
-) -> Option<String> {
-    let mut after = words(field.kind, new);
-    if written.values.len() == 1 && after.iter().all(|word| *word == after[0]) {
-        after.truncate(1);
-    }
-    if after.len() != written.values.len() {
-        if written.property {
+/// A field that is written otherwise than it should be now.
+struct Change<'a> {
+    written: &'a FieldText,
+    /// What the text says.
+    old: Option<&'a Value>,
+    /// What the scene has.
+    new: &'a Value,
+    scene: &'a Scene,
+}
+
+impl Change<'_> {
+    /// Replaces the words that differ. A grey given by one number that is no grey any more needs three; where those do not
+    /// fit (a property), nor does a texture, the field becomes a new line.
+    fn splice(&self, text: &str, splices: &mut Vec<Splice>) -> Option<String> {
+        let (written, field, scene) = (self.written, self.written.field, self.scene);
+        let by = match self.new {
+            Value::Textured(textured) => Some(textured.by),
+            _ => None,
+        };
+        let mut after = words(field.kind, self.new, scene);
+        if written.values.len() == 1 && after.iter().all(|word| *word == after[0]) {
+            after.truncate(1);
+        }
+        let fits = after.len() == written.values.len();
+        if written.property && (!fits || by.is_some()) {
             splices.push(removal(text, written));
-            return Some(format!("{} {}", field.name, after.join(" ")));
+            return Some(node::whole_line(field, self.new, scene));
         }
-        let (first, last) = (written.values.first()?, written.values.last()?);
-        splices.push(Splice::new(first.start..last.end, after.join(" ")));
-        return None;
-    }
-    let before = old.map(|old| words(field.kind, old)).unwrap_or_default();
-    for (i, (word, span)) in after.iter().zip(&written.values).enumerate() {
-        if before.get(i) != Some(word) {
-            splices.push(Splice::new(span.clone(), word.as_str()));
+        paint::edit(text, written, by, scene, splices);
+        if !fits {
+            let (first, last) = (written.values.first()?, written.values.last()?);
+            splices.push(Splice::new(first.start..last.end, after.join(" ")));
+            return None;
         }
+        let named = written.word.as_ref().map(|word| vec![quoted(word)]);
+        let before = named.or(self.old.map(|old| words(field.kind, old, scene))).unwrap_or_default();
+        for (i, (word, span)) in after.iter().zip(&written.values).enumerate() {
+            if before.get(i) != Some(word) {
+                splices.push(Splice::new(span.clone(), word.as_str()));
+            }
+        }
+        None
     }
-    None
 }
 
 fn removal(text: &str, written: &FieldText) -> Splice {

@@ -7,6 +7,7 @@
 mod edit;
 mod layout;
 mod node;
+mod paint;
 mod placement;
 mod splice;
 mod tree;

@@ -1,22 +1,35 @@
 //! The text of nodes that are new.
 
 use catoptra_core::scene::{EntityId, Scene};
-use catoptra_core::{Field, Value};
+use catoptra_core::{Field, FieldKind, Value};
 
 use super::layout::INDENT;
 use super::placement;
-use super::value::{quoted, words};
+use super::value::{paint, quoted, words};
 use crate::build::Id;
 use crate::outline::Part;
 use crate::read::MATERIAL;
 use crate::state::State;
 
 /// The line of a field; `None` where the value is what it is when the field is left out.
-pub(super) fn field_line(field: &Field, value: &Value) -> Option<String> {
+pub(super) fn field_line(field: &Field, value: &Value, scene: &Scene) -> Option<String> {
     if field.default.is_some_and(|default| default() == *value) {
         return None;
     }
-    Some(format!("{} {}", field.name, words(field.kind, value).join(" ")))
+    Some(whole_line(field, value, scene))
+}
+
+/// The line of a field.
+pub(super) fn whole_line(field: &Field, value: &Value, scene: &Scene) -> String {
+    let mut words = words(field.kind, value, scene);
+    if words.iter().all(|word| *word == words[0]) && field.kind == FieldKind::Pair {
+        words.truncate(1);
+    }
+    let paint = match value {
+        Value::Textured(textured) => paint(textured.by, scene),
+        _ => String::new(),
+    };
+    format!("{} {}{paint}", field.name, words.join(" "))
 }
 
 /// New nodes: their lines, indented from nothing, and what they stand for.
@@ -27,7 +40,7 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
-    /// Adds settings or a material.
+    /// Adds settings, a texture or a material.
     pub(super) fn add(&mut self, scene: &Scene, id: Id) {
         self.add_at(scene, id, &|_| false, 0);
     }
@@ -41,11 +54,11 @@ impl Nodes {
         let Some(state) = State::of(scene, id) else { return };
         self.ids.push(id);
         let outer = INDENT.repeat(depth);
-        let mut lines = field_lines(&state.part);
+        let mut lines = field_lines(&state.part, scene);
         lines.extend(placement::steps(&state.placement));
         let members: Vec<EntityId> = match id {
             Id::Entity(group) => scene.children(Some(group)).into_iter().filter(|&m| is_new(m)).collect(),
-            Id::Material(_) | Id::Settings => Vec::new(),
+            Id::Texture(_) | Id::Material(_) | Id::Settings => Vec::new(),
         };
         self.lines.push_str(&format!("{outer}{}", head(&state)));
         if lines.is_empty() && members.is_empty() {
@@ -75,8 +88,9 @@ fn head(state: &State) -> String {
     }
 }
 
-fn field_lines(part: &Part) -> Vec<String> {
+fn field_lines(part: &Part, scene: &Scene) -> Vec<String> {
     let values = part.values();
-    let line = |field: &Field| values.get(field.name).and_then(|value| field_line(field, value));
-    part.sort().fields().iter().filter_map(line).collect()
+    let line =
+        |field: &'static Field| values.get(field.name).and_then(|value| field_line(field, value, scene));
+    part.sort().fields().filter_map(line).collect()
 }

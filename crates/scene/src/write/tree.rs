@@ -33,7 +33,9 @@ pub(crate) fn arrange(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) 
     let mut arranging =
         Arranging { text, outline, ids, scene, places, splices: Vec::new(), moves: Vec::new() };
     arranging.add_settings();
-    arranging.add_materials();
+    arranging.add_shared(scene.textures().map(|(id, ..)| Id::Texture(id)), |id| matches!(id, Id::Texture(_)));
+    arranging
+        .add_shared(scene.materials().map(|(id, ..)| Id::Material(id)), |id| matches!(id, Id::Material(_)));
     arranging.arrange_members(None);
     for (i, &id) in ids.iter().enumerate() {
         if let Id::Entity(entity) = id
@@ -68,14 +70,13 @@ impl Arranging<'_> {
         self.put(&self.gap_at_top(), nodes);
     }
 
-    fn add_materials(&mut self) {
+    /// Adds those of the textures or of the materials that are new, behind the last of their sort.
+    fn add_shared(&mut self, all: impl Iterator<Item = Id>, is_such: impl Fn(&Id) -> bool) {
         let mut nodes = Nodes::default();
-        for (id, ..) in self.scene.materials() {
-            if !self.places.contains_key(&Id::Material(id)) {
-                nodes.add(self.scene, Id::Material(id));
-            }
+        for id in all.filter(|id| !self.places.contains_key(id)) {
+            nodes.add(self.scene, id);
         }
-        let last = self.ids.iter().rposition(|id| matches!(id, Id::Material(_)));
+        let last = self.ids.iter().rposition(is_such);
         let gap = match last {
             Some(last) => layout::gap_after(self.text, &self.outline.items[last].span),
             None => self.gap_at_top(),

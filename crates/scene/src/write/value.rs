@@ -1,9 +1,12 @@
 //! How values are spelled in scene text.
 
-use catoptra_core::{FieldKind, Value};
+use catoptra_core::scene::Scene;
+use catoptra_core::{FieldKind, TextureUse, Value};
 
-/// The words that a field's value is written with.
-pub(crate) fn words(kind: FieldKind, value: &Value) -> Vec<String> {
+use crate::read::{CHANNEL, TEXTURE};
+
+/// The words that a field's value is written with, without those for a texture that multiplies it.
+pub(crate) fn words(kind: FieldKind, value: &Value, scene: &Scene) -> Vec<String> {
     match value {
         Value::Number(v) if kind == FieldKind::Angle => vec![degrees(*v)],
         Value::Number(v) => vec![number(*v)],
@@ -13,6 +16,19 @@ pub(crate) fn words(kind: FieldKind, value: &Value) -> Vec<String> {
         Value::Word(word) => vec![quoted(word)],
         Value::Mesh(source) => vec![quoted(&source.path)],
         Value::Profile(source) => vec![quoted(&source.path)],
+        Value::Pair(v) => v.to_array().map(number).to_vec(),
+        Value::Image(source) => vec![quoted(&source.path)],
+        Value::Texture(texture) => vec![quoted(scene.texture_name(*texture).unwrap_or_default())],
+        Value::Textured(textured) => words(kind, &textured.base, scene),
+    }
+}
+
+/// The properties for a texture that multiplies a value, with the space before each.
+pub(crate) fn paint(by: TextureUse, scene: &Scene) -> String {
+    let texture = format!(" {TEXTURE}={}", quoted(scene.texture_name(by.texture).unwrap_or_default()));
+    match by.channel {
+        Some(channel) => format!("{texture} {CHANNEL}={}", quoted(channel.word())),
+        None => texture,
     }
 }
 

@@ -165,7 +165,7 @@ impl Image {
     }
 
     /// Builds the smaller copies now, if that has not been done: later reads do not wait then.
-    pub(super) fn prepare(&self, encoding: Encoding) {
+    pub(in crate::texture) fn prepare(&self, encoding: Encoding) {
         self.pyramid(encoding);
     }
 

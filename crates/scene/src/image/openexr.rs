@@ -1,0 +1,120 @@
+//! What does an OpenEXR file hold? Its first layer with red, green and blue, or with luminance alone; linear.
+
+use catoptra_core::Image;
+use catoptra_core::texture::Encoding;
+use exr::meta::MetaData;
+use exr::meta::header::Header;
+use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, Vec2};
+
+use super::load::{Fault, Input, check_size, room, unreadable};
+
+/// Deflate makes at most 1,032 bytes of one; of the wavelets with their runs of 255 less.
+const MOST: u64 = 1032;
+
+pub(super) fn read(mut input: impl Input, length: u64) -> Result<Image, Fault> {
+    let meta = MetaData::read_from_buffered(&mut input, false).map_err(|e| unreadable(&e))?;
+    input.rewind().map_err(|e| unreadable(&e))?;
+    for header in &meta.headers {
+        check(header, length)?;
+    }
+    let has = |header: &Header, name: &str| header.channels.find_index_of_channel(&name.into()).is_some();
+    let find = |names: &[&str]| meta.headers.iter().find(|header| names.iter().all(|name| has(header, name)));
+    if let Some(header) = find(&["R", "G", "B"]) {
+        read_colors(input, has(header, "A"))
+    } else if let Some(header) = find(&["Y"]) {
+        read_luminance(input, has(header, "A"))
+    } else {
+        let channels = meta.headers.iter().flat_map(|header| &header.channels.list);
+        let names: Vec<String> = channels.take(8).map(|channel| channel.name.to_string()).collect();
+        Err(format!("has no channels R, G and B, nor Y, but {}", names.join(", ")))
+    }
+}
+
+fn check(header: &Header, length: u64) -> Result<(), Fault> {
+    if header.deep {
+        return Err("holds deep pixels, which have no colour of their own".to_owned());
+    }
+    let size = [header.layer_size.width() as u64, header.layer_size.height() as u64];
+    let bits = header.channels.list.iter().map(|c| 8 * c.sample_type.bytes_per_sample() as u64).sum();
+    check_size(size, bits, length, MOST).map(|_| ())
+}
+
+/// Numbers of a layer, as they come in; none if there is no memory for them.
+struct Grid {
+    size: Vec2<usize>,
+    channels: usize,
+    values: Vec<f32>,
+}
+
+impl Grid {
+    fn new(size: Vec2<usize>, channels: usize) -> Self {
+        Self { size, channels, values: room(size.area() * channels).unwrap_or_default() }
+    }
+
+    fn set<const N: usize>(&mut self, at: Vec2<usize>, pixel: [f32; N]) {
+        let start = (at.y() * self.size.width() + at.x()) * self.channels;
+        if let Some(values) = self.values.get_mut(start..start + self.channels) {
+            values.copy_from_slice(&pixel[..self.channels]);
+        }
+    }
+}
+
+fn read_colors(input: impl Input, has_alpha: bool) -> Result<Image, Fault> {
+    let found = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .rgba_channels(
+            |size, _| Grid::new(size, 3 + usize::from(has_alpha)),
+            |grid, at, (r, g, b, a): (f32, f32, f32, f32)| grid.set(at, [r, g, b, a]),
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .non_parallel()
+        .from_buffered(input)
+        .map_err(|e| unreadable(&e))?;
+    finish(found.layer_data.channel_data.pixels)
+}
+
+fn read_luminance(input: impl Input, has_alpha: bool) -> Result<Image, Fault> {
+    let found = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .specific_channels()
+        .required("Y")
+        .optional("A", 1.0)
+        .collect_pixels(
+            |size, _| Grid::new(size, 1 + usize::from(has_alpha)),
+            |grid: &mut Grid, at, (y, a): (f32, f32)| grid.set(at, [y, a]),
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .non_parallel()
+        .from_buffered(input)
+        .map_err(|e| unreadable(&e))?;
+    finish(found.layer_data.channel_data.pixels)
+}
+
+/// Colours in the file are multiplied by alpha; what is below black is black.
+fn finish(Grid { size: Vec2(width, height), channels, mut values }: Grid) -> Result<Image, Fault> {
+    if values.is_empty() {
+        return Err("needs more memory than there is".to_owned());
+    }
+    if let Some(at) = values.iter().position(|v| !v.is_finite()) {
+        let (row, column) = (at / channels / width, at / channels % width);
+        return Err(format!("holds {} in column {column} of row {row}; it must be finite", values[at]));
+    }
+    for v in &mut values {
+        *v = v.max(0.0);
+    }
+    if channels.is_multiple_of(2) {
+        for pixel in values.chunks_exact_mut(channels) {
+            let alpha = pixel[channels - 1].min(1.0);
+            pixel[channels - 1] = alpha;
+            if alpha > 0.0 {
+                pixel[..channels - 1].iter_mut().for_each(|v| *v = (*v / alpha).min(f32::MAX));
+            }
+        }
+    }
+    Image::from_floats([width as u32, height as u32], channels as u8, values, Encoding::Linear)
+        .map_err(|e| e.to_string())
+}
