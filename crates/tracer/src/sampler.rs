@@ -14,6 +14,21 @@ pub(crate) mod pairs {
     pub(crate) const PLACE: u32 = 1;
     /// Where on the lens a camera ray starts.
     pub(crate) const LENS: u32 = 2;
+    /// What a path chooses at each point: from here on four for every bounce.
+    const BOUNCES: u32 = 1 << 30;
+    /// Where from all around light comes: from here on one for every bounce.
+    const SURROUNDINGS: u32 = 3 << 29;
+
+    /// One of the choices of a path after so many bounces, of four.
+    pub(crate) const fn bounce(depth: u32, choice: u32) -> u32 {
+        BOUNCES.wrapping_add(depth.wrapping_mul(4)).wrapping_add(choice)
+    }
+
+    /// Where light from all around comes from, after so many bounces.
+    pub(crate) const fn surroundings(depth: u32) -> u32 {
+        SURROUNDINGS.wrapping_add(depth)
+    }
+
     /// Where on a lamp rays end: from here on one for every lamp and every reflection.
     pub(crate) const LAMPS: u32 = 64;
 }

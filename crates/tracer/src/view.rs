@@ -79,6 +79,11 @@ pub struct View {
     pub integrator: Integrator,
     /// How many reflections after one another, at most.
     pub max_depth: u32,
+    /// How many bounces a path that is followed by chance has, at most.
+    pub path_depth: u32,
+    /// Whether, under [`Whitted`](Integrator::Whitted), light comes through clear matter in shadows: straight, as an approximation,
+    /// with what surfaces and insides leave of it.
+    pub clear_shadows: bool,
     /// Rays that could add less than this share of what they meet are not traced; 0 traces them all. A pixel is darker
     /// for it by at most this share of the brightest radiance that any such ray would have met, and never brighter.
     pub weight_cutoff: f32,
@@ -191,6 +196,8 @@ impl View {
             crop: None,
             integrator: Integrator::ALL[0],
             max_depth: 5,
+            path_depth: u32::MAX,
+            clear_shadows: true,
             weight_cutoff: WEIGHT_CUTOFF,
             occlusion_distance: f64::INFINITY,
             seed: 0,

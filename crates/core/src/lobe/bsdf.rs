@@ -157,13 +157,21 @@ impl Bsdf {
     /// Whether there is anything that [`evaluate`](Self::evaluate) shows.
     #[must_use]
     pub fn is_lit(&self) -> bool {
-        let is_delta = |lobe: &BsdfLobe| {
-            matches!(
-                lobe,
-                BsdfLobe::SmoothReflection(_) | BsdfLobe::SmoothInterface(_) | BsdfLobe::Passage(_)
-            )
-        };
         self.lobes.iter().any(|lobe| !is_delta(&lobe.lobe))
+    }
+
+    /// Whether there is anything that [`glossy`](Self::glossy) shows.
+    #[must_use]
+    pub fn is_glossy(&self) -> bool {
+        self.lobes.iter().any(|lobe| !is_delta(&lobe.lobe) && !matches!(lobe.lobe, BsdfLobe::Diffuse(_)))
+    }
+
+    /// The share of light from the viewer's side that is shown, if it is the same from everywhere, by what neither
+    /// [`rays`](Self::rays) bring nor lobes that scatter through the surface.
+    #[must_use]
+    pub fn scattered(&self) -> Rgb {
+        let sum = |sum: Rgb, lobe: &Weighted| sum + lobe.weight * lobe.lobe.ambient(self.to_viewer);
+        self.lobes.iter().fold(Rgb::BLACK, sum)
     }
 
     fn sum(&self, i: DVec3, counts: impl Fn(&BsdfLobe) -> bool) -> Rgb {
@@ -254,4 +262,8 @@ impl Bsdf {
         };
         ways.into_iter().flatten().filter(seen).map(ray).collect()
     }
+}
+/// Whether a lobe sends light on in single directions alone.
+fn is_delta(lobe: &BsdfLobe) -> bool {
+    matches!(lobe, BsdfLobe::SmoothReflection(_) | BsdfLobe::SmoothInterface(_) | BsdfLobe::Passage(_))
 }

@@ -63,6 +63,12 @@ impl Finish {
         *self == Self::default()
     }
 
+    /// Whether it differs from point to point or from side to side.
+    #[must_use]
+    pub fn needs_coordinates(&self) -> bool {
+        !self.is_plain()
+    }
+
     /// Whether something behind may be seen through it somewhere.
     #[must_use]
     pub fn is_see_through(&self) -> bool {

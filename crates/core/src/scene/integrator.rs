@@ -32,7 +32,8 @@ macro_rules! integrators {
 }
 
 integrators! {
-    Whitted = "whitted", "Direct light with shadows, and mirror reflections.";
+    Whitted = "whitted", "Direct light with shadows, mirror reflections and refraction.";
+    Path = "path", "All light, by chance: without any error but noise, which more samples lessen.";
     Occlusion = "occlusion", "Ambient occlusion: the share of the sky that a surface sees, whatever its material.";
 }
 

@@ -4,7 +4,9 @@
 //! here, its `mod` line and its name in the list below.
 
 mod lamp_sight;
+mod matter;
 mod occlusion;
+mod path;
 mod pixels;
 mod search;
 mod walker;
@@ -46,7 +48,7 @@ macro_rules! integrators {
     };
 }
 
-integrators!(whitted::Whitted, occlusion::Occlusion);
+integrators!(whitted::Whitted, path::Path, occlusion::Occlusion);
 
 /// Traces all pixels of a tile with packets of rays, by the rules of the view's integrator.
 pub(crate) fn trace_packets(frame: &Frame<'_>, tile: &mut Tile) -> Stats {

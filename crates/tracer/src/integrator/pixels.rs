@@ -40,7 +40,11 @@ impl<S: Search> IntegratorVisitor for Pixels<'_, S> {
 }
 
 /// Shows the pixels of a tile that outlines cross, in place of what their samples have shown.
-fn show_pieces<I: Integrate, S: Search>(walker: &mut Walker<'_, S>, edges: &EdgeList, tile: &mut Tile) {
+pub(super) fn show_pieces<I: Integrate, S: Search>(
+    walker: &mut Walker<'_, S>,
+    edges: &EdgeList,
+    tile: &mut Tile,
+) {
     let (frame, mut room) = (walker.frame, EdgeRoom::default());
     let shown = edges.show(frame.view, tile, &mut room, |places, light| {
         light.clear();

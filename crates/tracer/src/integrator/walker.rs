@@ -6,6 +6,7 @@ use catoptra_core::{Material, Raster, Ray, ShadingPoint};
 
 use super::Search;
 use super::lamp_sight::LampSight;
+use super::matter::PathRay;
 use crate::sampler::Sampler;
 use crate::{Frame, Hit, Stats};
 
@@ -27,6 +28,8 @@ pub(crate) struct Walker<'a, S> {
     pub(super) stats: Stats,
     /// Room for light from surfaces.
     pub(super) sight: LampSight,
+    /// Rays that are still to be followed.
+    pub(super) pending: Vec<PathRay>,
 }
 
 /// A hit of a ray, with what shading needs of the surface.
@@ -44,7 +47,7 @@ pub(super) struct SurfaceHit<'a> {
 impl<'a, S: Search> Walker<'a, S> {
     /// Of a frame, with nothing counted yet.
     pub(super) fn new(search: &'a S, frame: &'a Frame<'a>) -> Self {
-        Self { search, frame, stats: Stats::default(), sight: LampSight::default() }
+        Self { search, frame, stats: Stats::default(), sight: LampSight::default(), pending: Vec::new() }
     }
 
     /// The square of the picture that a ray from the camera stands for.

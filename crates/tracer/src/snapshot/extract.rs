@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use catoptra_core::geometry::Plane;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Lamp, Light, Material, Placement, Rgb, Scene, Shape};
+use catoptra_core::{Finish, Lamp, Light, Material, Placement, Rgb, Scene, Shape};
 
 use super::index::{Index, MeshTrees};
 use super::lamps::Shining;
 use super::origin::{frame_for, origin_for, relative};
-use super::{Extraction, Lamps, LightRow, MaterialRow, Prim, Snapshot, SnapshotDiff};
+use super::{Extraction, Lamps, LightRow, MaterialRow, Matter, Prim, Snapshot, SnapshotDiff};
 use crate::Pool;
 use crate::accel::Preset;
 
@@ -77,6 +77,7 @@ impl Extraction {
         let lamps = self.lamps(&prims, frame, origin);
         Snapshot {
             lamps,
+            matter: self.matter(origin),
             origin,
             frame,
             preset,
@@ -121,6 +122,14 @@ impl Extraction {
             .map(|lamp| Lamp { shape: relative(&lamp.shape, frame).into_owned(), ..lamp.clone() })
             .collect();
         Lamps::new(prims, |material| shining[material as usize], &unseen, origin - frame)
+    }
+
+    fn matter(&self, origin: DVec3) -> Matter {
+        let parts = &self.parts;
+        let finishes = parts.finishes.iter().copied().chain(std::iter::repeat(Finish::default()));
+        let materials: Vec<_> = self.materials().map(|material| material.relative_to(origin)).collect();
+        let environment = parts.lights.iter().find_map(|light| light.part.environment().cloned());
+        Matter::new(materials.iter().zip(finishes), parts.textures.clone(), environment)
     }
 
     /// Whether the shapes are those of a snapshot, bit for bit, for no edit has touched any.

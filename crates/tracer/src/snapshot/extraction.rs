@@ -1,11 +1,14 @@
 //! What a snapshot takes out of a scene.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::material::Emissive;
-use catoptra_core::{Camera, Lamp, Light, Material, MaterialId, Placed, Scene, Settings, Shape};
+use catoptra_core::texture::Texture;
+use catoptra_core::{
+    Camera, Finish, Lamp, Light, Material, MaterialId, Placed, Scene, Settings, Shape, TextureId,
+};
 
 /// All that a [`Snapshot`](super::Snapshot) is made of, copied out of a scene. It needs the scene no more, so that a
 /// window can go on editing while another thread builds trees.
@@ -29,6 +32,9 @@ pub(super) struct Parts {
     pub(super) lights: Vec<Placed<Light>>,
     pub(super) cameras: Vec<Placed<Camera>>,
     pub(super) materials: Vec<(MaterialId, Material)>,
+    /// Of these materials.
+    pub(super) finishes: Vec<Finish>,
+    pub(super) textures: BTreeMap<TextureId, Texture>,
     /// The bodies of lights; as materials of shapes they follow the scene's.
     pub(super) bodies: Vec<Body>,
     pub(super) settings: Settings,
@@ -68,7 +74,18 @@ impl Extraction {
             }
         }
         shapes.sort_by_key(|(shape, _)| shape.id);
-        let parts = Parts { revision: scene.revision(), lights, cameras, materials, bodies, settings };
+        let finishes = materials.iter().map(|(id, _)| scene.finish(*id)).collect();
+        let textures = scene.textures().map(|(id, _, texture)| (id, texture.clone())).collect();
+        let parts = Parts {
+            revision: scene.revision(),
+            lights,
+            cameras,
+            materials,
+            finishes,
+            textures,
+            bodies,
+            settings,
+        };
         Self { shapes, unseen, parts: Arc::new(parts), eye }
     }
 

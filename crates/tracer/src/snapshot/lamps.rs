@@ -1,5 +1,7 @@
 //! Which surfaces light others, and the outlines of all that may stand in their way.
 
+use std::collections::HashMap;
+
 use catoptra_core::contour::{self, Blocker};
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Constant3, Emission, Lamp, Shape};
@@ -68,6 +70,8 @@ pub(crate) struct Lamps {
     pub(crate) tree: Option<LampTree>,
     /// Shapes that shine but light nothing, as they have no end.
     pub(crate) endless: Vec<u32>,
+    /// Square metres of each shape that lights others, one side of it.
+    pub(crate) areas: HashMap<u32, f64>,
 }
 
 impl Lamps {
@@ -86,6 +90,11 @@ impl Lamps {
         }
         for lamp in unseen {
             lamps.add(&lamp.shape, Shining { emission: lamp.emission, shadow: lamp.shadow }, None, origin);
+        }
+        for row in &lamps.rows {
+            if let Some(prim) = row.prim {
+                *lamps.areas.entry(prim).or_default() += row.area;
+            }
         }
         if lamps.rows.len() > MOST_LAMPS {
             let power = |row: &LampRow| (row.ball, row.radiance.rgb().luminance() * row.outline.area());

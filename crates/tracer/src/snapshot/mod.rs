@@ -9,6 +9,7 @@ mod index;
 mod lamp_tree;
 mod lamps;
 mod lighting;
+mod matter;
 mod needs;
 mod origin;
 mod rows;
@@ -25,6 +26,7 @@ pub use extraction::Extraction;
 pub(crate) use lamp_tree::LampTree;
 pub(crate) use lamps::{FlatLamp, LampRow, Lamps};
 pub(crate) use lighting::{LightRow, MaterialRow};
+pub(crate) use matter::{Matter, is_a_sheet};
 pub use needs::Needs;
 pub(crate) use rows::{KernelVisitor, Row};
 pub(crate) use search::RaySegment;
@@ -69,6 +71,7 @@ pub struct Snapshot {
     material_rows: Vec<MaterialRow>,
     light_rows: Vec<LightRow>,
     lamps: Lamps,
+    matter: Matter,
     has_cones: bool,
     has_mirrors: bool,
 }
@@ -183,6 +186,12 @@ impl Snapshot {
     #[inline]
     pub(crate) fn lamps(&self) -> &Lamps {
         &self.lamps
+    }
+
+    /// What lanes do not know of surfaces.
+    #[inline]
+    pub(crate) fn matter(&self) -> &Matter {
+        &self.matter
     }
 
     /// Whether there are lights that do not shine everywhere.

@@ -5,6 +5,7 @@ use catoptra_core::material::Footprint;
 use catoptra_core::{Lane, Ray, Span};
 use fearless_simd::Simd;
 
+use crate::SurfaceId;
 use crate::edges::Places;
 use crate::film::NOTHING;
 use crate::frame::Frame;
@@ -129,6 +130,21 @@ impl Queue {
             rays.prim.compressed(mask).store(&mut self.prim[at..]);
             rays.facet.compressed(mask).store(&mut self.facet[at..]);
         }
+    }
+
+    /// Appends a ray of the snapshot's frame, whose direction has unit length.
+    pub(crate) fn push_one<S: Simd>(&mut self, ray: &Ray, leaving: Option<SurfaceId>, pixel: u32) {
+        self.make_room(F::<S>::LANES);
+        let at = self.length;
+        self.length += 1;
+        let start = (ray.origin - self.zero).to_array();
+        for (axis, (start, along)) in start.into_iter().zip(ray.direction.to_array()).enumerate() {
+            (self.origin[axis][at], self.direction[axis][at]) = (start, along);
+            self.weight[axis][at] = 1.0;
+        }
+        self.pixel[at] = pixel;
+        (self.prim[at], self.facet[at]) =
+            leaving.map_or((NOTHING, 0), |surface| (surface.prim, surface.facet));
     }
 
     /// The packet that starts with ray `at`.

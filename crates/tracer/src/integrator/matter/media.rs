@@ -5,16 +5,33 @@
 //! not there. Entering twice is entering once and leaving what was not entered does nothing, so that no order of crossings, and
 //! none that rounding has lost, can unsettle the list.
 
-use catoptra_core::{Medium, Rgb};
+use catoptra_core::{Medium, Ray, Rgb, Span};
 use smallvec::SmallVec;
 
-use crate::Snapshot;
+use crate::{Frame, Snapshot};
 
 /// The shapes of clear matter that a path is inside of, by their numbers.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Media(SmallVec<[u32; 4]>);
 
 impl Media {
+    /// Those that the eye of a view lies in: the solids whose surface is met from within.
+    pub(crate) fn round_eye(frame: &Frame<'_>) -> Self {
+        let (snapshot, mut media) = (frame.snapshot, Self::default());
+        if !snapshot.matter().is_see_through {
+            return media;
+        }
+        let ray = Ray::new(frame.raster.eye, frame.raster.corner);
+        for (prim, number) in snapshot.prims().iter().zip(0..) {
+            let solid = snapshot.matter().medium_in(prim).is_some();
+            let met = solid.then(|| snapshot.cross_part(number, None, &ray, Span::AHEAD, None)).flatten();
+            if met.is_some_and(|hit| hit.crossing.normal.dot(ray.direction) > 0.0) {
+                media.enter(number);
+            }
+        }
+        media
+    }
+
     /// Whether it is in none.
     pub(super) fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -52,7 +69,9 @@ impl Media {
     pub(super) fn left_after(&self, snapshot: &Snapshot, distance: f64) -> Rgb {
         let Some(medium) = self.medium(snapshot) else { return Rgb::WHITE };
         // Where nothing is absorbed, nothing is so at any distance.
-        medium.absorption.map(|absorption| if absorption > 0.0 { (-absorption * distance).exp() } else { 1.0 })
+        medium
+            .absorption
+            .map(|absorption| if absorption > 0.0 { (-absorption * distance).exp() } else { 1.0 })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Over which part of a surface is what a ray shows to be averaged?
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Ray, Raster};
+use catoptra_core::{Raster, Ray};
 
 /// How far the rays beside a ray lie from it: those of the pixels to the right and below.
 #[derive(Debug, Clone, Copy, PartialEq)]

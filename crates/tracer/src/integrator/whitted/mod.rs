@@ -2,6 +2,7 @@
 //!
 //! Whitted, "An improved illumination model for shaded display", CACM 23(6), 1980.
 
+mod bounces;
 mod lamps;
 mod paths;
 mod pieces;
@@ -12,9 +13,11 @@ mod tiles;
 
 use catoptra_core::Rgb;
 
+use super::matter;
 use super::walker::{CameraRay, Walker};
 use super::{Integrate, Search};
 use crate::{Frame, Hit, Stats, Tile};
+pub(super) use paths::shadow_ray;
 pub(crate) use receivers::Receivers;
 
 /// See the file's head.
@@ -22,10 +25,18 @@ pub(super) struct Whitted;
 
 impl Integrate for Whitted {
     fn gather<S: Search>(walker: &mut Walker<'_, S>, camera: &CameraRay) -> (Rgb, Option<Hit>) {
-        walker.follow(camera)
+        if walker.frame.snapshot.matter().is_needed {
+            walker.follow_paths::<Self>(camera)
+        } else {
+            walker.follow(camera)
+        }
     }
 
     fn trace_tile(frame: &Frame<'_>, tile: &mut Tile) -> Stats {
-        tiles::trace_tile(frame, tile)
+        if frame.snapshot.matter().is_needed {
+            matter::trace_tile::<Self>(frame, tile)
+        } else {
+            tiles::trace_tile(frame, tile)
+        }
     }
 }

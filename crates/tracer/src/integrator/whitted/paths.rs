@@ -94,7 +94,7 @@ impl<S: Search> Walker<'_, S> {
 }
 
 /// The segment from a point to a light.
-pub(super) fn shadow_ray(point: DVec3, lamp: &Light) -> Option<(Ray, Span)> {
+pub(in crate::integrator) fn shadow_ray(point: DVec3, lamp: &Light) -> Option<(Ray, Span)> {
     match lamp.position() {
         Some(position) => Some((Ray::new(point, position - point), Span::TO_LIGHT)),
         None => lamp.direction().map(|direction| (Ray::new(point, -direction), Span::AHEAD)),
