@@ -251,7 +251,7 @@ impl View {
     /// Rays to a lamp from a point that one sample leads to, where it has no closed form.
     pub(crate) fn lamp_rays_of_sample(&self) -> u32 {
         // Fewer would tell too little of how much of the lamp is open.
-        self.lamp_rays.div_ceil(self.samples.max(1)).max(4)
+        self.lamp_rays.div_ceil(self.samples.max(1)).max(4).next_multiple_of(2)
     }
 
     /// The part of the picture that is traced: what of the crop lies within it, or all of it.

@@ -56,6 +56,13 @@ pub(crate) fn pair_of_lamp(lamp: usize, depth: u32) -> u32 {
     pair.wrapping_add(pairs::LAMPS)
 }
 
+/// The number and the pair of dimensions that ray number so and so to a lamp goes by: every other ray belongs to a half of its
+/// own, which knows nothing of the other.
+#[inline(always)]
+pub(crate) fn half_of_ray(number: u32, pair: u32) -> (u32, u32) {
+    (number / 2, pair.wrapping_add((number % 2) << 31))
+}
+
 /// How far apart the pairs of two depths lie: more lamps than this share some.
 const PAIRS_PER_DEPTH: u32 = 1 << 16;
 
@@ -88,14 +95,16 @@ impl LampRays {
         }
     }
 
-    /// Those of them that are above the surface; others bring nothing.
-    pub(crate) fn above(&self) -> impl Iterator<Item = LampRay> {
+    /// Those of them that are above the surface, by their numbers; others bring nothing.
+    pub(crate) fn above(&self) -> impl Iterator<Item = (u32, LampRay)> {
         let all = (0..self.count).map(|k| {
-            let shares = self.sampler.pair(self.first.wrapping_add(k), self.pair).map(share);
+            let (number, pair) = half_of_ray(self.first.wrapping_add(k), self.pair);
+            let shares = self.sampler.pair(number, pair).map(share);
             let nothing = LampPoint { to: DVec3::ZERO, end: 0.0, solid: 0.0 };
-            LampRay::new(&self.at, self.points.as_ref().map_or(nothing, |points| points.point(shares)))
+            let point = self.points.as_ref().map_or(nothing, |points| points.point(shares));
+            (k, LampRay::new(&self.at, point))
         });
-        all.filter(|ray| ray.cosine > 0.0)
+        all.filter(|(_, ray)| ray.cosine > 0.0)
     }
 }
 
@@ -170,9 +179,9 @@ pub(crate) fn follow(
     mut is_blocked: impl FnMut(&LampRay) -> bool,
 ) -> (Found, Rgb) {
     let (mut found, mut shown) = (Found::default(), Triple::splat(0.0));
-    for lamp_ray in rays.above() {
+    for (number, lamp_ray) in rays.above() {
         let open = !is_blocked(&lamp_ray) && lamp_ray.above_ground;
-        found.add(lamp_ray.share, open);
+        found.add(number, lamp_ray.share, open);
         if open && let Some(glossy) = lobes.glossy(at, lamp_ray.direction.into(), lamp_ray.cosine) {
             shown = glossy.scale(lamp_ray.solid / f64::from(rays.count)) + shown;
         }
@@ -180,26 +189,38 @@ pub(crate) fn follow(
     (found, Rgb::new(shown.x, shown.y, shown.z))
 }
 
-/// What rays have found, with what the lamp would give if nothing blocked it as control variate.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Found {
+/// What one half of the rays to a lamp has found, those of one lane each.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Half<L: Lane> {
     /// Of the rays that may bring light: how many are open, and how many there are.
-    open: f64,
-    all: f64,
-    /// What open and blocked ones would bring if each were the only one.
-    brought: f64,
-    blocked: f64,
+    pub(crate) open: L,
+    pub(crate) all: L,
+    /// What the open ones bring, and what all would.
+    pub(crate) brought: L,
+    pub(crate) total: L,
+}
+
+/// What rays have found, with what the lamp would give if nothing blocked it as control variate.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Found {
+    halves: [Half<f64>; 2],
+}
+
+impl Default for Found {
+    fn default() -> Self {
+        Self { halves: [Half { open: 0.0, all: 0.0, brought: 0.0, total: 0.0 }; 2] }
+    }
 }
 
 impl Found {
-    /// Adds a ray that may bring light.
-    pub(crate) fn add(&mut self, share: f64, is_open: bool) {
-        self.all += 1.0;
+    /// Adds ray number so and so, which may bring light.
+    pub(crate) fn add(&mut self, number: u32, share: f64, is_open: bool) {
+        let half = &mut self.halves[(number % 2) as usize];
+        half.all += 1.0;
+        half.total += share;
         if is_open {
-            self.open += 1.0;
-            self.brought += share;
-        } else {
-            self.blocked += share;
+            half.open += 1.0;
+            half.brought += share;
         }
     }
 
@@ -207,26 +228,24 @@ impl Found {
     pub(crate) fn of(&self, gathered: Gathered, count: u32) -> f64 {
         match gathered {
             Gathered::Exactly(seen) => seen,
-            Gathered::UpTo(open) => {
-                let of_one = 1.0 / (f64::from(count) * open);
-                open * share_seen([self.open, self.all], [self.brought, self.blocked].map(|sum| sum * of_one))
-            }
+            Gathered::UpTo(open) => open * share_seen(self.halves, 2.0 / (f64::from(count) * open)),
         }
     }
 }
 
-/// The share of a lamp's light that is seen, from how many rays of those that may bring light are open and how many those are,
-/// and the shares of it that the open and the blocked ones would bring.
+/// The share of a lamp's light that is seen, from what two halves of the rays have found that know nothing of each other;
+/// `of_one` is the share of it that one ray of a half stands for.
 ///
-/// Each ray's own estimate is corrected by how far it would be off for the whole lamp, times the part of all others that
-/// are open. So nothing is lost to the mean, it is exact where all are open and where none is, and errs by what is open
-/// between. Written over one number or a lane of them.
+/// What each half brings is corrected by how far it would be off for the whole lamp, times the part of the other half
+/// that is open. So nothing is lost to the mean, it is exact where all are open and where none is, and errs by what is
+/// open between.
 #[inline(always)]
-pub(crate) fn share_seen<L: Lane>([open, all]: [L; 2], [brought, blocked]: [L; 2]) -> L {
-    let (zero, one) = (open.number(0.0), open.number(1.0));
-    let part = open / all.max(one);
-    let corrected = ((all - open) * brought - open * blocked) / (all - one).max(one);
-    (part + corrected).max(zero).min(one)
+pub(crate) fn share_seen<L: Lane>([a, b]: [Half<L>; 2], of_one: L) -> L {
+    let (zero, one) = (of_one.number(0.0), of_one.number(1.0));
+    let [part_of_a, part_of_b] = [a.open / a.all.max(one), b.open / b.all.max(one)];
+    let of_a = a.brought * of_one - part_of_b * (a.total * of_one - one);
+    let of_b = b.brought * of_one - part_of_a * (b.total * of_one - one);
+    ((of_a + of_b) * of_one.number(0.5)).max(zero).min(one)
 }
 
 #[cfg(test)]
@@ -237,14 +256,15 @@ mod tests {
     /// A lamp over 0..1 that brings 3 x², of which half is hidden.
     #[test]
     fn few_rays_are_right_in_the_mean() {
-        for count in [2, 4, 16] {
+        for count in [4, 16, 64] {
             let rounds = 4000;
             let (mut sum, mut square) = (0.0, 0.0);
             for round in 0..rounds {
                 let (sampler, mut found) = (Sampler::new(7, round, 3), Found::default());
                 for k in 0..count {
-                    let [x, _] = sampler.pair(k, pairs::LAMPS).map(share);
-                    found.add(3.0 * x * x, x < 0.8);
+                    let (number, pair) = half_of_ray(k, pairs::LAMPS);
+                    let [x, _] = sampler.pair(number, pair).map(share);
+                    found.add(k, 3.0 * x * x, x < 0.8);
                 }
                 let seen = found.of(Gathered::UpTo(1.0), count);
                 assert!((0.0..=1.0).contains(&seen));
@@ -263,8 +283,8 @@ mod tests {
     fn all_and_nothing_are_exact() {
         for (is_open, seen) in [(true, 0.7), (false, 0.0)] {
             let mut found = Found::default();
-            [0.1, 0.9, 0.5].iter().for_each(|&share| found.add(share, is_open));
-            assert_eq!(found.of(Gathered::UpTo(0.7), 4), seen);
+            [0.1, 0.9, 0.5, 0.2].iter().zip(0..).for_each(|(&share, k)| found.add(k, share, is_open));
+            assert!((found.of(Gathered::UpTo(0.7), 4) - seen).abs() < 1e-15);
         }
         assert_eq!(Found::default().of(Gathered::UpTo(0.7), 4), 0.0);
         assert_eq!(Found::default().of(Gathered::Exactly(0.3), 4), 0.3);

@@ -14,7 +14,7 @@ use super::direct_light::Facing;
 use super::lamps::LitPacket;
 use crate::film::BLOCK;
 use crate::kernel::Leaving;
-use crate::lamps::{pair_of_lamp, share_seen};
+use crate::lamps::{Half, half_of_ray, pair_of_lamp, share_seen};
 use crate::lanes::{
     D, D3, F, F3, M, MOST_LANES, U, magnitude, narrow3, outlined, share_of_one, splat_wide, widen3,
 };
@@ -97,9 +97,10 @@ impl<S: Simd> Shader<'_, S> {
         let round = if lamp.normal.is_none() { lamp.ball.radius * f64::from(DIRECTION_ERROR) } else { 0.0 };
         let off = size * D::splat(s, LAMP_POINT_ROUNDING) + D::splat(s, round);
         let best = self.chunk.best[at.slot];
-        let (mut open, mut all, mut brought, mut blocked) = (zero, zero, zero, zero);
+        let mut halves = [Half { open: zero, all: zero, brought: zero, total: zero }; 2];
         for k in 0..count {
-            let shares = sampler.pair(U::splat(s, first.wrapping_add(k)), pair).map(share_of_one);
+            let (number_in_half, pair) = half_of_ray(first.wrapping_add(k), pair);
+            let shares = sampler.pair(U::splat(s, number_in_half), pair).map(share_of_one);
             let points = lamp.points(s, shares);
             let way = narrow3(points.at - at.refined.point);
             let inverse = one / way.dot(way).sqrt();
@@ -120,10 +121,11 @@ impl<S: Simd> Shader<'_, S> {
                 };
                 reached = above & !self.trace(&segments, above, number);
             }
-            all = all + F::pick(live, one, zero);
-            open = open + F::pick(reached, one, zero);
-            brought = brought + F::pick(reached, weight, zero);
-            blocked = blocked + F::pick(live & !reached, weight, zero);
+            let half = &mut halves[(k % 2) as usize];
+            half.all = half.all + F::pick(live, one, zero);
+            half.open = half.open + F::pick(reached, one, zero);
+            half.brought = half.brought + F::pick(reached, weight, zero);
+            half.total = half.total + F::pick(live, weight, zero);
             if glossy {
                 let direction = way.scale(inverse);
                 let arrival = Arrival {
@@ -140,9 +142,9 @@ impl<S: Simd> Shader<'_, S> {
         }
         let of_lamp = area / unblocked;
         if self.view.lamp_light == LampLight::PlainRays {
-            return F::pick(lanes, brought * of_lamp, zero);
+            return F::pick(lanes, (halves[0].brought + halves[1].brought) * of_lamp, zero);
         }
-        share_seen([open, all], [brought * of_lamp, blocked * of_lamp])
+        share_seen(halves, of_lamp + of_lamp)
     }
 
     /// The lanes whose segments the blockers of a lamp block.

@@ -102,7 +102,7 @@ impl<'a> Receivers<'a> {
     /// Sends the rays of a set.
     fn send(&self, at: &LitPoint, drawn: &Drawn, (set, count): (usize, u32), sampled: &mut Sampled<'a>) {
         for (number, lamp, tally) in &mut sampled.lamps {
-            for ray in LampRays::new(lamp, *number, at, drawn, count).above() {
+            for (_, ray) in LampRays::new(lamp, *number, at, drawn, count).above() {
                 tally.add(set, ray.share, !(lamp.shadow && self.is_blocked(&ray.ray, ray.span)));
             }
         }
