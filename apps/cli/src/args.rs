@@ -74,7 +74,10 @@ pub(crate) struct JobArgs {
     /// What random choices go by: another number makes other ones, the same one the same picture
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u32,
-    /// Reflections followed one after another [default: the scene's setting]
+    /// Let glass throw whole shadows under whitted; else light comes straight through it with what it leaves of it
+    #[arg(long)]
+    pub(crate) opaque_glass: bool,
+    /// Bounces followed one after another [default: the scene's setting, for path any number]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub(crate) max_depth: Option<u32>,
     /// Trace only this part of the picture, in pixels from its upper left corner

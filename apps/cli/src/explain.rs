@@ -204,6 +204,10 @@ impl Found<'_> {
                 format!("reflections, up to {} one after another", view.max_depth)
             }
             Integrator::Whitted => "no reflections: no surface in the scene reflects".to_owned(),
+            Integrator::Path if view.path_depth < u32::MAX => {
+                format!("paths by chance, of up to {} bounces; no ambient light", view.path_depth)
+            }
+            Integrator::Path => "paths by chance, of any length; no ambient light".to_owned(),
             Integrator::Occlusion if view.occlusion_distance.is_finite() => {
                 format!("one direction a sample, {} m far", view.occlusion_distance)
             }

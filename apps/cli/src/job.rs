@@ -74,6 +74,8 @@ impl Job {
         let view = View {
             integrator: named.unwrap_or(view.integrator),
             max_depth: args.max_depth.unwrap_or(view.max_depth),
+            path_depth: args.max_depth.unwrap_or(view.path_depth),
+            clear_shadows: !args.opaque_glass,
             samples: args.samples.unwrap_or(view.samples),
             crop,
             pattern: means.pattern,

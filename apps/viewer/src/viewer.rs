@@ -21,6 +21,9 @@ use crate::tracing::Request;
 /// Samples a pixel where each is one direction that sees the sky or does not: a quarter of the noise of a single one.
 const OCCLUSION_SAMPLES: u32 = 16;
 
+/// Paths a pixel: a picture that is noisy and soon there.
+const PATH_SAMPLES: u32 = 16;
+
 /// What has to be done again since something changed.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Stale {
@@ -239,6 +242,7 @@ impl Viewer {
     pub(crate) fn request(&self) -> Request {
         let view = match self.document.scene().settings().integrator() {
             Integrator::Whitted => self.view().with_samples(1),
+            Integrator::Path => self.view().with_samples(PATH_SAMPLES),
             Integrator::Occlusion => self.view().with_samples(OCCLUSION_SAMPLES),
         };
         Request {

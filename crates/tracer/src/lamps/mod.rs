@@ -8,6 +8,6 @@ mod rays;
 pub(crate) use gather::{Gathered, LitPoint, gather, gather_for_rays};
 pub(crate) use lanes::{BallOutline, Outline, open_from_afar};
 pub(crate) use rays::{
-    Drawn, Half, LampRay, LampRays, PickedRay, follow, follow_picked, half_of_ray, pair_of_lamp, picked,
-    share_seen,
+    Drawn, Found, Half, LampRay, LampRays, PickedRay, follow, follow_picked, half_of_ray, pair_of_lamp,
+    picked, share_seen,
 };

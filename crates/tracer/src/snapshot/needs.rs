@@ -59,7 +59,7 @@ impl Snapshot {
                 + size_of_val(&self.index.tree.nodes[..])
                 + size_of_val(&self.index.tree.order[..]),
             with_kernel: self.prims.len() - self.index.columns.without_kernel(),
-            reflects: self.has_mirrors,
+            reflects: self.has_mirrors || self.matter.is_needed,
             shadowing_lights: self.single_lights().filter(|light| light.shadow()).count(),
             ambient: self.ambient.max_channel() > 0.0,
         }

@@ -32,11 +32,6 @@ impl Media {
         media
     }
 
-    /// Whether it is in none.
-    pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
     /// Goes into a shape.
     pub(super) fn enter(&mut self, prim: u32) {
         if !self.0.contains(&prim) {
