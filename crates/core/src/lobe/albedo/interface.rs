@@ -265,7 +265,10 @@ mod tests {
             let interface = Interface::new(roughness * roughness, ratio);
             for side in [Side::Thin, Side::Dense] {
                 let mean = mean_over_cosines(|cosine| interface.lost(side, cosine));
-                assert!((interface.mean_lost(side) / mean - 1.0).abs() < 5e-3, "{side:?} {roughness} {ratio}");
+                assert!(
+                    (interface.mean_lost(side) / mean - 1.0).abs() < 5e-3,
+                    "{side:?} {roughness} {ratio}"
+                );
             }
             let mean = mean_over_cosines(|cosine| interface.reflected(cosine));
             assert!((interface.mean_reflected() - mean).abs() < 1e-4, "{roughness} {ratio}");
