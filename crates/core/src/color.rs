@@ -2,6 +2,8 @@
 
 use std::ops::{Add, AddAssign, Div, Mul, Sub};
 
+use crate::Triple;
+
 /// Linear Rec. 709 red, green and blue; a reflectance (0..=1) or an amount of light (any unit, ≥ 0).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Rgb {
@@ -80,6 +82,12 @@ impl Sub for Rgb {
 impl AddAssign for Rgb {
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
+    }
+}
+
+impl From<Rgb> for Triple<f64> {
+    fn from(c: Rgb) -> Self {
+        Self::new(c.r, c.g, c.b)
     }
 }
 

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::local::{LocalLobe, LocalSample, Rays};
 use super::{
-    Complement, Diffuse, GgxReflection, Passage, Phong, RoughDiffuse, RoughInterface, SmoothInterface,
+    Complement, Diffuse, GgxReflection, Passage, Phong, RoughDiffuse, RoughInterface, Sheen, SmoothInterface,
     SmoothReflection, ThinWall,
 };
 use crate::Rgb;
@@ -72,6 +72,8 @@ lobes! {
     ThinWall(ThinWall),
     /// What another lobe leaves.
     Complement(Complement),
+    /// The rim of cloth.
+    Sheen(Sheen),
     /// Light that goes straight on.
     Passage(Passage),
 }

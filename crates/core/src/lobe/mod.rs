@@ -25,6 +25,7 @@ mod rough_diffuse;
 mod rough_interface;
 #[cfg(test)]
 mod scatter_checks;
+mod sheen;
 mod smooth_interface;
 mod smooth_reflection;
 mod thin_wall;
@@ -44,6 +45,7 @@ pub use phong::{Phong, PhongModel, PhongShape};
 pub use point::SurfacePoint;
 pub use rough_diffuse::RoughDiffuse;
 pub use rough_interface::RoughInterface;
+pub use sheen::Sheen;
 pub use smooth_interface::SmoothInterface;
 pub use smooth_reflection::SmoothReflection;
 pub use thin_wall::ThinWall;

@@ -17,6 +17,7 @@ mod mirror;
 mod mirror_share;
 mod phong;
 mod plastic;
+mod principled;
 mod rubber;
 
 pub use checker::Checker;
@@ -32,6 +33,7 @@ pub use metal::Metal;
 pub use mirror::Mirror;
 pub use phong::Phong;
 pub use plastic::Plastic;
+pub use principled::Principled;
 pub use rubber::Rubber;
 
 use glam::DVec3;
@@ -151,6 +153,8 @@ crate::part::parts! {
         Plastic,
         /// Rough colour under a rough surface.
         Rubber,
+        /// Metal, glass, plastic and cloth in one.
+        Principled,
     }
 }
 

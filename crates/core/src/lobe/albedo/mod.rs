@@ -9,6 +9,8 @@ mod axis;
 mod cap;
 mod interface;
 mod reflection;
+mod sheen;
 
 pub(super) use interface::{Interface, Side};
 pub(super) use reflection::{lost_by_reflection, mean_lost_by_reflection};
+pub(super) use sheen::{most_sheen, sheen_albedo};
