@@ -91,10 +91,11 @@ fn glass_of_the_index_of_what_is_round_it_is_not_seen() {
         ))
     };
     let size = Size::new(60, 60);
-    let [with, without] = ["sphere \"ball\" material=\"same\" { center 0.2 0 0.1; radius 0.6 }", ""].map(|ball| {
-        let scene = scene(ball);
-        traced(&scene, "scalar", &whitted(&scene, size), Film::new(size), 2)
-    });
+    let [with, without] =
+        ["sphere \"ball\" material=\"same\" { center 0.2 0 0.1; radius 0.6 }", ""].map(|ball| {
+            let scene = scene(ball);
+            traced(&scene, "scalar", &whitted(&scene, size), Film::new(size), 2)
+        });
     let mut off = 0;
     for (x, y) in (0..60).flat_map(|y| (0..60).map(move |x| (x, y))) {
         off += u32::from((with.radiance(x, y)[0] - without.radiance(x, y)[0]).abs() > 1e-5);
@@ -134,7 +135,9 @@ fn still_life(sky: &str) -> Scene {
 #[test]
 fn bits_depend_on_neither_tiles_nor_threads_nor_instructions() {
     let size = Size::new(70, 50);
-    for (sky, integrator) in [("", Integrator::Whitted), ("environment-light \"s\" { radiance 0.3 0.4 0.5 }", Integrator::Path)] {
+    for (sky, integrator) in
+        [("", Integrator::Whitted), ("environment-light \"s\" { radiance 0.3 0.4 0.5 }", Integrator::Path)]
+    {
         let scene = still_life(sky);
         let view = View { integrator, samples: 2, ..View::of(&scene, camera_of(&scene), size) };
         let reference = traced(&scene, "wide", &view, Film::new(size), 1);
@@ -176,9 +179,15 @@ fn paths_of_both_backends_agree_in_the_mean() {
 
 #[test]
 fn a_thousand_overlapping_solids_leave_every_pixel_finite() {
-    let mut text = String::from("camera \"c\" { eye 0 0 12; target 0 0 0; fov 50 }\nsettings { background 1 }\n");
+    let mut text =
+        String::from("camera \"c\" { eye 0 0 12; target 0 0 0; fov 50 }\nsettings { background 1 }\n");
     for i in 0..8 {
-        let _ = writeln!(text, "glass \"g{i}\" {{ ior {}; priority {}; tint 0.9 0.95 1 }}", 1.1 + 0.1 * f64::from(i), i % 3);
+        let _ = writeln!(
+            text,
+            "glass \"g{i}\" {{ ior {}; priority {}; tint 0.9 0.95 1 }}",
+            1.1 + 0.1 * f64::from(i),
+            i % 3
+        );
     }
     let mut bits = 1_u64;
     let mut random = || {
@@ -190,13 +199,26 @@ fn a_thousand_overlapping_solids_leave_every_pixel_finite() {
         // Every third begins where the one before ends, but for one unit in the last place.
         let x = if i % 3 == 0 { x.next_up() } else { x };
         let _ = if i % 2 == 0 {
-            writeln!(text, "sphere \"s{i}\" material=\"g{}\" {{ center {x} {y} {z}; radius {} }}", i % 8, 0.3 + 0.2 * random())
+            writeln!(
+                text,
+                "sphere \"s{i}\" material=\"g{}\" {{ center {x} {y} {z}; radius {} }}",
+                i % 8,
+                0.3 + 0.2 * random()
+            )
         } else {
-            writeln!(text, "box \"s{i}\" material=\"g{}\" {{ min {x} {y} {z}; max {} {} {} }}", i % 8, x + 0.5, y + 0.4, z + 0.6)
+            writeln!(
+                text,
+                "box \"s{i}\" material=\"g{}\" {{ min {x} {y} {z}; max {} {} {} }}",
+                i % 8,
+                x + 0.5,
+                y + 0.4,
+                z + 0.6
+            )
         };
     }
     let (scene, size) = (parsed(&text), Size::new(32, 32));
-    for view in [View { max_depth: 8, weight_cutoff: 0.01, ..whitted(&scene, size) }, paths(&scene, size, 4)] {
+    for view in [View { max_depth: 8, weight_cutoff: 0.01, ..whitted(&scene, size) }, paths(&scene, size, 4)]
+    {
         let film = traced(&scene, "wide", &view, Film::new(size), 2);
         for (x, y) in (0..size.height).flat_map(|y| (0..size.width).map(move |x| (x, y))) {
             assert!(film.radiance(x, y).iter().all(|v| v.is_finite() && *v >= 0.0), "({x}, {y})");

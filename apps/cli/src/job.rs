@@ -88,8 +88,9 @@ impl Job {
         };
         check_grid(&view)?;
         let meshes = file.mesh_paths().map(|path| ("the mesh", path));
-        let inputs: Vec<Input> =
-            meshes.chain(file.profile_paths().map(|path| ("the profile", path))).collect();
+        let profiles = file.profile_paths().map(|path| ("the profile", path));
+        let pictures = file.image_paths().map(|path| ("the picture", path));
+        let inputs: Vec<Input> = meshes.chain(profiles).chain(pictures).collect();
         check_apart(outputs, &inputs)?;
         let started = Instant::now();
         let snapshot = Arc::new(Snapshot::extract(&scene, &pool));

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use catoptra_core::scene::Settings;
-use catoptra_core::{Camera, Field, FieldKind, Light, Material, Shape, Value};
+use catoptra_core::{Camera, Field, FieldKind, Finish, Light, Material, Shape, Texture, Value};
 use catoptra_scene::{load, parse};
 
 fn folder() -> PathBuf {
@@ -55,10 +55,12 @@ fn every_kind_and_field_is_documented() {
         .map(|k| (k.name, k.fields))
         .chain(Light::KINDS.iter().map(|k| (k.name, k.fields)))
         .chain(Material::KINDS.iter().map(|k| (k.name, k.fields)))
+        .chain(Texture::KINDS.iter().map(|k| (k.name, k.fields)))
+        .chain([("Fields of any material", Finish::KIND.fields)])
         .chain([(Camera::KIND.name, Camera::KIND.fields), (Settings::KIND.name, Settings::KIND.fields)])
         .collect();
     for (kind, fields) in kinds {
-        let heading = format!("### `{kind}`");
+        let heading = if kind.contains(' ') { format!("### {kind}") } else { format!("### `{kind}`") };
         let Some((_, section)) = readme.split_once(&heading) else { panic!("{kind} has no section") };
         let section = section.split("\n##").next().unwrap_or_default();
         for field in fields {
@@ -94,6 +96,9 @@ fn word_for(kind: FieldKind) -> &'static str {
         FieldKind::Choice(_) => "choice",
         FieldKind::Mesh => "mesh",
         FieldKind::Profile => "profile",
+        FieldKind::Pair => "pair",
+        FieldKind::Image => "image",
+        FieldKind::Texture => "texture",
     }
 }
 

@@ -69,7 +69,9 @@ pub(crate) fn run(args: &ProbeArgs) -> Result<Outcome> {
     let points = args.points.as_deref().map(points::read).transpose()?;
     let (scene, file) = load(&args.scene)?;
     let meshes = file.mesh_paths().map(|path| ("the mesh", path));
-    let inputs: Vec<Input> = meshes.chain(file.profile_paths().map(|path| ("the profile", path))).collect();
+    let profiles = file.profile_paths().map(|path| ("the profile", path));
+    let pictures = file.image_paths().map(|path| ("the picture", path));
+    let inputs: Vec<Input> = meshes.chain(profiles).chain(pictures).collect();
     check_apart(&outputs(args), &inputs)?;
     let receivers = match (&points, &args.plane) {
         (Some(points), _) => points.receivers(),

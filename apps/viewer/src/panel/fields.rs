@@ -86,6 +86,24 @@ fn edit(ui: &mut Ui, field: &Field, value: &Value) -> Option<Value> {
             ui.label(&source.path).on_hover_text(format!("{flux:.0} lm, at most {peak:.0} cd"));
             None
         }
+        (_, Value::Pair(v)) => {
+            ui.label(format!("{} {}", short(v.x), short(v.y)));
+            None
+        }
+        (_, Value::Image(source)) => {
+            let (width, height) = (source.image.width(), source.image.height());
+            ui.label(&source.path).on_hover_text(format!("{width} x {height} pixels"));
+            None
+        }
+        (_, Value::Texture(texture)) => {
+            ui.label(texture.to_string());
+            None
+        }
+        (_, Value::Textured(textured)) => {
+            let base = edit(ui, field, &textured.base);
+            ui.label("×").on_hover_text(textured.by.texture.to_string());
+            base.map(|base| base.textured(textured.by))
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use super::{
     Change, ChangeKind, Content, Edit, EntityId, MaterialId, Node, Role, Scene, SceneError, Subject, Subtree,
     new_revision,
 };
-use crate::{Camera, Finish, Light, Part, Placement, Shape};
+use crate::{Camera, Finish, Light, Placement, Shape};
 
 impl Scene {
     /// Does an edit, writes it into the log, and answers with the edit that takes it back: ids, names, order and
@@ -63,33 +63,11 @@ impl Scene {
                 self.record(Subject::Material(id), ChangeKind::Name);
                 Ok(Edit::RenameMaterial(id, old))
             }
-            Edit::Finish(id, finish) => {
-                self.check_textures(&finish.values())?;
-                let old = std::mem::replace(&mut self.materials.get_mut(id)?.finish, finish);
-                self.record(Subject::Material(id), ChangeKind::Finish);
-                Ok(Edit::Finish(id, old))
-            }
-            Edit::Texture(id, texture) => {
-                let old = std::mem::replace(self.textures.get_mut(id)?, texture);
-                self.record(Subject::Texture(id), ChangeKind::Value);
-                Ok(Edit::Texture(id, old))
-            }
-            Edit::AddTexture { name, texture, id } => {
-                let id = self.textures.add(name, texture, id)?;
-                self.record(Subject::Texture(id), ChangeKind::Added);
-                Ok(Edit::RemoveTexture(id))
-            }
-            Edit::RemoveTexture(id) => {
-                self.check_unused(id)?;
-                let (name, texture) = self.textures.remove(id)?;
-                self.record(Subject::Texture(id), ChangeKind::Removed);
-                Ok(Edit::AddTexture { name, texture, id: Some(id) })
-            }
-            Edit::RenameTexture(id, name) => {
-                let old = self.textures.rename(id, name)?;
-                self.record(Subject::Texture(id), ChangeKind::Name);
-                Ok(Edit::RenameTexture(id, old))
-            }
+            Edit::Finish(id, finish) => self.set_finish(id, finish),
+            Edit::Texture(id, texture) => self.set_texture(id, texture),
+            Edit::AddTexture { name, texture, id } => self.put_texture(name, texture, id),
+            Edit::RemoveTexture(id) => self.remove_texture(id),
+            Edit::RenameTexture(id, name) => self.rename_texture(id, name),
             Edit::Settings(settings) => {
                 self.record(Subject::Settings, ChangeKind::Value);
                 Ok(Edit::Settings(std::mem::replace(&mut self.settings, settings)))
@@ -117,7 +95,7 @@ impl Scene {
         Ok(Edit::Batch(inverses))
     }
 
-    fn record(&mut self, subject: Subject, what: ChangeKind) {
+    pub(super) fn record(&mut self, subject: Subject, what: ChangeKind) {
         self.log.push(Change { revision: self.revision, subject, what });
     }
 

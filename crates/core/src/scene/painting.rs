@@ -1,6 +1,6 @@
 //! Which textures does a scene have, what is painted with them, and how does a material finish?
 
-use super::{Edit, MaterialId, Scene, SceneError, TextureId};
+use super::{ChangeKind, Edit, MaterialId, Scene, SceneError, Subject, TextureId};
 use crate::texture::{Texture, TextureSource};
 use crate::{Finish, Material, Part, Values};
 
@@ -68,7 +68,7 @@ impl Scene {
     }
 
     /// Whether no material is painted with a texture.
-    pub(super) fn check_unused(&self, id: TextureId) -> Result<(), SceneError> {
+    fn check_unused(&self, id: TextureId) -> Result<(), SceneError> {
         let painted = self.painted_with(id);
         let Some(&first) = painted.first() else { return Ok(()) };
         Err(SceneError::TextureInUse {
@@ -76,6 +76,46 @@ impl Scene {
             material: self.material_name(first).to_owned(),
             others: painted.len() - 1,
         })
+    }
+}
+
+/// The edits of textures and finishes, each answering with its inverse.
+impl Scene {
+    pub(super) fn set_finish(&mut self, id: MaterialId, finish: Finish) -> Result<Edit, SceneError> {
+        self.check_textures(&finish.values())?;
+        let old = std::mem::replace(&mut self.materials.get_mut(id)?.finish, finish);
+        self.record(Subject::Material(id), ChangeKind::Finish);
+        Ok(Edit::Finish(id, old))
+    }
+
+    pub(super) fn set_texture(&mut self, id: TextureId, texture: Texture) -> Result<Edit, SceneError> {
+        let old = std::mem::replace(self.textures.get_mut(id)?, texture);
+        self.record(Subject::Texture(id), ChangeKind::Value);
+        Ok(Edit::Texture(id, old))
+    }
+
+    pub(super) fn put_texture(
+        &mut self,
+        name: String,
+        texture: Texture,
+        id: Option<TextureId>,
+    ) -> Result<Edit, SceneError> {
+        let id = self.textures.add(name, texture, id)?;
+        self.record(Subject::Texture(id), ChangeKind::Added);
+        Ok(Edit::RemoveTexture(id))
+    }
+
+    pub(super) fn remove_texture(&mut self, id: TextureId) -> Result<Edit, SceneError> {
+        self.check_unused(id)?;
+        let (name, texture) = self.textures.remove(id)?;
+        self.record(Subject::Texture(id), ChangeKind::Removed);
+        Ok(Edit::AddTexture { name, texture, id: Some(id) })
+    }
+
+    pub(super) fn rename_texture(&mut self, id: TextureId, name: String) -> Result<Edit, SceneError> {
+        let old = self.textures.rename(id, name)?;
+        self.record(Subject::Texture(id), ChangeKind::Name);
+        Ok(Edit::RenameTexture(id, old))
     }
 }
 

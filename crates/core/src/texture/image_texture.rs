@@ -11,6 +11,8 @@ use crate::{Field, FieldKind, ImageSource, InvalidPart, Part, Value, Values};
 pub struct ImageTexture {
     source: ImageSource,
     wrap: Wrap,
+    /// Below and above, where that is another.
+    wrap_v: Option<Wrap>,
     filter: Filter,
     /// Index in the list of words.
     color_space: usize,
@@ -51,6 +53,13 @@ impl Part for ImageTexture {
         ),
         Field::required("wrap", FieldKind::Choice(WRAP_WORDS), "", "What lies beyond the picture.")
             .or(|| Value::Word("repeat".to_owned())),
+        Field::required(
+            "wrap-v",
+            FieldKind::Choice(WRAP_WORDS),
+            "",
+            "What lies below and above it, if not the same as beside it.",
+        )
+        .optional(),
         Field::required("filter", FieldKind::Choice(FILTER_WORDS), "", "How it is averaged over a pixel.")
             .or(|| Value::Word("ewa".to_owned())),
         Field::required(
@@ -73,17 +82,22 @@ impl Part for ImageTexture {
         let encoding = SPACES[color_space].unwrap_or(source.image.natural_encoding());
         let filter = FILTERS[given.choice("filter")?];
         let (wrap, transform) = (WRAPS[given.choice("wrap")?], Transform::given(given)?);
+        let has_wrap_v = given.has("wrap-v");
+        let wrap_v = if has_wrap_v { Some(WRAPS[given.choice("wrap-v")?]) } else { None };
         source.image.prepare(encoding);
-        Ok(Self { source, wrap, filter, color_space, encoding, transform })
+        Ok(Self { source, wrap, wrap_v, filter, color_space, encoding, transform })
     }
 
     fn values(&self) -> Values {
         let word = |words: &[&str], i: usize| Value::Word(words[i].to_owned());
-        let own = Values::new()
+        let mut own = Values::new()
             .with("file", Value::Image(self.source.clone()))
-            .with("wrap", word(WRAP_WORDS, self.wrap as usize))
-            .with("filter", word(FILTER_WORDS, self.filter as usize))
-            .with("color-space", word(SPACE_WORDS, self.color_space));
+            .with("wrap", word(WRAP_WORDS, self.wrap as usize));
+        if let Some(wrap) = self.wrap_v {
+            own.set("wrap-v", word(WRAP_WORDS, wrap as usize));
+        }
+        own.set("filter", word(FILTER_WORDS, self.filter as usize));
+        own.set("color-space", word(SPACE_WORDS, self.color_space));
         self.transform.values(own)
     }
 }
@@ -92,6 +106,7 @@ impl Pattern for ImageTexture {
     fn texel(&self, at: &TexturePoint) -> Texel {
         let place = self.transform.flat(at);
         let levels = self.source.image.levels(self.encoding);
-        levels.filtered(self.wrap, self.filter, place.uv, place.footprint, at.stochastic)
+        let wrap = [self.wrap, self.wrap_v.unwrap_or(self.wrap)];
+        levels.filtered(wrap, self.filter, place.uv, place.footprint, at.stochastic)
     }
 }

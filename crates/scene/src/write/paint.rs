@@ -1,6 +1,7 @@
 //! How the properties for a texture behind a field's value follow the scene.
 
 use catoptra_core::scene::Scene;
+use catoptra_core::texture::Channel;
 use catoptra_core::{TextureUse, Value};
 
 use super::splice::Splice;
@@ -43,7 +44,7 @@ pub(super) fn edit(
 }
 
 fn change(text: &str, painted: &Painted, by: TextureUse, scene: &Scene, splices: &mut Vec<Splice>) {
-    let channel = by.channel.map(|channel| channel.word());
+    let channel = by.channel.map(Channel::word);
     match (&painted.texture, &painted.channel, channel) {
         (Some(name), Some(old), Some(channel)) => {
             rename(

@@ -35,11 +35,12 @@ struct Probes {
 }
 
 impl Levels<'_> {
-    /// The mean over a footprint (as in [`TexturePoint`](crate::texture::TexturePoint)) round a place, or one pixel of it that is
-    /// chosen by two numbers.
-    pub(in crate::texture) fn filtered(
+    /// The mean over a footprint round a place, or one pixel of it that is chosen by two numbers: both as in
+    /// [`TexturePoint`](crate::texture::TexturePoint). `wrap` is for left and right, and for bottom and top.
+    #[must_use]
+    pub fn filtered(
         &self,
-        wrap: Wrap,
+        wrap: [Wrap; 2],
         filter: Filter,
         uv: DVec2,
         footprint: Option<[DVec2; 2]>,
@@ -93,7 +94,7 @@ impl Levels<'_> {
         Probes { step: step / self.size(0), count: count as u32, decay, ..self.round(center, minor) }
     }
 
-    fn mean(&self, wrap: Wrap, probes: &Probes) -> Vec4 {
+    fn mean(&self, wrap: [Wrap; 2], probes: &Probes) -> Vec4 {
         let (mut sum, mut weights) = (Vec4::ZERO, 0.0);
         for i in 0..probes.count {
             let (place, weight) = probes.probe(i);
@@ -108,7 +109,7 @@ impl Levels<'_> {
     }
 
     /// One pixel, each chosen as often as it weighs in the mean.
-    fn chosen(&self, wrap: Wrap, probes: &Probes, [first, second]: [f64; 2]) -> Light {
+    fn chosen(&self, wrap: [Wrap; 2], probes: &Probes, [first, second]: [f64; 2]) -> Light {
         let weights = |i| probes.probe(i).1;
         let total: f64 = (0..probes.count).map(weights).sum();
         let mut left = first.clamp(0.0, 1.0) * total;

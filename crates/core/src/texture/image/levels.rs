@@ -120,9 +120,9 @@ impl<'a> Levels<'a> {
 
     /// A pixel of a copy by its column and row from the top left, which may lie beyond the borders.
     #[inline]
-    pub(super) fn light(&self, level: usize, wrap: Wrap, x: i64, y: i64) -> Light {
+    pub(super) fn light(&self, level: usize, wrap: [Wrap; 2], x: i64, y: i64) -> Light {
         let plane = self.plane(level);
-        light_of(plane, self.encoding, wrapped(wrap, x, plane.width), wrapped(wrap, y, plane.height))
+        light_of(plane, self.encoding, wrapped(wrap[0], x, plane.width), wrapped(wrap[1], y, plane.height))
     }
 
     /// The four pixels of a copy round a place: the first one's column and row, and the place's share of the way to the
@@ -137,7 +137,7 @@ impl<'a> Levels<'a> {
 
     /// The light of a copy at a place, linear between its pixels.
     #[inline]
-    pub(super) fn bilinear(&self, level: usize, wrap: Wrap, uv: DVec2) -> Vec4 {
+    pub(super) fn bilinear(&self, level: usize, wrap: [Wrap; 2], uv: DVec2) -> Vec4 {
         let ([x, y], [along, down]) = self.between(level, uv);
         let (along, down) = (along as f32, down as f32);
         let row = |y: i64| self.light(level, wrap, x, y).0.lerp(self.light(level, wrap, x + 1, y).0, along);
@@ -161,13 +161,14 @@ fn wrapped(wrap: Wrap, i: i64, count: u32) -> u32 {
 }
 
 /// Texture coordinates near 0 that show the same as these; the middle for none.
-pub(super) fn reduced(wrap: Wrap, uv: DVec2) -> DVec2 {
+pub(super) fn reduced(wrap: [Wrap; 2], uv: DVec2) -> DVec2 {
     if !uv.is_finite() {
         return DVec2::splat(0.5);
     }
-    match wrap {
-        Wrap::Repeat => uv - uv.floor(),
-        Wrap::Mirror => uv - 2.0 * (uv / 2.0).floor(),
-        Wrap::Clamp => uv.clamp(DVec2::splat(-1.0), DVec2::splat(2.0)),
-    }
+    let along = |wrap, v: f64| match wrap {
+        Wrap::Repeat => v - v.floor(),
+        Wrap::Mirror => v - 2.0 * (v / 2.0).floor(),
+        Wrap::Clamp => v.clamp(-1.0, 2.0),
+    };
+    DVec2::new(along(wrap[0], uv.x), along(wrap[1], uv.y))
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use catoptra_core::geometry::Plane;
-use catoptra_core::glam::DVec3;
+use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::light::Pole;
 use catoptra_core::{
     Field, FieldKind, IntensityProfile, Kind, Light, MeshSource, Placement, ProfileSource, Rgb, Shape,
@@ -61,6 +61,8 @@ impl Given {
             FieldKind::Choice(words) => Value::Word((*one_of(random, words)).to_owned()),
             FieldKind::Mesh => Value::Mesh(some_mesh(random, size)),
             FieldKind::Profile => Value::Profile(some_profile(random)),
+            FieldKind::Pair => Value::Pair(DVec2::splat(size)),
+            FieldKind::Image | FieldKind::Texture => unreachable!("neither shapes nor lights have one"),
         }
     }
 }
