@@ -175,7 +175,8 @@ impl Bsdf {
     /// choices that are delta.
     #[must_use]
     pub fn pdf(&self, direction: DVec3) -> f64 {
-        self.local(direction).map_or(0.0, |i| self.density(i))
+        let i = self.local(direction).filter(|_| !self.lobes.is_empty());
+        i.map_or(0.0, |i| self.density(i))
     }
 
     fn density(&self, i: DVec3) -> f64 {

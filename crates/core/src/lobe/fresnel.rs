@@ -107,7 +107,9 @@ impl Fresnel {
                 let schlick = color + (Rgb::WHITE - color) * fifth;
                 (schlick - dip * (cosine * fifth * rest)).map(|share| share.max(0.0))
             }
-            Self::Dielectric { eta, base, slope } => base + slope * dielectric(cosine, eta),
+            Self::Dielectric { eta, base, slope } => {
+                (base + slope * dielectric(cosine, eta)).map(|share| share.max(0.0))
+            }
         }
     }
 
