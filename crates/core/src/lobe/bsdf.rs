@@ -112,7 +112,10 @@ impl Bsdf {
 
     /// Adds a lobe that counts `weight` per channel, and what it shows of ambient light. One that counts nothing is left out.
     pub fn add(&mut self, weight: Rgb, lobe: impl Into<BsdfLobe>) {
-        let lobe = lobe.into();
+        let lobe = match lobe.into() {
+            BsdfLobe::Complement(complement) => complement.seen_from(self.to_viewer).into(),
+            lobe => lobe,
+        };
         let chance = (weight * lobe.albedo(self.to_viewer)).max_channel();
         if chance > 0.0 {
             self.ambient += weight * lobe.ambient(self.to_viewer);

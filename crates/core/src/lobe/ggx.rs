@@ -36,6 +36,12 @@ impl Ggx {
         (self.x * self.y).sqrt()
     }
 
+    /// Whether it is rougher along one direction than along another.
+    #[must_use]
+    pub fn is_stretched(&self) -> bool {
+        self.x != self.y
+    }
+
     /// Area of facets with normals round `h`, per area of surface and solid angle.
     #[must_use]
     pub fn density(&self, h: DVec3) -> f64 {

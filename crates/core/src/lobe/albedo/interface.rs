@@ -9,7 +9,7 @@ use super::axis::{
     place_of_cosine,
 };
 use super::cap::{CapPoints, seen_under};
-use super::reflection::{fine, lost_by_reflection, mean_scale, scale};
+use super::reflection::{fine, kept_by_reflection, lost_by_reflection, mean_scale, scale};
 use crate::lobe::fresnel::dielectric;
 use crate::lobe::ggx::Ggx;
 use crate::lobe::quadrature::mean_over_cosines;
@@ -122,15 +122,15 @@ impl Side {
     /// Columns of the table.
     const fn cosines(self) -> usize {
         match self {
-            Self::Thin => 28,
-            Self::Dense => 41,
+            Self::Thin => 40,
+            Self::Dense => 45,
         }
     }
 
     /// Points of the quadrature; more where total reflection has an edge.
     const fn points(self) -> u32 {
         match self {
-            Self::Thin => 600,
+            Self::Thin => 500,
             Self::Dense => 2000,
         }
     }
@@ -151,14 +151,14 @@ impl Interface {
     fn place_on(&self, side: Side, cosine: f64) -> f64 {
         match side {
             Side::Thin => place_of_cosine(cosine, fine(self.alpha)),
-            Side::Dense => place_about_edge(cosine, self.critical(), self.alpha),
+            Side::Dense => place_about_edge(cosine, self.critical(), fine(self.alpha)),
         }
     }
 
     fn cosine_on(&self, side: Side, place: f64) -> f64 {
         match side {
             Side::Thin => cosine_at(place, fine(self.alpha)),
-            Side::Dense => cosine_about_edge(place, self.critical(), self.alpha),
+            Side::Dense => cosine_about_edge(place, self.critical(), fine(self.alpha)),
         }
     }
 
@@ -201,22 +201,24 @@ impl Interface {
     }
 
     fn computed_loss(&self, points: &CapPoints, side: Side, cosine: f64) -> f64 {
-        let (ggx, o, eta) = (Ggx::isotropic(self.alpha), seen_under(cosine), side.eta(self.ratio));
-        points.mean(&ggx, o, |h| {
-            let reflectance = dielectric(o.dot(h), eta);
-            let reflected = kept(&ggx, o, Some(DVec3::from(reflect((-o).into(), h.into()))), 1.0);
-            let refracted = kept(&ggx, o, refract(-o, h, 1.0 / eta), -1.0);
-            1.0 - reflectance * reflected - (1.0 - reflectance) * refracted
-        })
+        lost_at_interface(points, &Ggx::isotropic(self.alpha), side.eta(self.ratio), seen_under(cosine))
     }
 
     fn computed_reflection(&self, points: &CapPoints, cosine: f64) -> f64 {
-        let (ggx, o) = (Ggx::isotropic(self.alpha), seen_under(cosine));
-        points.mean(&ggx, o, |h| {
-            let reflected = DVec3::from(reflect((-o).into(), h.into()));
-            dielectric(o.dot(h), self.ratio) * kept(&ggx, o, Some(reflected), 1.0)
-        })
+        let share = |cosine| dielectric(cosine, self.ratio);
+        kept_by_reflection(points, &Ggx::isotropic(self.alpha), seen_under(cosine), share)
     }
+}
+
+/// Share of light that single reflection and refraction lose of what `o` sees, by quadrature; `eta` is the index of refraction
+/// beyond over that on this side.
+pub(in crate::lobe) fn lost_at_interface(points: &CapPoints, ggx: &Ggx, eta: f64, o: DVec3) -> f64 {
+    points.mean(ggx, o, |h| {
+        let reflectance = dielectric(o.dot(h), eta);
+        let reflected = kept(ggx, o, Some(DVec3::from(reflect((-o).into(), h.into()))), 1.0);
+        let refracted = kept(ggx, o, refract(-o, h, 1.0 / eta), -1.0);
+        1.0 - reflectance * reflected - (1.0 - reflectance) * refracted
+    })
 }
 
 /// Share of what a facet sends on that meets no other facet: none where it goes to the wrong side.

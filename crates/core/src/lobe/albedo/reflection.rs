@@ -58,10 +58,20 @@ pub(super) fn fine(alpha: f64) -> f64 {
 
 /// By quadrature.
 fn computed(points: &CapPoints, alpha: f64, cosine: f64) -> f64 {
-    let (ggx, o) = (Ggx::isotropic(alpha), seen_under(cosine));
-    points.mean(&ggx, o, |h| {
+    1.0 - kept_by_reflection(points, &Ggx::isotropic(alpha), seen_under(cosine), |_| 1.0)
+}
+
+/// Share of light that single reflection sends to `o`, by quadrature, if each facet reflects that share at that cosine to its
+/// normal.
+pub(in crate::lobe) fn kept_by_reflection(
+    points: &CapPoints,
+    ggx: &Ggx,
+    o: DVec3,
+    share: impl Fn(f64) -> f64,
+) -> f64 {
+    points.mean(ggx, o, |h| {
         let i = DVec3::from(reflect((-o).into(), h.into()));
-        if i.z > 0.0 { 1.0 - ggx.seen_from_both(o, i) } else { 1.0 }
+        if i.z > 0.0 { share(o.dot(h)) * ggx.seen_from_both(o, i) } else { 0.0 }
     })
 }
 
