@@ -10,7 +10,7 @@ use super::axis::{
 };
 use super::cap::{CapPoints, seen_under};
 use super::reflection::{fine, kept_by_reflection, lost_by_reflection, mean_scale, scale};
-use crate::lobe::fresnel::dielectric;
+use crate::lobe::fresnel::{LARGEST_ETA, dielectric};
 use crate::lobe::ggx::Ggx;
 use crate::lobe::quadrature::mean_over_cosines;
 use crate::optics::{reflect, refract};
@@ -19,8 +19,8 @@ use crate::optics::{reflect, refract};
 const RATIOS: usize = 17;
 const ALPHAS: usize = 16;
 
-/// (n − 1)/(n + 1) of the largest ratio of indices in the table, which is 9; germanium in air has 4.
-const LARGEST: f64 = 0.8;
+/// (n − 1)/(n + 1) of the largest ratio of indices in the table.
+const LARGEST: f64 = (LARGEST_ETA - 1.0) / (LARGEST_ETA + 1.0);
 
 /// A side of a boundary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -137,9 +137,9 @@ impl Side {
 }
 
 impl Interface {
-    /// Of a slope, and of the higher index of refraction over the lower, which counts as 9 where it is higher.
+    /// Of a slope, and of the higher index of refraction over the lower, at most [`LARGEST_ETA`].
     pub(in crate::lobe) const fn new(alpha: f64, ratio: f64) -> Self {
-        Self { alpha, ratio: ratio.min((1.0 + LARGEST) / (1.0 - LARGEST)) }
+        Self { alpha, ratio: ratio.min(LARGEST_ETA) }
     }
 
     /// The cosine beyond which all is reflected on the dense side.
