@@ -1,12 +1,14 @@
 //! A surface that reflects, smooth or rough: which lobe is it, and how much does it leave for what is below?
 
+use glam::DVec3;
+
 use super::fresnel::Fresnel;
 use super::ggx::Ggx;
 use super::{BsdfLobe, GgxReflection, SmoothReflection};
 use crate::Rgb;
 use crate::numeric::SMOOTH_SLOPE;
 
-use super::albedo::{Interface, mean_lost_by_reflection};
+use super::albedo::{CapPoints, Interface, kept_by_reflection, mean_lost_by_reflection};
 
 /// How rough a surface is, as people give it: slopes are the square of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +77,15 @@ impl Boundary {
             Some(ggx) => GgxReflection { ggx, fresnel: self.fresnel }.reflected(cosine),
             None => self.fresnel.at(cosine),
         }
+    }
+
+    /// Share of light that its lobe reflects to `o`, by quadrature; `None` where it is alike in all directions.
+    pub(super) fn computed(&self, o: DVec3) -> Option<Rgb> {
+        let ggx = self.facets.filter(Ggx::is_stretched)?;
+        let channel = |pick: fn(Rgb) -> f64| {
+            kept_by_reflection(CapPoints::few(), &ggx, o, |cosine| pick(self.fresnel.at(cosine)))
+        };
+        Some(Rgb::new(channel(|c| c.r), channel(|c| c.g), channel(|c| c.b)))
     }
 
     /// The mean of [`reflected`](Self::reflected), weighted by twice the cosine.

@@ -112,7 +112,10 @@ impl Bsdf {
 
     /// Adds a lobe that counts `weight` per channel, and what it shows of ambient light. One that counts nothing is left out.
     pub fn add(&mut self, weight: Rgb, lobe: impl Into<BsdfLobe>) {
-        let lobe = lobe.into();
+        let lobe = match lobe.into() {
+            BsdfLobe::Complement(complement) => complement.seen_from(self.to_viewer).into(),
+            lobe => lobe,
+        };
         let chance = (weight * lobe.albedo(self.to_viewer)).max_channel();
         if chance > 0.0 {
             self.ambient += weight * lobe.ambient(self.to_viewer);
@@ -183,7 +186,8 @@ impl Bsdf {
     /// choices that are delta.
     #[must_use]
     pub fn pdf(&self, direction: DVec3) -> f64 {
-        self.local(direction).map_or(0.0, |i| self.density(i))
+        let i = self.local(direction).filter(|_| !self.lobes.is_empty());
+        i.map_or(0.0, |i| self.density(i))
     }
 
     fn density(&self, i: DVec3) -> f64 {

@@ -17,6 +17,7 @@ macro_rules! lobes {
         /// One lobe.
         #[derive(Debug, Clone, Copy)]
         #[non_exhaustive]
+        #[allow(clippy::large_enum_variant, reason = "a point has few lobes, and boxes would be allocated at each hit")]
         pub enum BsdfLobe { $($(#[$doc])* $Name($Lobe)),+ }
 
         $(impl From<$Lobe> for BsdfLobe {

@@ -12,7 +12,10 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::albedo::{Interface, Side, lost_by_reflection, mean_lost_by_reflection};
+use super::albedo::{
+    CapPoints, Interface, Side, kept_by_reflection, lost_at_interface, lost_by_reflection,
+    mean_lost_by_reflection,
+};
 use super::boundary::Boundary;
 use super::fresnel::Fresnel;
 use super::ggx::Ggx;
@@ -24,10 +27,10 @@ use crate::Rgb;
 /// What the other lobe leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Left {
-    /// Of single reflection where every facet of that slope reflects all.
-    ByReflection(f64),
+    /// Of single reflection where every facet reflects all.
+    ByReflection(Ggx),
     /// Of single reflection and refraction, on one side.
-    ByInterface(Interface, Side),
+    ByInterface(RoughInterface, Side),
     /// Below a boundary.
     Below(Boundary),
 }
@@ -35,8 +38,8 @@ enum Left {
 impl Left {
     fn at(&self, cosine: f64) -> Rgb {
         match self {
-            Self::ByReflection(alpha) => Rgb::grey(lost_by_reflection(*alpha, cosine)),
-            Self::ByInterface(interface, side) => Rgb::grey(interface.lost(*side, cosine)),
+            Self::ByReflection(ggx) => Rgb::grey(lost_by_reflection(ggx.alpha(), cosine)),
+            Self::ByInterface(interface, side) => Rgb::grey(table_of(interface).lost(*side, cosine)),
             Self::Below(boundary) => Rgb::WHITE - boundary.reflected(cosine),
         }
     }
@@ -44,11 +47,30 @@ impl Left {
     /// Weighted by twice the cosine.
     fn mean(&self) -> Rgb {
         match self {
-            Self::ByReflection(alpha) => Rgb::grey(mean_lost_by_reflection(*alpha)),
-            Self::ByInterface(interface, side) => Rgb::grey(interface.mean_lost(*side)),
+            Self::ByReflection(ggx) => Rgb::grey(mean_lost_by_reflection(ggx.alpha())),
+            Self::ByInterface(interface, side) => Rgb::grey(table_of(interface).mean_lost(*side)),
             Self::Below(boundary) => Rgb::WHITE - boundary.mean_reflected(),
         }
     }
+
+    /// What is left of what `o` sees, by quadrature; `None` where a table knows it.
+    fn computed(&self, o: DVec3) -> Option<Rgb> {
+        let points = CapPoints::few();
+        match self {
+            Self::ByReflection(ggx) => {
+                ggx.is_stretched().then(|| Rgb::grey(1.0 - kept_by_reflection(points, ggx, o, |_| 1.0)))
+            }
+            Self::ByInterface(RoughInterface { ggx, facet }, _) => {
+                ggx.is_stretched().then(|| Rgb::grey(lost_at_interface(points, ggx, facet.eta, o)))
+            }
+            Self::Below(boundary) => boundary.computed(o).map(|reflected| Rgb::WHITE - reflected),
+        }
+    }
+}
+
+fn table_of(interface: &RoughInterface) -> Interface {
+    let eta = interface.facet.eta;
+    Interface::new(interface.ggx.alpha(), eta.max(1.0 / eta))
 }
 
 /// One side of the surface.
@@ -77,6 +99,8 @@ pub struct Complement {
     there: Option<Half>,
     /// Index of refraction beyond over that on the viewer's side.
     eta: f64,
+    /// What is left of what the viewer sees, where that is known better than by table.
+    seen: Option<Rgb>,
     /// How likely a sample comes from the viewer's side.
     chance: f64,
 }
@@ -86,13 +110,13 @@ impl Complement {
         let beyond = there.map_or(0.0, |half| half.share.max_channel());
         let all = here.share.max_channel() + beyond;
         let chance = if all > 0.0 { here.share.max_channel() / all } else { 1.0 };
-        Self { here, there, eta, chance }
+        Self { here, there, eta, seen: None, chance }
     }
 
     /// Light that a metal reflects more than once. Each further reflection is coloured.
     #[must_use]
     pub fn of_metal(ggx: Ggx, fresnel: Fresnel) -> Self {
-        let left = Left::ByReflection(ggx.alpha());
+        let left = Left::ByReflection(ggx);
         let (lost, once) = (left.mean().r, fresnel.mean());
         let share = once.map(|f| f * f * (1.0 - lost) / (1.0 - f * lost));
         Self::new(Half::new(left, share), None, 1.0)
@@ -103,8 +127,7 @@ impl Complement {
     pub fn of_interface(interface: &RoughInterface) -> Self {
         let eta = interface.facet.eta;
         let [here, there] = if eta > 1.0 { [Side::Thin, Side::Dense] } else { [Side::Dense, Side::Thin] };
-        let table = Interface::new(interface.ggx.alpha(), eta.max(1.0 / eta));
-        let [here, there] = [here, there].map(|side| Left::ByInterface(table, side));
+        let [here, there] = [here, there].map(|side| Left::ByInterface(*interface, side));
         let [near, far] = [here.mean().r, there.mean().r * eta * eta];
         let share = if near + far > 0.0 { near / (near + far) } else { 1.0 };
         let beyond = Half::new(there, interface.facet.tint * (1.0 - share));
@@ -114,7 +137,7 @@ impl Complement {
     /// Light that a rough thin wall sends on more than once, if it sends on `reflected` and `transmitted` of what meets a facet.
     #[must_use]
     pub fn of_wall(ggx: Ggx, reflected: Rgb, transmitted: Rgb) -> Self {
-        let left = Left::ByReflection(ggx.alpha());
+        let left = Left::ByReflection(ggx);
         let lost = left.mean().r;
         let all = reflected + transmitted;
         let again = all.map(|f| f * (1.0 - lost) / (1.0 - f * lost));
@@ -128,6 +151,18 @@ impl Complement {
         Self::new(Half::new(Left::Below(boundary), color), None, 1.0)
     }
 
+    /// The same, for one viewer. Tables know facets that are alike in all directions; what others leave is computed, so that
+    /// the whole is complete, though no longer reciprocal.
+    #[must_use]
+    pub fn seen_from(self, o: DVec3) -> Self {
+        Self { seen: self.here.left.computed(o), ..self }
+    }
+
+    /// What is left of what `o` sees.
+    fn left(&self, o: DVec3) -> Rgb {
+        self.seen.unwrap_or_else(|| self.here.left.at(o.z))
+    }
+
     fn half(&self, z: f64) -> Option<&Half> {
         if z > 0.0 { Some(&self.here) } else { self.there.as_ref() }
     }
@@ -137,7 +172,7 @@ impl LocalLobe for Complement {
     fn evaluate(&self, o: DVec3, i: DVec3) -> Rgb {
         let Some(half) = self.half(i.z) else { return Rgb::BLACK };
         let cosine = i.z.abs();
-        self.here.left.at(o.z) * half.left.at(cosine) * half.scale * (cosine / PI)
+        self.left(o) * half.left.at(cosine) * half.scale * (cosine / PI)
     }
 
     fn pdf(&self, _: DVec3, i: DVec3) -> f64 {
@@ -156,6 +191,6 @@ impl LocalLobe for Complement {
 
     fn albedo(&self, o: DVec3) -> Rgb {
         let all = self.there.map_or(self.here.share, |half| half.share + self.here.share);
-        self.here.left.at(o.z) * all
+        self.left(o) * all
     }
 }

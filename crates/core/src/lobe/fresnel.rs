@@ -39,6 +39,10 @@ pub fn mean_dielectric(eta: f64) -> f64 {
     mean_over_cosines(|cosine| dielectric(cosine, eta))
 }
 
+/// The largest ratio of indices of refraction that opaque matter is given: germanium in air has 4, and from here on all are
+/// mirrors.
+pub const LARGEST_ETA: f64 = 9.0;
+
 /// Whether two media are one, optically.
 #[must_use]
 pub fn is_no_boundary(eta: f64) -> bool {
@@ -78,16 +82,18 @@ impl Fresnel {
         Self::Metal { color, dip: schlick * (Rgb::WHITE - edge) / (cosine * rest.powi(6)) }
     }
 
-    /// Clear matter of that index of refraction, relative to what is round it and at least 1.
+    /// The surface of opaque matter of that index of refraction, relative to what is round it: from 1 to [`LARGEST_ETA`], or as
+    /// the nearer of these.
     #[must_use]
     pub const fn clear(eta: f64) -> Self {
-        Self::Dielectric { eta, base: Rgb::BLACK, slope: Rgb::WHITE }
+        Self::Dielectric { eta: eta.clamp(1.0, LARGEST_ETA), base: Rgb::BLACK, slope: Rgb::WHITE }
     }
 
-    /// Clear matter whose reflection is scaled by `strength` at all angles and by `color` at normal incidence, each in 0..=1: as
+    /// The same, whose reflection is scaled by `strength` at all angles and by `color` at normal incidence, each in 0..=1: as
     /// glTF's `KHR_materials_specular` has it, with Fresnel's curve in place of Schlick's.
     #[must_use]
     pub fn specular(eta: f64, strength: f64, color: Rgb) -> Self {
+        let eta = eta.clamp(1.0, LARGEST_ETA);
         let head_on = dielectric(1.0, eta);
         // From F0 · color at F = F0 to 1 at F = 1.
         let slope = (Rgb::WHITE - color * head_on) / (1.0 - head_on);
@@ -107,7 +113,9 @@ impl Fresnel {
                 let schlick = color + (Rgb::WHITE - color) * fifth;
                 (schlick - dip * (cosine * fifth * rest)).map(|share| share.max(0.0))
             }
-            Self::Dielectric { eta, base, slope } => base + slope * dielectric(cosine, eta),
+            Self::Dielectric { eta, base, slope } => {
+                (base + slope * dielectric(cosine, eta)).map(|share| share.max(0.0))
+            }
         }
     }
 

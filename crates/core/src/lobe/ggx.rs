@@ -36,6 +36,12 @@ impl Ggx {
         (self.x * self.y).sqrt()
     }
 
+    /// Whether it is rougher along one direction than along another.
+    #[must_use]
+    pub fn is_stretched(&self) -> bool {
+        self.x != self.y
+    }
+
     /// Area of facets with normals round `h`, per area of surface and solid angle.
     #[must_use]
     pub fn density(&self, h: DVec3) -> f64 {
@@ -48,8 +54,12 @@ impl Ggx {
     pub fn hidden(&self, v: DVec3) -> f64 {
         let (x, y) = (self.x * v.x, self.y * v.y);
         let slope2 = (x * x + y * y) / (v.z * v.z);
-        // (√(1 + a) − 1) / 2 without cancellation.
-        0.5 * slope2 / ((1.0 + slope2).sqrt() + 1.0)
+        if slope2 < f64::INFINITY {
+            // (√(1 + a) − 1) / 2 without cancellation.
+            0.5 * slope2 / ((1.0 + slope2).sqrt() + 1.0)
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// Share of facets seen from `o` that are seen from `i` as well, in 0..=1: both see the same heights better (Smith's

@@ -33,7 +33,11 @@ impl GgxReflection {
         match self.fresnel {
             Fresnel::Dielectric { eta, base, slope } => {
                 let slope = slope * Interface::new(alpha, eta).reflected(cosine);
-                if base == Rgb::BLACK { slope } else { slope + base * kept() }
+                if base == Rgb::BLACK {
+                    slope
+                } else {
+                    (slope + base * kept()).map(|share| share.clamp(0.0, 1.0))
+                }
             }
             _ => self.fresnel.at(cosine) * kept(),
         }

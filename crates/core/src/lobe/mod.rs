@@ -42,7 +42,7 @@ pub use local::Frame;
 pub use mirror::{Mirror, Mirrored};
 pub use passage::Passage;
 pub use phong::{Phong, PhongModel, PhongShape};
-pub use point::SurfacePoint;
+pub use point::{ShadingPoint, SurfacePoint};
 pub use rough_diffuse::RoughDiffuse;
 pub use rough_interface::RoughInterface;
 pub use sheen::Sheen;
@@ -51,33 +51,6 @@ pub use smooth_reflection::SmoothReflection;
 pub use thin_wall::ThinWall;
 
 use crate::{Lane, Triple};
-
-/// Where and from where a surface is seen.
-#[derive(Debug, Clone, Copy)]
-pub struct ShadingPoint<L: Lane> {
-    /// The point, metres, relative to the origin that the material was made for; see
-    /// [`Surface::relative_to`](crate::Surface::relative_to).
-    pub position: Triple<L>,
-    /// Unit normal on the viewer's side.
-    pub normal: Triple<L>,
-    /// Unit vector to the viewer.
-    pub to_viewer: Triple<L>,
-    /// Metres to the viewer.
-    pub distance: L,
-    /// Whether the viewer is on the side that the shape's own normal points to; of a closed shape the outside.
-    pub front: L::Mask,
-}
-
-impl ShadingPoint<f64> {
-    /// The origin, seen along its normal from a metre away.
-    pub const HEAD_ON: Self = Self {
-        position: Triple::new(0.0, 0.0, 0.0),
-        normal: Triple::new(0.0, 0.0, 1.0),
-        to_viewer: Triple::new(0.0, 0.0, 1.0),
-        distance: 1.0,
-        front: true,
-    };
-}
 
 /// A lobe that spreads light over a range of directions.
 pub trait Scatter<L: Lane> {

@@ -2,7 +2,34 @@
 
 use glam::{DVec2, DVec3};
 
-use super::ShadingPoint;
+use crate::{Lane, Triple};
+
+/// Where and from where a surface is seen.
+#[derive(Debug, Clone, Copy)]
+pub struct ShadingPoint<L: Lane> {
+    /// The point, metres, relative to the origin that the material was made for; see
+    /// [`Surface::relative_to`](crate::Surface::relative_to).
+    pub position: Triple<L>,
+    /// Unit normal on the viewer's side.
+    pub normal: Triple<L>,
+    /// Unit vector to the viewer.
+    pub to_viewer: Triple<L>,
+    /// Metres to the viewer.
+    pub distance: L,
+    /// Whether the viewer is on the side that the shape's own normal points to; of a closed shape the outside.
+    pub front: L::Mask,
+}
+
+impl ShadingPoint<f64> {
+    /// The origin, seen along its normal from a metre away.
+    pub const HEAD_ON: Self = Self {
+        position: Triple::new(0.0, 0.0, 0.0),
+        normal: Triple::new(0.0, 0.0, 1.0),
+        to_viewer: Triple::new(0.0, 0.0, 1.0),
+        distance: 1.0,
+        front: true,
+    };
+}
 
 /// Where and from where a surface is seen, with what textures, smooth normals and refraction need.
 #[derive(Debug, Clone, Copy)]

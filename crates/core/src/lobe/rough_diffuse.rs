@@ -16,7 +16,6 @@ use crate::Rgb;
 pub struct RoughDiffuse {
     /// Albedo of the matter, which that of a rough surface lies under, but for 0 and 1.
     color: Rgb,
-    roughness: f64,
     /// Single scattering of white matter is `even` + `slope` · (what the angles say), over π.
     even: f64,
     slope: f64,
@@ -30,7 +29,7 @@ impl RoughDiffuse {
     pub fn new(color: Rgb, roughness: f64) -> Self {
         let even = 1.0 / (1.0 + (0.5 - 2.0 / (3.0 * PI)) * roughness);
         let mean = even * (1.0 + (2.0 / 3.0 - 28.0 / (15.0 * PI)) * roughness);
-        Self { color, roughness, even, slope: roughness * even, mean }
+        Self { color, even, slope: roughness * even, mean }
     }
 
     /// Albedo of single scattering for white matter, seen under a cosine.
@@ -59,8 +58,7 @@ impl LocalLobe for RoughDiffuse {
         let single = self.color * (self.even + self.slope * angles);
         let lost = (1.0 - self.once(o.z)) * (1.0 - self.once(i.z));
         // A smooth surface loses nothing.
-        let multiple =
-            if self.roughness > 0.0 { self.again() * (lost / (1.0 - self.mean)) } else { Rgb::BLACK };
+        let multiple = if self.mean < 1.0 { self.again() * (lost / (1.0 - self.mean)) } else { Rgb::BLACK };
         (single + multiple) * (i.z / PI)
     }
 

@@ -61,7 +61,7 @@ impl Surface for Plastic {
 
     fn bsdf(&self, at: &SurfacePoint) -> Bsdf {
         let mut bsdf = Bsdf::new(at);
-        let fresnel = Fresnel::clear((self.ior / at.outside_ior).max(1.0));
+        let fresnel = Fresnel::clear(self.ior / at.outside_ior);
         let boundary = Boundary::new(Roughness::new(self.roughness), fresnel);
         bsdf.add(Rgb::WHITE, boundary.lobe());
         bsdf.add(Rgb::WHITE, Complement::below(boundary, self.color));

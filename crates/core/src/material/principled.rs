@@ -177,7 +177,7 @@ impl Look {
     /// Adds a coat and sheen, and tells what they leave for the base of all that counts `weight`.
     fn add_layers(&self, bsdf: &mut Bsdf, mut weight: Rgb, at: &SurfacePoint) -> Rgb {
         if self.coat > 0.0 {
-            let fresnel = Fresnel::clear((COAT_IOR / at.outside_ior).max(1.0));
+            let fresnel = Fresnel::clear(COAT_IOR / at.outside_ior);
             let coat = Boundary::new(Roughness::new(self.coat_roughness), fresnel);
             bsdf.add(weight * self.coat, coat.lobe());
             weight = weight * (Rgb::WHITE - coat.reflected(bsdf.cosine()) * self.coat);
@@ -203,7 +203,7 @@ impl Look {
             surface.add_to(bsdf, clear, at);
         }
         if self.specular > 0.0 {
-            let eta = (self.ior / at.outside_ior).max(1.0);
+            let eta = self.ior / at.outside_ior;
             let fresnel = Fresnel::specular(eta, self.specular, self.specular_color);
             let boundary = Boundary::new(roughness, fresnel);
             bsdf.add(opaque, boundary.lobe());

@@ -49,7 +49,7 @@ impl Surface for Rubber {
 
     fn bsdf(&self, at: &SurfacePoint) -> Bsdf {
         let mut bsdf = Bsdf::new(at);
-        let fresnel = Fresnel::clear((IOR / at.outside_ior).max(1.0));
+        let fresnel = Fresnel::clear(IOR / at.outside_ior);
         let boundary = Boundary::new(Roughness::new(self.roughness), fresnel);
         let left = Rgb::WHITE - boundary.reflected(bsdf.cosine());
         bsdf.add(Rgb::WHITE, boundary.lobe());

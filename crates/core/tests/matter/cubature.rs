@@ -48,15 +48,17 @@ impl Patch {
     }
 }
 
-/// ∫ `f` over all directions on the side of `z = 0` that `around` lies on, whose neighbourhood is looked at closest.
+/// ∫ `f` over all directions on the side of `z = 0` that `around` lies on, whose neighbourhood is looked at closest. About z
+/// itself the horizon is met exactly.
 pub(crate) fn over_side(around: DVec3, error: f64, f: impl Fn(DVec3) -> f64) -> f64 {
     let (x, y) = around.any_orthonormal_pair();
+    let most = if around.z.abs() == 1.0 { 0.5 * PI } else { PI };
     let value = |a: f64, turn: f64| {
-        let polar = PI * a * a * a;
+        let polar = most * a * a * a;
         let (sin, cos) = polar.sin_cos();
         let (across, along) = (TAU * turn).sin_cos();
         let i = (x * along + y * across) * sin + around * cos;
-        if i.z * around.z > 0.0 { f(i) * sin * 3.0 * PI * a * a * TAU } else { 0.0 }
+        if i.z * around.z > 0.0 { f(i) * sin * 3.0 * most * a * a * TAU } else { 0.0 }
     };
     let patches = (0..8).flat_map(|a| (0..4).map(move |turn| (f64::from(a), f64::from(turn))));
     patches

@@ -53,6 +53,25 @@ impl Grid {
     }
 }
 
+/// A table over slopes alone, finer than others, as what it holds grows by orders of magnitude.
+#[derive(Debug, Clone)]
+pub(super) struct Means(Vec<f64>);
+
+impl Means {
+    /// Values of a [`Means`].
+    const ROWS: usize = 81;
+
+    /// With the value at each place of a slope.
+    pub(super) fn new(value: impl Fn(f64) -> f64) -> Self {
+        Self((0..Self::ROWS).map(|row| value(row as f64 / (Self::ROWS - 1) as f64)).collect())
+    }
+
+    /// Between the values of four slopes.
+    pub(super) fn at(&self, alpha: f64) -> f64 {
+        Stencil::at(place_of_alpha(alpha), Self::ROWS).of(|row| self.0[row])
+    }
+}
+
 /// Slopes α of 0 to 1 on an axis: by their square root, which is what people call roughness.
 pub(super) fn place_of_alpha(alpha: f64) -> f64 {
     let least = SMOOTH_SLOPE.sqrt();

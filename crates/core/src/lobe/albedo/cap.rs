@@ -1,6 +1,7 @@
 //! What is a quantity on average over the facets of a rough surface that are seen?
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use glam::DVec3;
 
@@ -18,7 +19,7 @@ pub(super) fn seen_under(cosine: f64) -> DVec3 {
 /// Places turn by the golden ratio, and steps along are finer where facets are steep, as edges of what is seen lie there.
 /// Products of one-dimensional rules do worse: what is asked has edges at the horizon and at the angle of total reflection.
 #[derive(Debug, Clone)]
-pub(super) struct CapPoints(Vec<CapPoint>);
+pub(in crate::lobe) struct CapPoints(Vec<CapPoint>);
 
 #[derive(Debug, Clone, Copy)]
 struct CapPoint {
@@ -39,8 +40,14 @@ impl CapPoints {
         Self((0..count).map(point).collect())
     }
 
+    /// Few points, for what no table holds: good to some thousandths.
+    pub(in crate::lobe) fn few() -> &'static Self {
+        static FEW: LazyLock<CapPoints> = LazyLock::new(|| CapPoints::new(128));
+        &FEW
+    }
+
     /// The mean of `value` over the facet normals that are visible from `o`.
-    pub(super) fn mean(&self, ggx: &Ggx, o: DVec3, value: impl Fn(DVec3) -> f64) -> f64 {
+    pub(in crate::lobe) fn mean(&self, ggx: &Ggx, o: DVec3, value: impl Fn(DVec3) -> f64) -> f64 {
         let stretched = ggx.stretched(o);
         self.0.iter().map(|p| p.weight * value(ggx.normal_on_cap(stretched, p.turn, p.along))).sum()
     }

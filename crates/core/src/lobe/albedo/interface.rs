@@ -5,11 +5,12 @@ use std::sync::OnceLock;
 use glam::DVec3;
 
 use super::axis::{
-    Grid, Stencil, alpha_at, cosine_about_edge, cosine_at, place_about_edge, place_of_alpha, place_of_cosine,
+    Grid, Means, Stencil, alpha_at, cosine_about_edge, cosine_at, place_about_edge, place_of_alpha,
+    place_of_cosine,
 };
 use super::cap::{CapPoints, seen_under};
-use super::reflection::{fine, lost_by_reflection, scale};
-use crate::lobe::fresnel::dielectric;
+use super::reflection::{fine, kept_by_reflection, lost_by_reflection, mean_scale, scale};
+use crate::lobe::fresnel::{LARGEST_ETA, dielectric};
 use crate::lobe::ggx::Ggx;
 use crate::lobe::quadrature::mean_over_cosines;
 use crate::optics::{reflect, refract};
@@ -18,8 +19,8 @@ use crate::optics::{reflect, refract};
 const RATIOS: usize = 17;
 const ALPHAS: usize = 16;
 
-/// (n − 1)/(n + 1) of the largest ratio of indices in the table, which is 9; germanium in air has 4.
-const LARGEST: f64 = 0.8;
+/// (n − 1)/(n + 1) of the largest ratio of indices in the table.
+const LARGEST: f64 = (LARGEST_ETA - 1.0) / (LARGEST_ETA + 1.0);
 
 /// A side of a boundary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,11 +43,11 @@ pub(in crate::lobe) struct Interface {
 struct Slice {
     /// What is lost on the thin and on the dense side, over [`scale`].
     lost: [Grid; 2],
-    /// Their means, over squared slopes.
-    mean_lost: [Vec<f64>; 2],
+    /// Their means, over [`mean_scale`].
+    mean_lost: [Means; 2],
     /// What is reflected on the thin side, over a guess.
     reflected: Grid,
-    mean_reflected: Vec<f64>,
+    mean_reflected: Means,
 }
 
 /// Made one by one, as most scenes ask for few ratios.
@@ -75,13 +76,8 @@ impl Slice {
     }
 }
 
-/// Places of the slopes in the table.
-fn rows() -> impl Iterator<Item = f64> {
-    (0..ALPHAS).map(|row| row as f64 / (ALPHAS - 1) as f64)
-}
-
-/// What is lost on a side over [`scale`], and its means over squared slopes.
-fn lost_on(side: Side, ratio: f64) -> (Grid, Vec<f64>) {
+/// What is lost on a side over [`scale`], and its means over [`mean_scale`].
+fn lost_on(side: Side, ratio: f64) -> (Grid, Means) {
     let points = CapPoints::new(side.points());
     let lost = Grid::new(ALPHAS, side.cosines(), |row, column| {
         let interface = Interface { alpha: alpha_at(row), ratio };
@@ -91,14 +87,14 @@ fn lost_on(side: Side, ratio: f64) -> (Grid, Vec<f64>) {
     let mean = |row| {
         let interface = Interface { alpha: alpha_at(row), ratio };
         let lost = |cosine| lost.at(row, interface.place_on(side, cosine)) * scale(interface.alpha, cosine);
-        mean_over_cosines(lost) / (interface.alpha * interface.alpha)
+        mean_over_cosines(lost) / mean_scale(interface.alpha)
     };
-    let means = rows().map(mean).collect();
+    let means = Means::new(mean);
     (lost, means)
 }
 
 /// What is reflected on the thin side over [`Interface::guessed`], and the means of what is reflected.
-fn reflected_at(ratio: f64) -> (Grid, Vec<f64>) {
+fn reflected_at(ratio: f64) -> (Grid, Means) {
     let points = CapPoints::new(Side::Thin.points());
     let reflected = Grid::new(ALPHAS, Side::Thin.cosines(), |row, column| {
         let interface = Interface { alpha: alpha_at(row), ratio };
@@ -110,7 +106,7 @@ fn reflected_at(ratio: f64) -> (Grid, Vec<f64>) {
         let share = |cosine| reflected.at(row, interface.place_on(Side::Thin, cosine));
         mean_over_cosines(|cosine| share(cosine) * interface.guessed(cosine))
     };
-    let means = rows().map(mean).collect();
+    let means = Means::new(mean);
     (reflected, means)
 }
 
@@ -126,8 +122,8 @@ impl Side {
     /// Columns of the table.
     const fn cosines(self) -> usize {
         match self {
-            Self::Thin => 28,
-            Self::Dense => 41,
+            Self::Thin => 40,
+            Self::Dense => 45,
         }
     }
 
@@ -135,15 +131,15 @@ impl Side {
     const fn points(self) -> u32 {
         match self {
             Self::Thin => 500,
-            Self::Dense => 1500,
+            Self::Dense => 2000,
         }
     }
 }
 
 impl Interface {
-    /// Of a slope, and of the higher index of refraction over the lower.
+    /// Of a slope, and of the higher index of refraction over the lower, at most [`LARGEST_ETA`].
     pub(in crate::lobe) const fn new(alpha: f64, ratio: f64) -> Self {
-        Self { alpha, ratio }
+        Self { alpha, ratio: ratio.min(LARGEST_ETA) }
     }
 
     /// The cosine beyond which all is reflected on the dense side.
@@ -155,14 +151,14 @@ impl Interface {
     fn place_on(&self, side: Side, cosine: f64) -> f64 {
         match side {
             Side::Thin => place_of_cosine(cosine, fine(self.alpha)),
-            Side::Dense => place_about_edge(cosine, self.critical(), self.alpha),
+            Side::Dense => place_about_edge(cosine, self.critical(), fine(self.alpha)),
         }
     }
 
     fn cosine_on(&self, side: Side, place: f64) -> f64 {
         match side {
             Side::Thin => cosine_at(place, fine(self.alpha)),
-            Side::Dense => cosine_about_edge(place, self.critical(), self.alpha),
+            Side::Dense => cosine_about_edge(place, self.critical(), fine(self.alpha)),
         }
     }
 
@@ -182,8 +178,7 @@ impl Interface {
 
     /// The mean of [`lost`](Self::lost), weighted by twice the cosine.
     pub(in crate::lobe) fn mean_lost(&self, side: Side) -> f64 {
-        let row = Stencil::at(place_of_alpha(self.alpha), ALPHAS);
-        self.alpha * self.alpha * self.look_up(|slice| row.of(|k| slice.mean_lost[side as usize][k]))
+        mean_scale(self.alpha) * self.look_up(|slice| slice.mean_lost[side as usize].at(self.alpha))
     }
 
     /// Share of light that is reflected once on the thin side, seen under a cosine.
@@ -202,27 +197,28 @@ impl Interface {
 
     /// The mean of [`reflected`](Self::reflected), weighted by twice the cosine.
     pub(in crate::lobe) fn mean_reflected(&self) -> f64 {
-        let row = Stencil::at(place_of_alpha(self.alpha), ALPHAS);
-        self.look_up(|slice| row.of(|k| slice.mean_reflected[k]))
+        self.look_up(|slice| slice.mean_reflected.at(self.alpha))
     }
 
     fn computed_loss(&self, points: &CapPoints, side: Side, cosine: f64) -> f64 {
-        let (ggx, o, eta) = (Ggx::isotropic(self.alpha), seen_under(cosine), side.eta(self.ratio));
-        points.mean(&ggx, o, |h| {
-            let reflectance = dielectric(o.dot(h), eta);
-            let reflected = kept(&ggx, o, Some(DVec3::from(reflect((-o).into(), h.into()))), 1.0);
-            let refracted = kept(&ggx, o, refract(-o, h, 1.0 / eta), -1.0);
-            1.0 - reflectance * reflected - (1.0 - reflectance) * refracted
-        })
+        lost_at_interface(points, &Ggx::isotropic(self.alpha), side.eta(self.ratio), seen_under(cosine))
     }
 
     fn computed_reflection(&self, points: &CapPoints, cosine: f64) -> f64 {
-        let (ggx, o) = (Ggx::isotropic(self.alpha), seen_under(cosine));
-        points.mean(&ggx, o, |h| {
-            let reflected = DVec3::from(reflect((-o).into(), h.into()));
-            dielectric(o.dot(h), self.ratio) * kept(&ggx, o, Some(reflected), 1.0)
-        })
+        let share = |cosine| dielectric(cosine, self.ratio);
+        kept_by_reflection(points, &Ggx::isotropic(self.alpha), seen_under(cosine), share)
     }
+}
+
+/// Share of light that single reflection and refraction lose of what `o` sees, by quadrature; `eta` is the index of refraction
+/// beyond over that on this side.
+pub(in crate::lobe) fn lost_at_interface(points: &CapPoints, ggx: &Ggx, eta: f64, o: DVec3) -> f64 {
+    points.mean(ggx, o, |h| {
+        let reflectance = dielectric(o.dot(h), eta);
+        let reflected = kept(ggx, o, Some(DVec3::from(reflect((-o).into(), h.into()))), 1.0);
+        let refracted = kept(ggx, o, refract(-o, h, 1.0 / eta), -1.0);
+        1.0 - reflectance * reflected - (1.0 - reflectance) * refracted
+    })
 }
 
 /// Share of what a facet sends on that meets no other facet: none where it goes to the wrong side.
@@ -261,7 +257,7 @@ mod tests {
 
     #[test]
     fn means_are_those_of_the_table() {
-        for (roughness, ratio) in [(0.2_f64, 1.5), (0.5, 1.33), (0.9, 2.4)] {
+        for (roughness, ratio) in [(0.12_f64, 1.5), (0.2, 1.5), (0.5, 1.33), (0.9, 2.4)] {
             let interface = Interface::new(roughness * roughness, ratio);
             for side in [Side::Thin, Side::Dense] {
                 let mean = mean_over_cosines(|cosine| interface.lost(side, cosine));

@@ -11,6 +11,7 @@ mod interface;
 mod reflection;
 mod sheen;
 
-pub(super) use interface::{Interface, Side};
-pub(super) use reflection::{lost_by_reflection, mean_lost_by_reflection};
+pub(super) use cap::CapPoints;
+pub(super) use interface::{Interface, Side, lost_at_interface};
+pub(super) use reflection::{kept_by_reflection, lost_by_reflection, mean_lost_by_reflection};
 pub(super) use sheen::{most_sheen, sheen_albedo};

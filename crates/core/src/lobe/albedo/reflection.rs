@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use glam::DVec3;
 
-use super::axis::{Grid, Stencil, alpha_at, cosine_at, place_of_alpha, place_of_cosine};
+use super::axis::{Grid, Means, alpha_at, cosine_at, place_of_alpha, place_of_cosine};
 use super::cap::{CapPoints, seen_under};
 use crate::lobe::ggx::Ggx;
 use crate::lobe::quadrature::mean_over_cosines;
@@ -20,8 +20,8 @@ const POINTS: u32 = 1500;
 struct Reflection {
     /// What is lost over [`scale`].
     lost: Grid,
-    /// Its mean over squared slopes.
-    mean: Vec<f64>,
+    /// Its mean over [`mean_scale`].
+    mean: Means,
 }
 
 static REFLECTION: LazyLock<Reflection> = LazyLock::new(|| {
@@ -31,13 +31,11 @@ static REFLECTION: LazyLock<Reflection> = LazyLock::new(|| {
         let alpha = alpha_at(row);
         value(alpha, cosine_at(column, fine(alpha)))
     });
-    let mean_at = |row: usize| {
-        let row = row as f64 / (ALPHAS - 1) as f64;
+    let mean = Means::new(|row| {
         let alpha = alpha_at(row);
         let lost = |cosine| lost.at(row, place_of_cosine(cosine, fine(alpha))) * scale(alpha, cosine);
-        mean_over_cosines(lost) / (alpha * alpha)
-    };
-    let mean = (0..ALPHAS).map(mean_at).collect();
+        mean_over_cosines(lost) / mean_scale(alpha)
+    });
     Reflection { lost, mean }
 });
 
@@ -47,6 +45,12 @@ pub(super) fn scale(alpha: f64, cosine: f64) -> f64 {
     alpha2 / (cosine * cosine + alpha2)
 }
 
+/// The mean of [`scale`], weighted by twice the cosine.
+pub(super) fn mean_scale(alpha: f64) -> f64 {
+    let alpha2 = alpha * alpha;
+    alpha2 * (1.0 / alpha2).ln_1p()
+}
+
 /// Cosines up to which the table is fine: what is lost changes fastest where they are small beside the slope.
 pub(super) fn fine(alpha: f64) -> f64 {
     0.6 * alpha
@@ -54,10 +58,20 @@ pub(super) fn fine(alpha: f64) -> f64 {
 
 /// By quadrature.
 fn computed(points: &CapPoints, alpha: f64, cosine: f64) -> f64 {
-    let (ggx, o) = (Ggx::isotropic(alpha), seen_under(cosine));
-    points.mean(&ggx, o, |h| {
+    1.0 - kept_by_reflection(points, &Ggx::isotropic(alpha), seen_under(cosine), |_| 1.0)
+}
+
+/// Share of light that single reflection sends to `o`, by quadrature, if each facet reflects that share at that cosine to its
+/// normal.
+pub(in crate::lobe) fn kept_by_reflection(
+    points: &CapPoints,
+    ggx: &Ggx,
+    o: DVec3,
+    share: impl Fn(f64) -> f64,
+) -> f64 {
+    points.mean(ggx, o, |h| {
         let i = DVec3::from(reflect((-o).into(), h.into()));
-        if i.z > 0.0 { 1.0 - ggx.seen_from_both(o, i) } else { 1.0 }
+        if i.z > 0.0 { share(o.dot(h)) * ggx.seen_from_both(o, i) } else { 0.0 }
     })
 }
 
@@ -70,7 +84,7 @@ pub(in crate::lobe) fn lost_by_reflection(alpha: f64, cosine: f64) -> f64 {
 
 /// The mean of [`lost_by_reflection`], weighted by twice the cosine.
 pub(in crate::lobe) fn mean_lost_by_reflection(alpha: f64) -> f64 {
-    alpha * alpha * Stencil::at(place_of_alpha(alpha), ALPHAS).of(|row| REFLECTION.mean[row])
+    mean_scale(alpha) * REFLECTION.mean.at(alpha)
 }
 
 #[cfg(test)]
@@ -101,7 +115,7 @@ mod tests {
 
     #[test]
     fn the_mean_is_that_of_the_table_between_its_rows() {
-        for roughness in [0.1, 0.33, 0.5, 0.77, 1.0_f64] {
+        for roughness in [0.05, 0.12, 0.33, 0.5, 0.77, 1.0_f64] {
             let alpha = roughness * roughness;
             let mean = mean_over_cosines(|cosine| lost_by_reflection(alpha, cosine));
             let found = mean_lost_by_reflection(alpha);

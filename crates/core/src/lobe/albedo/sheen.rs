@@ -41,7 +41,7 @@ fn computed(nodes: &[Node], roughness: f64, cosine: f64) -> f64 {
     let (sheen, o) = (Sheen::by_formula(roughness * roughness), seen_under(cosine));
     let at_viewer = sheen.hidden(o.z);
     let ring = |n: &Node| {
-        let cosine = n.at * n.at;
+        let cosine = n.at.powi(3);
         let i = seen_under(cosine);
         let round = |turn: &Node| {
             let cos = (std::f64::consts::PI * turn.at).cos();
@@ -49,7 +49,7 @@ fn computed(nodes: &[Node], roughness: f64, cosine: f64) -> f64 {
             turn.weight * sheen.density((o.z + i.z) / half2.sqrt())
         };
         let density: f64 = nodes.iter().map(round).sum();
-        2.0 * n.at * n.weight * density / (1.0 + at_viewer + sheen.hidden(i.z))
+        3.0 * n.at * n.at * n.weight * density / (1.0 + at_viewer + sheen.hidden(i.z))
     };
     let sum: f64 = nodes.iter().map(ring).sum();
     std::f64::consts::TAU * sum / (4.0 * o.z)
