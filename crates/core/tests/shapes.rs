@@ -192,6 +192,8 @@ proptest! {
                 if ["rectangle", "mesh"].contains(&kind) && crossing.uv != DVec2::ZERO {
                     prop_assert!(found.uv.distance(crossing.uv) < 1e-6, "{found:?} of {crossing:?}");
                 }
+                let whole = found.uv.min_element() > -1e-6 && found.uv.max_element() < 1.0 + 1e-6;
+                prop_assert!(whole || ["plane", "mesh"].contains(&kind), "{kind}: {}", found.uv);
                 let (u, v) = (found.along_u, found.along_v);
                 let tangent = found.tangent(crossing.normal);
                 prop_assert!((tangent.length() - 1.0).abs() < 1e-12 && tangent.dot(crossing.normal).abs() < 1e-9);

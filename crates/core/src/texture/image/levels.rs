@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use glam::{DVec2, Vec4};
+use glam::{DVec2, Vec3, Vec4};
 
 use super::pyramid::Pyramid;
 use super::{Encoding, Plane, Samples};
@@ -47,36 +47,35 @@ pub(super) fn table(encoding: Encoding) -> &'static [f32; 256] {
 }
 
 /// The light of one pixel, which must lie on the plane.
-#[inline]
 pub(super) fn light_of(plane: &Plane, encoding: Encoding, x: u32, y: u32) -> Light {
-    let channels = usize::from(plane.channels);
-    let at = (y as usize * plane.width as usize + x as usize) * channels;
-    let mut found = [0.0; 4];
-    match &plane.samples {
-        Samples::Bytes(bytes) => {
-            let table = table(encoding);
-            for (found, byte) in found.iter_mut().zip(&bytes[at..at + channels]) {
-                *found = table[usize::from(*byte)];
-            }
-            if plane.has_alpha() {
-                found[channels - 1] = f32::from(bytes[at + channels - 1]) / 255.0;
-            }
+    let at = (y as usize * plane.width as usize + x as usize) * usize::from(plane.channels);
+    match (&plane.samples, encoding) {
+        (Samples::Bytes(bytes), _) => {
+            let (light, share) = (table(encoding), table(Encoding::Linear));
+            grouped(plane.channels, &bytes[at..], |v| light[usize::from(v)], |v| share[usize::from(v)])
         }
-        Samples::Floats(floats) => {
-            found[..channels].copy_from_slice(&floats[at..at + channels]);
-            if encoding == Encoding::Srgb {
-                for found in &mut found[..channels - usize::from(plane.has_alpha())] {
-                    *found = srgb_decoded(f64::from(*found)) as f32;
-                }
-            }
+        (Samples::Floats(floats), Encoding::Linear) => grouped(plane.channels, &floats[at..], |v| v, |v| v),
+        (Samples::Floats(floats), Encoding::Srgb) => {
+            grouped(plane.channels, &floats[at..], |v| srgb_decoded(f64::from(v)) as f32, |v| v)
         }
     }
-    let [a, b, c, d] = found;
-    Light(match plane.channels {
-        1 => Vec4::new(a, a, a, 1.0),
-        2 => Vec4::new(a, a, a, b),
-        3 => Vec4::new(a, b, c, 1.0),
-        _ => Vec4::new(a, b, c, d),
+}
+
+/// The light of the pixel that samples begin with.
+#[inline(always)]
+fn grouped<T: Copy>(
+    channels: u8,
+    samples: &[T],
+    color: impl Fn(T) -> f32,
+    alpha: impl Fn(T) -> f32,
+) -> Light {
+    Light(match (channels, samples) {
+        (1, &[v, ..]) => Vec3::splat(color(v)).extend(1.0),
+        (2, &[v, a, ..]) => Vec3::splat(color(v)).extend(alpha(a)),
+        (3, &[r, g, b, ..]) => Vec4::new(color(r), color(g), color(b), 1.0),
+        (_, &[r, g, b, a, ..]) => Vec4::new(color(r), color(g), color(b), alpha(a)),
+        // No plane ends within a pixel.
+        _ => Vec4::W,
     })
 }
 
@@ -149,6 +148,9 @@ impl<'a> Levels<'a> {
 #[inline]
 fn wrapped(wrap: Wrap, i: i64, count: u32) -> u32 {
     let count = i64::from(count);
+    if (0..count).contains(&i) {
+        return i as u32;
+    }
     let within = match wrap {
         Wrap::Repeat => i.rem_euclid(count),
         Wrap::Clamp => i.clamp(0, count - 1),
