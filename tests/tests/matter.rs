@@ -106,12 +106,28 @@ fn glass_of_the_index_of_what_is_round_it_is_not_seen() {
 
 #[test]
 fn a_furnace_shows_what_it_is_lined_with() {
-    // Inside a ball of albedo 1/2 and emission 1/2 everything shows 1.
-    let scene = parsed(
-        "camera \"c\" { eye 0.1 0.2 0.3; target 1 0 0; fov 80 }\n\
-         principled \"lining\" { base-color 0.5; roughness 1; specular 0; emission 0.5 }\n\
-         sphere \"ball\" material=\"lining\" { center 0 0 0; radius 1 }",
+    // In a closed box of albedo 1/2 and emission 1/2 everything shows 1.
+    let mut text = String::from(
+        "camera \"c\" { eye 0.1 0.2 0.3; target 1 0.1 -0.2; fov 80 }\n\
+         principled \"lining\" { base-color 0.5; roughness 1; specular 0; emission 0.5 }\n",
     );
+    for (i, (corner, u, v)) in [
+        ("-1 -1 -1", "0 2 0", "0 0 2"),
+        ("1 -1 -1", "0 0 2", "0 2 0"),
+        ("-1 -1 -1", "0 0 2", "2 0 0"),
+        ("-1 1 -1", "2 0 0", "0 0 2"),
+        ("-1 -1 -1", "2 0 0", "0 2 0"),
+        ("-1 -1 1", "0 2 0", "2 0 0"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let _ = writeln!(
+            text,
+            "rectangle \"r{i}\" material=\"lining\" {{ corner {corner}; edge-u {u}; edge-v {v} }}"
+        );
+    }
+    let scene = parsed(&text);
     let size = Size::new(32, 32);
     for backend in ["scalar", "wide"] {
         let found = mean(&traced(&scene, backend, &paths(&scene, size, 256), Film::new(size), 2), size);
