@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashSet;
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Aabb, Camera, EntityId, Light, Material, MaterialId, Placed, Rgb, Shape};
+use catoptra_core::{Aabb, Camera, EntityId, Finish, Light, Material, MaterialId, Placed, Rgb, Shape};
 use itertools::{EitherOrBoth, merge_join_by};
 
 use super::Snapshot;
@@ -19,6 +19,8 @@ pub struct SnapshotDiff {
     pub lights: Vec<PartDiff<EntityId, Light>>,
     /// Materials with other values, by age. A change of name is none.
     pub materials: Vec<PartDiff<MaterialId, Material>>,
+    /// Materials that may look different although their values are the same: by their finish, or by a texture. By age.
+    pub repainted: Vec<MaterialId>,
     /// Cameras that see otherwise in the world, by age.
     pub cameras: Vec<PartDiff<EntityId, Camera>>,
     /// [`Snapshot::origin`], if it is elsewhere: the last bits of everything may then be others.
@@ -98,8 +100,11 @@ impl SnapshotDiff {
     #[must_use]
     pub fn between(before: &Snapshot, after: &Snapshot) -> Self {
         let materials = by_id(&before.parts.materials, &after.parts.materials, |(id, part)| (*id, part));
+        let repainted = repainted(before, after);
+        let changed_materials = materials.iter().map(|m| m.id).chain(repainted.iter().copied()).collect();
         Self {
-            shapes: shapes(before, after, &materials.iter().map(|m| m.id).collect()),
+            shapes: shapes(before, after, &changed_materials),
+            repainted,
             lights: by_id(&before.parts.lights, &after.parts.lights, named),
             cameras: by_id(&before.parts.cameras, &after.parts.cameras, named),
             materials,
@@ -116,6 +121,24 @@ impl SnapshotDiff {
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
+}
+
+/// Materials of both with another finish, or with textures where any of these has changed.
+fn repainted(before: &Snapshot, after: &Snapshot) -> Vec<MaterialId> {
+    let (before, after) = (&before.parts, &after.parts);
+    let textures = before.textures != after.textures;
+    let finish_before = |id: MaterialId| {
+        let at = before.materials.iter().position(|(other, _)| *other == id)?;
+        before.finishes.get(at).copied()
+    };
+    let looks_new = |id: MaterialId, material: &Material, finish: Finish| {
+        finish_before(id).is_some_and(|was| was != finish)
+            || (textures && (material.is_textured() || !finish.is_plain()))
+    };
+    let all = after.materials.iter().zip(&after.finishes);
+    all.filter(|((id, material), finish)| looks_new(*id, material, **finish))
+        .map(|((id, _), _)| *id)
+        .collect()
 }
 
 fn changed<T: PartialEq>(before: T, after: T) -> Option<Changed<T>> {

@@ -129,7 +129,7 @@ impl Extraction {
         let finishes = parts.finishes.iter().copied().chain(std::iter::repeat(Finish::default()));
         let materials: Vec<_> = self.materials().map(|material| material.relative_to(origin)).collect();
         let environment = parts.lights.iter().find_map(|light| light.part.environment().cloned());
-        Matter::new(materials.iter().zip(finishes), parts.textures.clone(), environment)
+        Matter::new(materials.iter().zip(finishes), parts.textures.clone(), self.own.clone(), environment)
     }
 
     /// Whether the shapes are those of a snapshot, bit for bit, for no edit has touched any.

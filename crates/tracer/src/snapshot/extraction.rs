@@ -7,7 +7,7 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::material::Emissive;
 use catoptra_core::texture::Texture;
 use catoptra_core::{
-    Camera, Finish, Lamp, Light, Material, MaterialId, Placed, Scene, Settings, Shape, TextureId,
+    Camera, Finish, Lamp, Light, Material, MaterialId, Placed, Placement, Scene, Settings, Shape, TextureId,
 };
 
 /// All that a [`Snapshot`](super::Snapshot) is made of, copied out of a scene. It needs the scene no more, so that a
@@ -18,11 +18,28 @@ use catoptra_core::{
 pub struct Extraction {
     /// By age, those that are the bodies of lights as well; with the index of their material.
     pub(super) shapes: Vec<(Placed<Shape>, u32)>,
+    /// Shapes whose materials ask where on them a point lies, by their places in the list, as they are in their own spaces.
+    pub(super) own: BTreeMap<u32, OwnShape>,
     /// Surface lights that are no bodies.
     pub(super) unseen: Vec<Lamp>,
     pub(super) parts: Arc<Parts>,
     /// Position of the first camera.
     pub(super) eye: Option<DVec3>,
+}
+
+/// A shape before it is placed.
+#[derive(Debug, Clone)]
+pub(crate) struct OwnShape {
+    pub(crate) shape: Shape,
+    pub(crate) to_world: Placement,
+    pub(crate) to_own: Placement,
+}
+
+impl OwnShape {
+    fn of(scene: &Scene, id: EntityId) -> Option<Self> {
+        let to_world = scene.world_placement(id)?;
+        Some(Self { shape: scene.shape(id)?, to_world, to_own: to_world.inverse() })
+    }
 }
 
 /// Everything but the shapes, in the world, by age.
@@ -74,6 +91,15 @@ impl Extraction {
             }
         }
         shapes.sort_by_key(|(shape, _)| shape.id);
+        let asks: Vec<bool> = materials
+            .iter()
+            .map(|(id, material)| {
+                material.is_textured() || material.needs_bsdf() || !scene.finish(*id).is_plain()
+            })
+            .collect();
+        let asking =
+            shapes.iter().zip(0..).filter(|((_, material), _)| asks.get(*material as usize) == Some(&true));
+        let own = asking.filter_map(|((shape, _), at)| Some((at, OwnShape::of(scene, shape.id)?))).collect();
         let finishes = materials.iter().map(|(id, _)| scene.finish(*id)).collect();
         let textures = scene.textures().map(|(id, _, texture)| (id, texture.clone())).collect();
         let parts = Parts {
@@ -86,7 +112,7 @@ impl Extraction {
             bodies,
             settings,
         };
-        Self { shapes, unseen, parts: Arc::new(parts), eye }
+        Self { shapes, own, unseen, parts: Arc::new(parts), eye }
     }
 
     /// The materials of shapes, by their index.

@@ -6,6 +6,7 @@ use catoptra_core::texture::{Texture, TextureSource};
 use catoptra_core::{Environment, Finish, Material, Medium, Shape, Sides, TextureId};
 
 use super::Prim;
+use super::extraction::OwnShape;
 
 /// What is particular about a material.
 #[derive(Debug, Clone)]
@@ -42,6 +43,8 @@ pub(crate) struct Matter {
     /// By the index of the material.
     pub(crate) rows: Vec<MatterRow>,
     textures: BTreeMap<TextureId, Texture>,
+    /// Shapes before they were placed, by their numbers, where materials ask where on them a point lies.
+    own: BTreeMap<u32, OwnShape>,
     /// Light from all around, if the scene has any; without one the background.
     pub(crate) environment: Option<Environment>,
     /// Whether any surface is see-through.
@@ -54,6 +57,7 @@ impl Matter {
     pub(super) fn new<'a>(
         materials: impl Iterator<Item = (&'a Material, Finish)>,
         textures: BTreeMap<TextureId, Texture>,
+        own: BTreeMap<u32, OwnShape>,
         environment: Option<Environment>,
     ) -> Self {
         let (mut rows, mut is_needed) = (Vec::new(), environment.is_some());
@@ -63,12 +67,17 @@ impl Matter {
             rows.push(row);
         }
         let is_see_through = rows.iter().any(MatterRow::is_see_through);
-        Self { rows, textures, environment, is_see_through, is_needed }
+        Self { rows, textures, own, environment, is_see_through, is_needed }
     }
 
     /// Of a shape.
     pub(crate) fn row(&self, prim: &Prim) -> &MatterRow {
         &self.rows[prim.material as usize]
+    }
+
+    /// A shape before it was placed, where its material asks for that.
+    pub(crate) fn own_shape(&self, prim: u32) -> Option<&OwnShape> {
+        self.own.get(&prim)
     }
 
     /// What fills a shape; nothing fills one that encloses nothing.

@@ -2,7 +2,7 @@
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::texture::TexturePoint;
-use catoptra_core::{Bsdf, Continuation, Ray, Rgb, Scattered, Shape, Sides, SurfacePoint};
+use catoptra_core::{Bsdf, Continuation, Ray, Rgb, Scattered, Sides, SurfacePoint};
 
 use super::{Media, Origin, PathRay};
 use crate::Hit;
@@ -153,17 +153,18 @@ impl<'a, S: Search> Walker<'a, S> {
             outside_ior,
             ..SurfacePoint::flat(surface.shading)
         };
-        if !(row.is_textured || row.finish.needs_coordinates() || material.needs_bsdf()) {
+        let Some(own) = matter.own_shape(surface.hit.surface.prim) else {
             return (material.bsdf(&at), 1.0);
-        }
-        let place = prim.shape.parametrization(surface.point, surface.hit.surface.facet);
-        (at.uv, at.tangent) = (place.uv, place.along_u);
+        };
+        let position = own.to_own.point(surface.point + snapshot.frame());
+        let place = own.shape.parametrization(position, surface.hit.surface.facet);
+        (at.uv, at.tangent) = (place.uv, own.to_world.vector(place.along_u));
         let spread = path.spread.on_surface(&surface.ray, surface.hit.crossing.t, surface.normal);
-        let own = own_position(&prim.shape, surface.point, snapshot.frame());
+        let spread = spread.map(|side| own.to_own.vector(side));
         let point = TexturePoint {
             uv: place.uv,
-            position: own,
-            normal: surface.normal,
+            position,
+            normal: own.to_own.direction(surface.normal),
             footprint: Some(place.footprint(spread)),
             spread: Some(spread),
             stochastic,
@@ -172,9 +173,11 @@ impl<'a, S: Search> Walker<'a, S> {
         let opacity = if hidden { 0.0 } else { row.finish.opacity_at(matter, &point) };
         if let Some(map) = row.finish.normal_map() {
             let normal = at.normal();
-            let side = if surface.shading.front { 1.0 } else { -1.0 };
-            let right = place.tangent(normal);
-            let up = normal.cross(right) * (side * normal.cross(right).dot(place.along_v * side)).signum();
+            let right =
+                (at.tangent - normal * at.tangent.dot(normal)).normalize_or(normal.any_orthonormal_vector());
+            // On the side where v grows, which mirrored coordinates turn round.
+            let across = normal.cross(right);
+            let up = if across.dot(own.to_world.vector(place.along_v)) < 0.0 { -across } else { across };
             let [x, y, z] = map.normal(matter, &point).to_array();
             let bent = (right * x + up * y + normal * z).normalize_or(normal);
             at.shading.normal = towards_viewer(bent, at.to_viewer(), normal).into();
@@ -188,14 +191,6 @@ impl<'a, S: Search> Walker<'a, S> {
 /// The normal itself where the viewer sees its upper side, else the other one.
 fn towards_viewer(bent: DVec3, to_viewer: DVec3, normal: DVec3) -> DVec3 {
     if bent.dot(to_viewer) > 0.0 { bent } else { normal }
-}
-
-/// A point in a mesh's own space; of other shapes in the world.
-fn own_position(shape: &Shape, point: DVec3, frame: DVec3) -> DVec3 {
-    match shape {
-        Shape::Mesh(mesh) => mesh.to_object().point(point),
-        _ => point + frame,
-    }
 }
 
 impl PathRay {
