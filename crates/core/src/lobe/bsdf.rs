@@ -7,7 +7,7 @@ use arrayvec::ArrayVec;
 use glam::DVec3;
 
 use super::local::{Frame, LocalLobe, LocalSample};
-use super::{BsdfLobe, Lobes, Mirror, SmoothReflection, SurfacePoint, fresnel::Fresnel};
+use super::{BsdfLobe, Lobes, Mirror, SmoothReflection, SurfacePoint, ThinWall, fresnel::Fresnel};
 use crate::numeric::LEAST_COSINE;
 use crate::{Rgb, Triple};
 
@@ -163,7 +163,10 @@ impl Bsdf {
         let is_delta = |lobe: &BsdfLobe| {
             matches!(
                 lobe,
-                BsdfLobe::SmoothReflection(_) | BsdfLobe::SmoothInterface(_) | BsdfLobe::Passage(_)
+                BsdfLobe::SmoothReflection(_)
+                    | BsdfLobe::SmoothInterface(_)
+                    | BsdfLobe::Passage(_)
+                    | BsdfLobe::ThinWall(ThinWall { facets: None, .. })
             )
         };
         self.lobes.iter().any(|lobe| !is_delta(&lobe.lobe))
