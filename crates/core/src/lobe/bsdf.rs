@@ -7,7 +7,7 @@ use arrayvec::ArrayVec;
 use glam::DVec3;
 
 use super::local::{Frame, LocalLobe, LocalSample};
-use super::{BsdfLobe, Lobes, Mirror, SmoothReflection, SurfacePoint, fresnel::Fresnel};
+use super::{BsdfLobe, Lobes, Mirror, SmoothReflection, SurfacePoint, ThinWall, fresnel::Fresnel};
 use crate::numeric::LEAST_COSINE;
 use crate::{Rgb, Triple};
 
@@ -269,5 +269,11 @@ impl Bsdf {
 }
 /// Whether a lobe sends light on in single directions alone.
 fn is_delta(lobe: &BsdfLobe) -> bool {
-    matches!(lobe, BsdfLobe::SmoothReflection(_) | BsdfLobe::SmoothInterface(_) | BsdfLobe::Passage(_))
+    matches!(
+        lobe,
+        BsdfLobe::SmoothReflection(_)
+            | BsdfLobe::SmoothInterface(_)
+            | BsdfLobe::Passage(_)
+            | BsdfLobe::ThinWall(ThinWall { facets: None, .. })
+    )
 }

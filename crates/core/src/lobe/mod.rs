@@ -3,6 +3,9 @@
 //! A lobe is one part of how light leaves a surface: alike in all directions, in a highlight, mirrored. Materials answer
 //! with a set of them ([`Lobes`]) and integrators know every lobe in the set, so it is closed. A new lobe is one file
 //! here, its `mod` line and its line in the list below.
+//!
+//! Lobes of rough, clear and layered matter are known in `f64` alone: [`BsdfLobe`] lists them, [`Bsdf`] weighs them at one point,
+//! and [`local`] tells what they answer.
 
 mod albedo;
 mod boundary;

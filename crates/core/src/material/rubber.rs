@@ -16,8 +16,9 @@ pub struct Rubber {
     roughness: f64,
 }
 
-/// Index of refraction of natural rubber (*Polymer Handbook*, 4th ed. 1999: 1.519).
-const IOR: f64 = 1.519;
+/// Index of refraction: natural rubber's is 1.52 (*Polymer Handbook*, 4th ed. 1999), and 1.5 shares its table with most glass and
+/// plastic.
+const IOR: f64 = 1.5;
 
 impl Part for Rubber {
     const NAME: &'static str = "rubber";

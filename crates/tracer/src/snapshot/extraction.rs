@@ -7,7 +7,8 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::material::Emissive;
 use catoptra_core::texture::Texture;
 use catoptra_core::{
-    Camera, Finish, Lamp, Light, Material, MaterialId, Placed, Placement, Scene, Settings, Shape, TextureId,
+    Camera, EntityId, Finish, Lamp, Light, Material, MaterialId, Placed, Placement, Scene, Settings, Shape,
+    TextureId,
 };
 
 /// All that a [`Snapshot`](super::Snapshot) is made of, copied out of a scene. It needs the scene no more, so that a
