@@ -166,7 +166,7 @@ fn behind_a_mesh_the_standard_error_says_how_far_the_mean_may_be_off() {
     for (rays, most) in [(32, 0.2), (1024, 0.02)] {
         let (mut covered, mut sampled) = (0, 0);
         for seed in 0..4 {
-            let found = measured(&scene, &points, &ProbeOptions { rays, max_error: None, seed });
+            let found = measured(&scene, &points, &ProbeOptions { rays, seed, ..ProbeOptions::default() });
             for (found, right) in found.iter().zip(&right) {
                 let (off, error) = ((found.mean.g - right.mean.g).abs(), found.error.g);
                 assert!(error < most && found.error.r == 2.0 * error, "{error}");
@@ -185,7 +185,7 @@ fn behind_a_mesh_the_standard_error_says_how_far_the_mean_may_be_off() {
 fn rays_go_on_until_the_error_is_as_small_as_asked() {
     let scene = with_mesh(LAMP);
     let points = [[DVec3::new(2.0, 0.0, 0.3), DVec3::Y]];
-    let options = ProbeOptions { rays: 1, max_error: Some(1e-4), seed: 3 };
+    let options = ProbeOptions { rays: 1, max_error: Some(1e-4), seed: 3, ..ProbeOptions::default() };
     let found = measured(&scene, &points, &options)[0];
     assert!(found.error.max_channel() <= 1e-4 && found.error.max_channel() > 1e-6, "{found:?}");
     let cube = "box \"b\" material=\"m\" { min -1 0 -1; max 1 2 1 }";

@@ -1,7 +1,7 @@
 //! Where is light measured, how, and what comes of it?
 
-use catoptra_core::Rgb;
 use catoptra_core::glam::DVec3;
+use catoptra_core::{Integrator, Rgb};
 
 /// A point of the world and the unit normal of the flat meter that stands there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,11 +60,14 @@ pub struct ProbeOptions {
     pub max_error: Option<f64>,
     /// What random choices go by.
     pub seed: u32,
+    /// What light counts: [`Path`](Integrator::Path) all of it, whatever it came by, along as many directions as there are rays
+    /// to a lamp; others direct and ambient light.
+    pub integrator: Integrator,
 }
 
 impl Default for ProbeOptions {
     fn default() -> Self {
-        Self { rays: 1024, max_error: None, seed: 0 }
+        Self { rays: 1024, max_error: None, seed: 0, integrator: Integrator::Whitted }
     }
 }
 

@@ -35,10 +35,10 @@ pub(crate) struct ProbeArgs {
     /// begin with # pass through
     #[arg(required_unless_present = "plane", conflicts_with = "plane")]
     points: Option<PathBuf>,
-    /// What light counts: whitted (direct and ambient)
+    /// What light counts: whitted (direct and ambient) or path (all)
     #[arg(long, value_name = "NAME", default_value = "whitted")]
     integrator: String,
-    /// Rays to each lamp whose light has no closed form at a point, rounded up to a multiple of 32
+    /// Rays to each lamp whose light has no closed form at a point, and paths of integrator path, rounded up to a multiple of 32
     #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..=4_194_304))]
     samples: u32,
     /// Twice as many samples, again and again, until the standard error of every channel is at most E, or 4,194,304 are used
@@ -79,7 +79,12 @@ pub(crate) fn run(args: &ProbeArgs) -> Result<Outcome> {
         (None, None) => Vec::new(),
     };
     let snapshot = Snapshot::extract(&scene, &pool);
-    let options = ProbeOptions { rays: args.samples, max_error: args.max_error, seed: args.seed };
+    let options = ProbeOptions {
+        rays: args.samples,
+        max_error: args.max_error,
+        seed: args.seed,
+        integrator: find_integrator(&args.integrator)?,
+    };
     let control = interrupt::control();
     let ask = || irradiance_at(&snapshot, &receivers, &options, &pool, &control);
     let Ok(found) = progress::while_showing(&control, ask) else {
@@ -97,10 +102,10 @@ pub(crate) fn run(args: &ProbeArgs) -> Result<Outcome> {
 /// Refuses what cannot end well before any work is done.
 fn check(args: &ProbeArgs) -> Result<()> {
     match find_integrator(&args.integrator)? {
-        Integrator::Whitted => {}
+        Integrator::Whitted | Integrator::Path => {}
         other => {
             return Err(miette!(
-                help = "irradiance is known by integrator whitted: direct and ambient light",
+                help = "irradiance is known by integrators whitted (direct and ambient light) and path (all light)",
                 "integrator {} does not measure irradiance",
                 other.name()
             ));

@@ -181,7 +181,7 @@ impl<S: Search> Walker<'_, S> {
                     * f64::from(RAYS_OF_PATHS);
                 path.glossy * (pdf / (pdf + chosen))
             }
-            Origin::Reflected(_) | Origin::Transmitted(_) => path.glossy,
+            Origin::Reflected(_) | Origin::Transmitted(_) | Origin::Apart => path.glossy,
         }
     }
 }

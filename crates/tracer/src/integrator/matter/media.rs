@@ -15,16 +15,20 @@ use crate::{Frame, Snapshot};
 pub(crate) struct Media(SmallVec<[u32; 4]>);
 
 impl Media {
-    /// Those that the eye of a view lies in: the solids whose surface is met from within.
+    /// Those that the eye of a view lies in.
     pub(crate) fn round_eye(frame: &Frame<'_>) -> Self {
-        let (snapshot, mut media) = (frame.snapshot, Self::default());
+        Self::round(frame.snapshot, &Ray::new(frame.raster.eye, frame.raster.corner))
+    }
+
+    /// Those that a ray begins in: the solids whose surface it meets from within.
+    pub(super) fn round(snapshot: &Snapshot, ray: &Ray) -> Self {
+        let mut media = Self::default();
         if !snapshot.matter().is_see_through {
             return media;
         }
-        let ray = Ray::new(frame.raster.eye, frame.raster.corner);
         for (prim, number) in snapshot.prims().iter().zip(0..) {
             let solid = snapshot.matter().medium_in(prim).is_some();
-            let met = solid.then(|| snapshot.cross_part(number, None, &ray, Span::AHEAD, None)).flatten();
+            let met = solid.then(|| snapshot.cross_part(number, None, ray, Span::AHEAD, None)).flatten();
             if met.is_some_and(|hit| hit.crossing.normal.dot(ray.direction) > 0.0) {
                 media.enter(number);
             }

@@ -3,6 +3,7 @@
 
 mod direct;
 mod environment;
+mod from_point;
 mod lamplight;
 mod media;
 mod packets;
@@ -19,6 +20,7 @@ use crate::lamps::Drawn;
 use crate::sampler::Sampler;
 use crate::{Frame, Hit, SurfaceId};
 pub(super) use direct::Estimate;
+pub(super) use from_point::light_along;
 pub(crate) use media::Media;
 pub(super) use packets::trace_tile;
 pub(super) use spread::Spread;
@@ -33,6 +35,8 @@ pub(super) enum Origin {
     Reflected(f64),
     /// Chosen among many on the other side, with this density, 1/sr.
     Transmitted(f64),
+    /// Chosen from a point whose direct light of lamps is gathered elsewhere, and no other.
+    Apart,
 }
 
 /// A ray of a path, and what the path is like so far.

@@ -70,7 +70,7 @@ impl Vertex<'_> {
     /// By how much the cone of rays grows that are chosen among many, radians: the angle that one of them stands for.
     fn widening(&self, origin: Origin) -> f64 {
         match origin {
-            Origin::Alone => 0.0,
+            Origin::Alone | Origin::Apart => 0.0,
             Origin::Reflected(pdf) | Origin::Transmitted(pdf) => (1.0 / pdf).sqrt().min(1.0),
         }
     }

@@ -1,17 +1,20 @@
-//! What light arrives at points in space that are no surfaces? By the rules of Whitted's direct light, in `f64`.
+//! What light arrives at points in space that are no surfaces? By the rules of Whitted's direct light, in `f64`, and by paths for
+//! all other.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Light, Ray, Rgb, Span};
+use catoptra_core::lobe::Diffuse;
+use catoptra_core::{Camera, Integrator, Light, Ray, Rgb, Span};
 use std::f64::consts::PI;
 
 use super::paths::{rgb, shadow_ray};
 use super::tally::{Picks, SETS, Tally};
 use crate::integrator::Trees;
 use crate::integrator::lamp_sight::LampSight;
+use crate::integrator::matter::{Numbers, light_along};
 use crate::lamps::{Drawn, Gathered, LampRays, LitPoint, picked};
-use crate::sampler::Sampler;
+use crate::sampler::{Sampler, pairs, share};
 use crate::snapshot::LampRow;
-use crate::{Irradiance, LampStats, ProbeOptions, Snapshot, SurfaceId};
+use crate::{Frame, Irradiance, LampStats, ProbeOptions, Size, Snapshot, SurfaceId, View};
 
 /// Asks for the light of receivers, one after another.
 pub(crate) struct Receivers<'a> {
@@ -20,6 +23,8 @@ pub(crate) struct Receivers<'a> {
     sight: LampSight,
     /// The surfaces that hold the point.
     held: Vec<SurfaceId>,
+    /// By whose rules paths are followed.
+    view: View,
 }
 
 /// Most rays that a set sends to a lamp.
@@ -30,11 +35,14 @@ const MOST_RAYS: u32 = 1 << 17;
 struct Sampled<'a> {
     lamps: Vec<(usize, &'a LampRow, Tally)>,
     picks: Option<Picks>,
+    /// Light along directions chosen evenly by the cosine, which lamps and lights do not send straight.
+    around: Option<Picks>,
 }
 
 impl<'a> Receivers<'a> {
     pub(crate) fn new(snapshot: &'a Snapshot, options: &'a ProbeOptions) -> Self {
-        Self { snapshot, options, sight: LampSight::default(), held: Vec::new() }
+        let view = View::new(Camera::default(), Size::new(1, 1));
+        Self { snapshot, options, sight: LampSight::default(), held: Vec::new(), view }
     }
 
     /// The irradiance at a point of the snapshot's frame with a unit normal; `number` makes its random choices its own.
@@ -42,12 +50,15 @@ impl<'a> Receivers<'a> {
         let snapshot = self.snapshot;
         let at = LitPoint { point, normal, ground: normal, surface: None };
         snapshot.find_holding(point, &mut self.held);
-        let mut mean = snapshot.ambient() * PI;
+        let all = self.options.integrator == Integrator::Path;
+        // Paths find what ambient light stands for.
+        let mut mean = if all { Rgb::BLACK } else { snapshot.ambient() * PI };
         for light in snapshot.lights() {
             mean += self.of_light(light, &at);
         }
         let mut sampled =
             Sampled { picks: snapshot.lamps().tree.as_ref().map(|_| Picks::default()), ..Sampled::default() };
+        sampled.around = (all || snapshot.matter().environment.is_some()).then(Picks::default);
         let mut stats = LampStats::default();
         for (number, lamp) in snapshot.lamps().asked().iter().enumerate() {
             match self.sight.gather(&Trees, snapshot, lamp, &at, &mut stats) {
@@ -78,7 +89,7 @@ impl<'a> Receivers<'a> {
     /// What lamps give whose share rays must tell: by as many as asked for, or as it takes to be as sure as that.
     fn of_sampled(&self, at: &LitPoint, number: u32, sampled: &mut Sampled<'a>) -> Irradiance {
         let nothing = Irradiance { mean: Rgb::BLACK, error: Rgb::BLACK };
-        if sampled.lamps.is_empty() && sampled.picks.is_none() {
+        if sampled.lamps.is_empty() && sampled.picks.is_none() && sampled.around.is_none() {
             return nothing;
         }
         let (mut done, mut count) = (0, self.options.rays.clamp(1, SETS * MOST_RAYS).div_ceil(SETS));
@@ -106,6 +117,19 @@ impl<'a> Receivers<'a> {
                 tally.add(set, ray.share, !(lamp.shadow && self.is_blocked(&ray.ray, ray.span)));
             }
         }
+        if let Some(around) = &mut sampled.around {
+            let frame = Frame::without_eye(self.snapshot, &self.view);
+            let (leaving, bounces) =
+                (self.held.first().copied(), self.options.integrator == Integrator::Path);
+            for k in 0..count {
+                let sample = drawn.sample.wrapping_mul(count).wrapping_add(k);
+                let u = drawn.sampler.pair(sample, pairs::DIRECTION).map(share);
+                let (direction, _) = Diffuse::direction(at.normal.into(), u);
+                let numbers = Numbers { sampler: drawn.sampler, sample };
+                let found = light_along(&frame, (at.point, direction.into()), leaving, &numbers, bounces);
+                around.add(set, found * PI);
+            }
+        }
         let lamps = self.snapshot.lamps();
         if let (Some(picks), Some(tree)) = (&mut sampled.picks, &lamps.tree) {
             for found in picked(lamps, tree, at, self.snapshot.origin_in_frame(), drawn, count) {
@@ -127,7 +151,7 @@ impl Sampled<'_> {
             mean += radiance * seen;
             variance += radiance * radiance * (error * error);
         }
-        if let Some(picks) = &self.picks {
+        for picks in self.picks.iter().chain(&self.around) {
             let (found, error) = picks.found(rays);
             mean += found;
             variance += error * error;

@@ -1,0 +1,46 @@
+//! The light that arrives at a point in space along a direction, but for what lamps and lights send there straight.
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Ray, Rgb, Span};
+
+use super::{Bounce, Media, Numbers, Origin, PathRay, Spread};
+use crate::integrator::path::Path;
+use crate::integrator::walker::Walker;
+use crate::integrator::{Search, Trees};
+use crate::{Frame, SurfaceId};
+
+/// Radiance that arrives at a point of the snapshot's frame, which some surface may hold, along a path that begins with a
+/// direction; where `bounces` is not asked for, only that from all around.
+pub(in crate::integrator) fn light_along(
+    frame: &Frame<'_>,
+    (point, direction): (DVec3, DVec3),
+    leaving: Option<SurfaceId>,
+    numbers: &Numbers,
+    bounces: bool,
+) -> Rgb {
+    let (snapshot, mut walker) = (frame.snapshot, Walker::new(&Trees, frame));
+    let ray = Ray::new(point, direction);
+    let media = Media::round(snapshot, &ray);
+    if !bounces {
+        let Some(environment) = &snapshot.matter().environment else { return Rgb::BLACK };
+        let open = walker.comes_through((ray, Span::AHEAD), leaving, &media, frame.view.clear_shadows);
+        return environment.radiance(direction) * open;
+    }
+    let mut next = PathRay {
+        ray,
+        leaving,
+        weight: Rgb::WHITE,
+        glossy: Rgb::BLACK,
+        origin: Origin::Apart,
+        depth: 1,
+        media,
+        spread: Spread::Cone { width: 0.0, growth: 0.0 },
+    };
+    let mut light = Rgb::BLACK;
+    loop {
+        let hit = Trees.nearest(snapshot, &next.ray, Span::AHEAD, next.leaving);
+        light += Path::meet(&mut walker, next, hit, numbers);
+        let Some(path) = walker.pending.pop() else { return light };
+        next = path;
+    }
+}
