@@ -4,9 +4,12 @@
 
 use std::fmt::Write;
 
+use catoptra_core::glam::DVec3;
 use catoptra_core::{Integrator, Scene};
 use catoptra_tests::{assert_same_bits, camera_of, parsed, traced};
-use catoptra_tracer::{Film, Instructions, Size, View};
+use catoptra_tracer::{
+    Control, Film, Instructions, Pool, ProbeOptions, Receiver, Size, Snapshot, View, irradiance_at,
+};
 
 const BACKENDS: [&str; 3] = ["scalar", "oracle", "wide"];
 
@@ -132,6 +135,31 @@ fn a_furnace_shows_what_it_is_lined_with() {
     for backend in ["scalar", "wide"] {
         let found = mean(&traced(&scene, backend, &paths(&scene, size, 256), Film::new(size), 2), size);
         assert!((found - 1.0).abs() < 2e-3, "{backend}: {found}");
+    }
+}
+
+#[test]
+fn a_white_room_holds_the_light_that_theory_says() {
+    for albedo in [0.05, 0.5, 0.9] {
+        let scene = parsed(&format!(
+            "camera \"c\" {{ eye 0 0 0; target 1 0 0 }}\nmatte \"m\" {{ color {albedo} }}\n\
+             box \"room\" material=\"m\" {{ min -2 -2 -2; max 2 2 2 }}\npoint-light \"lamp\" {{ position 0 0 0; intensity {} }}",
+            10_000.0 / (4.0 * std::f64::consts::PI)
+        ));
+        let pool = Pool::new(2).unwrap();
+        let snapshot = Snapshot::extract(&scene, &pool);
+        let cells =
+            (0..12).flat_map(|i| (0..12).map(move |j| [i, j].map(|k| (f64::from(k) + 0.5) / 3.0 - 2.0)));
+        let meters: Vec<_> =
+            cells.map(|[x, z]| Receiver::new(DVec3::new(x, -2.0, z), DVec3::Y).unwrap()).collect();
+        let mean = |integrator| {
+            let options = ProbeOptions { rays: 512, integrator, ..ProbeOptions::default() };
+            let found = irradiance_at(&snapshot, &meters, &options, &pool, &Control::default()).unwrap();
+            found.iter().map(|found| found.mean.g).sum::<f64>() / meters.len() as f64
+        };
+        let (found, expected) =
+            (mean(Integrator::Path) - mean(Integrator::Whitted), albedo * 10_000.0 / ((1.0 - albedo) * 96.0));
+        assert!((found / expected - 1.0).abs() < 0.01, "{albedo}: {found} lx instead of {expected}");
     }
 }
 
