@@ -114,6 +114,8 @@ impl Found<'_> {
             "meshes": needs.meshes,
             "triangles": needs.triangles,
             "tree_bytes": needs.tree_bytes,
+            "texture_bytes": needs.texture_bytes,
+            "shades_by_point": needs.shades_by_point,
             "reflects": needs.reflects,
             "counts": self.stats,
         })
@@ -152,6 +154,9 @@ impl Found<'_> {
             lines.push(format!("{} of {triangles}", counted(needs.meshes as u64, "mesh file")));
         }
         lines.push(format!("{}{}", all_counted(&needs.materials, "material"), list(&needs.materials)));
+        if !needs.textures.is_empty() {
+            lines.push(format!("{}{}", all_counted(&needs.textures, "texture"), list(&needs.textures)));
+        }
         lines.push(format!(
             "{}{}; shadows are thrown by {}",
             all_counted(&needs.lights, "light"),
@@ -191,7 +196,13 @@ impl Found<'_> {
         if job.backend.name() == "wide" {
             lines.push(kernels);
         }
+        if needs.shades_by_point && job.backend.name() == "wide" {
+            lines.push("packets that search; what is met is shaded point by point in f64".to_owned());
+        }
         lines.push(format!("trees of {}", bytes(needs.tree_bytes as u64)));
+        if needs.texture_bytes > 0 {
+            lines.push(format!("pictures of {}", bytes(needs.texture_bytes as u64)));
+        }
         lines.push(format!("integrator {}: {}", job.view.integrator.name(), self.paths()));
         lines
     }

@@ -1,5 +1,9 @@
 //! Counts of what a snapshot holds: shapes, materials, lights, triangles.
 
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use catoptra_core::texture::{Image, Texture};
 use catoptra_core::{EntityId, Light};
 use serde::Serialize;
 
@@ -32,6 +36,12 @@ pub struct Needs {
     pub tree_bytes: usize,
     /// Shapes that have a SIMD kernel; the others are crossed one ray at a time.
     pub with_kernel: usize,
+    /// Textures by kind, most first.
+    pub textures: Vec<(&'static str, usize)>,
+    /// Bytes of the pictures of textures and of their smaller copies; each counted once.
+    pub texture_bytes: usize,
+    /// Whether points are shaded one by one in `f64`, as lanes do not know all of the scene's materials and lights.
+    pub shades_by_point: bool,
     /// Whether any shape reflects.
     pub reflects: bool,
     /// Lights that throw shadows.
@@ -59,10 +69,27 @@ impl Snapshot {
                 + size_of_val(&self.index.tree.nodes[..])
                 + size_of_val(&self.index.tree.order[..]),
             with_kernel: self.prims.len() - self.index.columns.without_kernel(),
+            textures: count(self.parts.textures.values().map(Texture::kind_name)),
+            texture_bytes: self.texture_bytes(),
+            shades_by_point: self.matter.is_needed,
             reflects: self.has_mirrors || self.matter.is_needed,
             shadowing_lights: self.single_lights().filter(|light| light.shadow()).count(),
             ambient: self.ambient.max_channel() > 0.0,
         }
+    }
+
+    fn texture_bytes(&self) -> usize {
+        let pictures: HashMap<*const Image, usize> = self
+            .parts
+            .textures
+            .values()
+            .filter_map(|texture| match texture {
+                Texture::ImageTexture(texture) => Some(&texture.source().image),
+                _ => None,
+            })
+            .map(|image| (Arc::as_ptr(image), image.bytes()))
+            .collect();
+        pictures.values().sum()
     }
 
     /// All lights but ambient ones.
