@@ -100,26 +100,28 @@ impl<S: Search> Walker<'_, S> {
         rays: &LampRays,
         estimate: Estimate,
     ) -> Rgb {
-        let (mut found, mut tinted, mut glossy) = (Found::default(), Rgb::BLACK, Rgb::BLACK);
+        let (mut found, mut brought, mut tinted) = (Found::default(), Rgb::BLACK, Rgb::BLACK);
+        let (mut glossy, of_one) = (Rgb::BLACK, 1.0 / f64::from(rays.count));
         for (number, ray) in rays.above() {
             let through =
                 if ray.above_ground { self.of_ray(vertex, path, lamp, &ray, estimate) } else { Rgb::BLACK };
             found.add(number, ray.share, through == Rgb::WHITE);
-            if through == Rgb::BLACK {
-                continue;
-            }
+            let share = through * (ray.share * of_one);
+            brought += share;
             if through != Rgb::WHITE {
-                tinted += through * (ray.share / f64::from(rays.count));
+                tinted += share;
             }
-            let shown = vertex.bsdf.glossy(ray.direction) * (ray.solid / f64::from(rays.count));
-            glossy += shown * through * self.share_of_ray(vertex, lamp, &ray, rays.count, estimate);
+            if through != Rgb::BLACK {
+                let shown = vertex.bsdf.glossy(ray.direction) * (ray.solid * of_one);
+                glossy += shown * through * self.share_of_ray(vertex, lamp, &ray, rays.count, estimate);
+            }
         }
-        let irradiance = Rgb::grey(found.of(seen, rays.count))
-            + if seen == Gathered::Exactly(0.0) || matches!(seen, Gathered::Exactly(_)) {
-                Rgb::BLACK
-            } else {
-                tinted
-            };
+        let irradiance = match (seen, estimate) {
+            (Gathered::Exactly(seen), _) => Rgb::grey(seen),
+            // Two rays alone: what corrects them would be cut off at nothing too often to be right in the mean.
+            (Gathered::UpTo(_), Estimate::WithPaths) => brought,
+            (Gathered::UpTo(_), Estimate::Alone) => Rgb::grey(found.of(seen, rays.count)) + tinted,
+        };
         vertex.bsdf.diffuse() * irradiance * (1.0 / PI) + glossy
     }
 
