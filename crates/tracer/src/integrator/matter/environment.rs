@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::lobe::Diffuse;
-use catoptra_core::{Environment, FromAfar, Ray, Rgb, Span};
+use catoptra_core::{Emitter, Environment, FromAfar, Ray, Rgb, Span};
 
 use super::{Estimate, Numbers, Origin, PathRay, Vertex};
 use crate::integrator::Search;
@@ -92,7 +92,6 @@ impl<S: Search> Walker<'_, S> {
         if !(light.max_channel() > 0.0 && light.all(f64::is_finite)) {
             return Rgb::BLACK;
         }
-        use catoptra_core::Emitter;
         if !environment.shadow() {
             return light;
         }
