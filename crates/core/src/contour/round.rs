@@ -273,11 +273,15 @@ impl Work {
 }
 
 /// The stretch of an edge within a curve, given the arc of it on the inner side of the edge's plane. Along the edge one comes in
-/// where that arc ends and goes out where it begins.
+/// where that arc ends and goes out where it begins; the other way round where rounding has put the edge's ends in the wrong
+/// order, as along a sliver, whose corners may lie anywhere on it.
 #[inline]
 fn stretch(corner: Corner, next: DVec3, conic: &Conic, arc: Arc) -> Option<[f64; 2]> {
-    let (enter, leave) = (conic.at(arc.to), conic.at(arc.from));
-    let (after, before) = (corner.edge.cross(corner.at), next.cross(corner.edge));
+    let (mut after, mut before) = (corner.edge.cross(corner.at), next.cross(corner.edge));
+    let (mut enter, mut leave) = (conic.at(arc.to), conic.at(arc.from));
+    if after.dot(next) < 0.0 {
+        (after, before, enter, leave) = (-after, -before, leave, enter);
+    }
     let (enter_after, enter_before) = (after.dot(enter), before.dot(enter));
     let (leave_after, leave_before) = (after.dot(leave), before.dot(leave));
     let from = if enter_after >= 0.0 && enter_before >= 0.0 {
