@@ -26,7 +26,7 @@ struct Curve {
 /// Lists for one piece.
 #[derive(Debug, Default)]
 struct Work {
-    /// How each curve that matters lies to each edge's plane, curve by curve.
+    /// How curves that matter lie to each edge's plane, curve by curve.
     cuts: Vec<Cut>,
     /// The stretches of edges within curves.
     spans: Vec<Stretch>,
@@ -272,9 +272,8 @@ impl Work {
     }
 }
 
-/// The stretch of an edge within a curve, given the arc of it on the inner side of the edge's plane. Along the edge one comes in
-/// where that arc ends and goes out where it begins; the other way round where rounding has put the edge's ends in the wrong
-/// order, as along a sliver, whose corners may lie anywhere on it.
+/// The stretch of an edge within a curve, given the arc of it on the inner side of the edge's plane. Along the edge one comes
+/// in where that arc ends and goes out where it begins, or the other way where rounding has swapped the edge's ends.
 #[inline]
 fn stretch(corner: Corner, next: DVec3, conic: &Conic, arc: Arc) -> Option<[f64; 2]> {
     let (mut after, mut before) = (corner.edge.cross(corner.at), next.cross(corner.edge));
