@@ -91,10 +91,7 @@ impl Curves {
         if self.work.relation(conic, outline, false) == Relation::Apart {
             return false;
         }
-        match self.list.first() {
-            Some(lamp) if self.has_lamp => !matches!(Pair::of(&lamp.conic, conic), Pair::Apart),
-            _ => true,
-        }
+        !(self.has_lamp && matches!(Pair::of(&self.list[0].conic, conic), Pair::Apart))
     }
 
     /// Finds what curves take of one another; `false` where the lamp's outline is hidden wholly.
