@@ -37,15 +37,19 @@ impl Cone {
     }
 
     /// Adds the plane through an edge as seen from the eye, the cone to the left of it; none where the eye looks along the edge.
+    /// The same edge the other way gives the same bits, with the other sign: two faces part where they meet.
     #[inline]
     fn push_edge(&mut self, from: DVec3, to: DVec3) {
-        let along = to - from;
-        let plane = from.cross(along);
+        let is_ordered = from.to_array() < to.to_array();
+        let (first, second) = if is_ordered { (from, to) } else { (to, from) };
+        let along = second - first;
+        let plane = first.cross(along);
         // Three roundings in each coordinate of the product.
         let certain = 3.0 * UNIT_ROUNDOFF_F64;
         let length2 = plane.length_squared();
-        if length2 > certain * certain * from.length_squared() * along.length_squared() {
-            self.push(plane / length2.sqrt());
+        if length2 > certain * certain * first.length_squared() * along.length_squared() {
+            let length = if is_ordered { length2.sqrt() } else { -length2.sqrt() };
+            self.push(plane / length);
         }
     }
 

@@ -7,7 +7,8 @@
 //!
 //! 1. The lamp becomes a convex polygon cut by the horizon; a round lamp lies within one, its *window* (`view.rs`).
 //! 2. Flat and flat-faced blockers are taken away plane by plane, which leaves convex pieces that do not overlap
-//!    (`cone.rs`, `polygon.rs`). That is continuous in the input: coincident edges need no rules.
+//!    (`cone.rs`, `polygon.rs`). That is continuous in the input: coincident edges need no rules but that of what is the
+//!    same within rounding.
 //! 3. On each piece, arcs of round outlines are found by subtraction of intervals (`round.rs`, `pair.rs`).
 //! 4. A plane that parts lamp and blocker tells which is in front (`place.rs`, `sight.rs`); where there is none, there is
 //!    no closed form.
@@ -112,8 +113,7 @@ pub fn visible(
     if !blockers.iter().any(|(blocker, _)| view.may_meet(point, blocker)) {
         return Ok(open);
     }
-    scratch.pieces.clear();
-    scratch.pieces.push(view.outline());
+    scratch.pieces.begin(view.outline());
     scratch.curves.begin(view.round.as_ref());
     let mut sight = Sight { eye: point, lamp, view: &view, scratch, is_cut: false };
     for &(blocker, leaving) in blockers {

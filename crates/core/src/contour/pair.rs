@@ -39,6 +39,7 @@ impl Pair {
         match (first.is_round, second.is_round) {
             (true, true) => of_spheres(first, second),
             (true, false) => of_rim(second, first).swapped(),
+            (false, false) if second.sine() < first.sine() => of_rim(second, first).swapped(),
             (false, _) => of_rim(first, second),
         }
     }
@@ -92,7 +93,8 @@ fn of_spheres(first: &Conic, second: &Conic) -> Pair {
     }
 }
 
-/// The rim of a disk and any other outline.
+/// The rim of a disk and any other outline, but none seen closer to edge-on: a place of that would hardly follow from the
+/// direction in which it is seen.
 fn of_rim(rim: &Conic, other: &Conic) -> Pair {
     let wave = other.wave(rim);
     let (places, count) = wave.sign_changes();
@@ -154,6 +156,11 @@ fn is_rounding(wave: &Wave, rim: &Conic, other: &Conic) -> bool {
 }
 
 impl Conic {
+    /// Of the angle under which the plane of the circle is seen.
+    fn sine(&self) -> f64 {
+        self.axis.dot(self.center) / self.center.length()
+    }
+
     /// Positive for directions within: r² (N·x)² − |N × (x × P)|², negative behind the eye.
     fn depth(&self, x: DVec3) -> f64 {
         let along = self.axis.dot(x);

@@ -2,11 +2,16 @@
 //!
 //! A polygon is a loop of vectors from the eye, of any length, counter-clockwise as seen from outside the sphere of
 //! directions. Each corner also holds the plane of the edge that leaves it: an edge keeps its plane when it is cut, however
-//! short the rest, so slivers as short as rounding leave are harmless, and neighbours share planes bit for bit.
+//! short the rest, and neighbours share planes bit for bit.
+//!
+//! Outlines of neighbouring faces share edges and corners, so that planes run along edges and through corners but for
+//! rounding. A corner that near to a plane lies in it: to which side it lies would be chance, and might be another for each
+//! corner of an edge. What is cut off then is no polygon that its planes bound.
 
 use glam::DVec3;
 
 use super::angle::angle;
+use crate::numeric::CUT_ROUNDING;
 
 /// A corner and the edge from it to the next one.
 #[derive(Debug, Clone, Copy)]
@@ -49,14 +54,19 @@ pub(super) fn for_each_edge(piece: &[Corner], mut visit: impl FnMut(Corner, DVec
     }
 }
 
-/// Gives out, corner by corner, what of a polygon lies on the side that a plane through the eye looks to.
+/// Gives out, corner by corner, what of a polygon lies on the side that a plane through the eye looks to. Corners within `off`
+/// of the plane count as lying in it.
 #[inline]
-pub(super) fn half(piece: &[Corner], plane: DVec3, mut out: impl FnMut(Corner)) {
+pub(super) fn half(piece: &[Corner], plane: DVec3, off: f64, mut out: impl FnMut(Corner)) {
     let Some(first) = piece.first() else { return };
-    let mut height = plane.dot(first.at);
+    let height_of = |corner: &Corner| {
+        let height = plane.dot(corner.at);
+        if height.abs() <= off { 0.0 } else { height }
+    };
+    let mut height = height_of(first);
     for (i, corner) in piece.iter().enumerate() {
         let next = piece.get(i + 1).unwrap_or(first);
-        let next_height = plane.dot(next.at);
+        let next_height = height_of(next);
         if height >= 0.0 {
             let leaves = height == 0.0 && next_height < 0.0;
             out(if leaves { Corner { at: corner.at, edge: plane } } else { *corner });
@@ -69,16 +79,16 @@ pub(super) fn half(piece: &[Corner], plane: DVec3, mut out: impl FnMut(Corner)) 
     }
 }
 
-/// Whether no corner of a polygon lies on the side that a plane through the eye looks to.
+/// Whether no corner of a polygon lies on the side that a plane through the eye looks to, by more than `off`.
 #[inline]
-pub(super) fn is_outside(piece: &[Corner], plane: DVec3) -> bool {
-    piece.iter().all(|corner| plane.dot(corner.at) <= 0.0)
+fn is_outside(piece: &[Corner], plane: DVec3, off: f64) -> bool {
+    piece.iter().all(|corner| plane.dot(corner.at) <= off)
 }
 
 /// Whether no corner lies on the other side.
 #[inline]
-pub(super) fn is_inside(piece: &[Corner], plane: DVec3) -> bool {
-    piece.iter().all(|corner| plane.dot(corner.at) >= 0.0)
+fn is_inside(piece: &[Corner], plane: DVec3, off: f64) -> bool {
+    piece.iter().all(|corner| plane.dot(corner.at) >= -off)
 }
 
 /// Convex polygons that do not overlap.
@@ -86,12 +96,22 @@ pub(super) fn is_inside(piece: &[Corner], plane: DVec3) -> bool {
 pub(super) struct Pieces {
     corners: Vec<Corner>,
     ends: Vec<usize>,
+    /// How far from a plane a corner may be and still count as lying in it.
+    off: f64,
 }
 
 impl Pieces {
-    pub(super) fn clear(&mut self) {
+    /// Forgets all but one polygon, of which others are to be cut.
+    pub(super) fn begin(&mut self, whole: &[Corner]) {
+        let reach2 = whole.iter().map(|corner| corner.at.length_squared()).fold(0.0, f64::max);
+        self.clear(CUT_ROUNDING * reach2.sqrt());
+        self.push(whole);
+    }
+
+    fn clear(&mut self, off: f64) {
         self.corners.clear();
         self.ends.clear();
+        self.off = off;
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -103,7 +123,7 @@ impl Pieces {
         starts.zip(&self.ends).map(|(from, to)| &self.corners[from..*to])
     }
 
-    pub(super) fn push(&mut self, piece: &[Corner]) {
+    fn push(&mut self, piece: &[Corner]) {
         self.corners.extend_from_slice(piece);
         self.ends.push(self.corners.len());
     }
@@ -111,7 +131,7 @@ impl Pieces {
     /// Adds the part of a polygon on one side of a plane through the eye, if it has corners enough.
     fn push_half(&mut self, piece: &[Corner], plane: DVec3) {
         let start = self.corners.len();
-        half(piece, plane, |corner| self.corners.push(corner));
+        half(piece, plane, self.off, |corner| self.corners.push(corner));
         if self.corners.len() < start + 3 {
             self.corners.truncate(start);
         } else {
@@ -128,10 +148,10 @@ impl Pieces {
         spare: &mut [Vec<Corner>; 2],
         mut is_lit: impl FnMut(&[Corner]) -> bool,
     ) -> bool {
-        self.clear();
+        self.clear(pieces.off);
         let mut meets = false;
         for piece in pieces.iter() {
-            if planes.iter().any(|plane| is_outside(piece, *plane)) {
+            if planes.iter().any(|plane| is_outside(piece, *plane, self.off)) {
                 self.push(piece);
                 continue;
             }
@@ -157,12 +177,12 @@ impl Pieces {
         inside.clear();
         inside.extend_from_slice(piece);
         for plane in planes {
-            if is_inside(inside, *plane) {
+            if is_inside(inside, *plane, self.off) {
                 continue;
             }
             next.clear();
-            half(inside, *plane, |corner| next.push(corner));
-            if next.len() < 3 {
+            half(inside, *plane, self.off, |corner| next.push(corner));
+            if next.len() < 3 || is_outside(next, *plane, self.off) {
                 return false;
             }
             self.push_half(inside, -*plane);

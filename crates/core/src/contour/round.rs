@@ -26,7 +26,7 @@ struct Curve {
 /// Lists for one piece.
 #[derive(Debug, Default)]
 struct Work {
-    /// How each curve that matters lies to each edge's plane, curve by curve.
+    /// How curves that matter lie to each edge's plane, curve by curve.
     cuts: Vec<Cut>,
     /// The stretches of edges within curves.
     spans: Vec<Stretch>,
@@ -91,10 +91,7 @@ impl Curves {
         if self.work.relation(conic, outline, false) == Relation::Apart {
             return false;
         }
-        match self.list.first() {
-            Some(lamp) if self.has_lamp => !matches!(Pair::of(&lamp.conic, conic), Pair::Apart),
-            _ => true,
-        }
+        !(self.has_lamp && matches!(Pair::of(&self.list[0].conic, conic), Pair::Apart))
     }
 
     /// Finds what curves take of one another; `false` where the lamp's outline is hidden wholly.
@@ -272,12 +269,15 @@ impl Work {
     }
 }
 
-/// The stretch of an edge within a curve, given the arc of it on the inner side of the edge's plane. Along the edge one comes in
-/// where that arc ends and goes out where it begins.
+/// The stretch of an edge within a curve, given the arc of it on the inner side of the edge's plane. Along the edge one comes
+/// in where that arc ends and goes out where it begins, or the other way where rounding has swapped the edge's ends.
 #[inline]
 fn stretch(corner: Corner, next: DVec3, conic: &Conic, arc: Arc) -> Option<[f64; 2]> {
-    let (enter, leave) = (conic.at(arc.to), conic.at(arc.from));
-    let (after, before) = (corner.edge.cross(corner.at), next.cross(corner.edge));
+    let (mut after, mut before) = (corner.edge.cross(corner.at), next.cross(corner.edge));
+    let (mut enter, mut leave) = (conic.at(arc.to), conic.at(arc.from));
+    if after.dot(next) < 0.0 {
+        (after, before, enter, leave) = (-after, -before, leave, enter);
+    }
     let (enter_after, enter_before) = (after.dot(enter), before.dot(enter));
     let (leave_after, leave_before) = (after.dot(leave), before.dot(leave));
     let from = if enter_after >= 0.0 && enter_before >= 0.0 {

@@ -73,7 +73,7 @@ impl View {
         if from_eye.iter().any(|at| normal.dot(*at) < 0.0) {
             let whole = corners;
             count = 0;
-            half(&whole[..from_eye.len()], normal, |corner| {
+            half(&whole[..from_eye.len()], normal, 0.0, |corner| {
                 if count < 5 {
                     corners[count] = corner;
                     count += 1;
