@@ -67,6 +67,18 @@ impl LampRow {
     }
 }
 
+impl LampRow {
+    /// How far its points may be off, seen from there.
+    #[inline(always)]
+    fn rounding_seen_from<S: Simd>(&self, s: S, point: D3<S>) -> D<S> {
+        let size = self.ball.center.abs().element_sum() + 3.0 * self.ball.radius;
+        let size = magnitude(narrow3(point)).widen() + D::splat(s, size);
+        // Points on a sphere are known as directions in `f32` are.
+        let round = if self.normal.is_none() { self.ball.radius * f64::from(DIRECTION_ERROR) } else { 0.0 };
+        size * D::splat(s, LAMP_POINT_ROUNDING) + D::splat(s, round)
+    }
+}
+
 impl<S: Simd> Shader<'_, S> {
     /// Sends rays from some lanes to a lamp that would give them so much if nothing blocked it. Adds what glossy lobes show of
     /// it, and returns which share of that is seen.
@@ -91,11 +103,7 @@ impl<S: Simd> Shader<'_, S> {
         let may_be_blocked = lamp.shadow && !self.plan.lamps[number].blockers.is_empty();
         let glossy = self.chunk.glossy[at.slot];
         let area = F::splat(s, (lamp.area / f64::from(count)) as f32);
-        let size = lamp.ball.center.abs().element_sum() + 3.0 * lamp.ball.radius;
-        let size = magnitude(narrow3(at.refined.point)).widen() + D::splat(s, size);
-        // Points on a sphere are known as directions in `f32` are.
-        let round = if lamp.normal.is_none() { lamp.ball.radius * f64::from(DIRECTION_ERROR) } else { 0.0 };
-        let off = size * D::splat(s, LAMP_POINT_ROUNDING) + D::splat(s, round);
+        let off = lamp.rounding_seen_from(s, at.refined.point);
         let best = self.chunk.best[at.slot];
         let mut halves = [Half { open: zero, all: zero, brought: zero, total: zero }; 2];
         for k in 0..count {

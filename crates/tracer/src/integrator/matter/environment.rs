@@ -42,7 +42,13 @@ impl<S: Search> Walker<'_, S> {
                 let Some(found) = environment.sample(u) else { return Rgb::BLACK };
                 let shown = vertex.bsdf.evaluate(found.direction) * found.radiance;
                 let pdf = found.pdf + vertex.bsdf.pdf(found.direction);
-                self.from_afar(environment, vertex, path, (shown * (1.0 / pdf), found.direction), estimate)
+                self.light_of_afar(
+                    environment,
+                    vertex,
+                    path,
+                    (shown * (1.0 / pdf), found.direction),
+                    estimate,
+                )
             }
         }
     }
@@ -75,13 +81,13 @@ impl<S: Search> Walker<'_, S> {
             let Some(FromAfar { direction, radiance, pdf }) = found else { continue };
             let cosine = direction.dot(normal).max(0.0);
             let shown = albedo * radiance * (cosine / (PI * pdf * f64::from(count)));
-            light += self.from_afar(environment, vertex, path, (shown, direction), Estimate::Alone);
+            light += self.light_of_afar(environment, vertex, path, (shown, direction), Estimate::Alone);
         }
         light
     }
 
     /// What of light along a direction from afar reaches a point.
-    fn from_afar(
+    fn light_of_afar(
         &mut self,
         environment: &Environment,
         vertex: &Vertex<'_>,
