@@ -94,8 +94,8 @@ impl<S: Simd> Shader<'_, S> {
         let s = self.s;
         let (zero, one) = (F::splat(s, 0.0), F::splat(s, 1.0));
         let smooth = self.search.snapshot.columns().smooth;
-        let ground = self.chunk.normal[at.slot];
-        let normal = if smooth { self.chunk.smooth[at.slot] } else { ground };
+        let (ground, smoothed) = (self.chunk.normal[at.slot], self.chunk.smooth[at.slot]);
+        let normal = if smooth { smoothed } else { ground };
         let sampler = self.block_sampler(at, tile);
         let count = self.view.lamp_rays_of_sample();
         let first = self.sample.index.wrapping_mul(count);
@@ -135,17 +135,16 @@ impl<S: Simd> Shader<'_, S> {
             half.brought = half.brought + F::pick(reached, weight, zero);
             half.total = half.total + F::pick(live, weight, zero);
             if glossy {
-                let direction = way.scale(inverse);
                 let arrival = Arrival {
-                    direction,
+                    direction: way.scale(inverse),
                     to_light: way,
                     inverse_distance: inverse,
                     distance: one / inverse,
                     strength: facing * (inverse * inverse) * area,
                     lit: live,
                 };
-                let color = F3::of(zero, &lamp.radiance);
-                self.add_specular(at.slot, &Facing { arrival, cosine, lanes: live }, reached, color);
+                let facing = Facing { arrival, cosine, lanes: live };
+                self.add_specular(at.slot, &facing, reached, F3::of(zero, &lamp.radiance));
             }
         }
         let of_lamp = area / unblocked;
