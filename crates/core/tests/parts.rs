@@ -265,6 +265,15 @@ fn colours_and_fractions_of_materials_take_textures() {
 }
 
 #[test]
+fn no_material_has_a_field_of_finishes() {
+    for kind in Material::KINDS {
+        for field in Finish::KIND.fields {
+            assert!(kind.field(field.name).is_none(), "{} {}", kind.name, field.name);
+        }
+    }
+}
+
+#[test]
 fn finishes_describe_themselves() {
     check_words(&[Finish::KIND]);
     let kind = Finish::KIND;

@@ -103,7 +103,7 @@ impl<'a> Builder<'a> {
             let (Some(Part::Material(material, finish)), Some(name)) = (&item.part, &item.name) else {
                 continue;
             };
-            let mut added = self.scene.add_material(&name.value, material.clone());
+            let mut added = self.scene.add_material(&name.value, material.as_ref().clone());
             if let (Ok(id), false) = (&added, finish.is_plain())
                 && let Err(error) = self.scene.apply(Edit::Finish(*id, *finish))
             {

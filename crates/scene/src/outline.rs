@@ -100,7 +100,9 @@ impl Sort {
         Ok(match self {
             Self::Settings => Part::Settings((Settings::KIND.make)(values)?),
             Self::Texture(kind) => Part::Texture((kind.make)(values)?),
-            Self::Material(kind) => Part::Material((kind.make)(values)?, (Finish::KIND.make)(values)?),
+            Self::Material(kind) => {
+                Part::Material(Box::new((kind.make)(values)?), (Finish::KIND.make)(values)?)
+            }
             Self::Shape(kind) => Part::Shape((kind.make)(values)?),
             Self::Light(kind) => Part::Light((kind.make)(values)?),
             Self::Camera => Part::Camera((Camera::KIND.make)(values)?),
@@ -119,7 +121,7 @@ impl Sort {
 pub(crate) enum Part {
     Settings(Settings),
     Texture(Texture),
-    Material(Material, Finish),
+    Material(Box<Material>, Finish),
     Shape(Shape),
     Light(Light),
     Camera(Camera),

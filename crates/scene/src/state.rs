@@ -29,7 +29,7 @@ impl State {
             Id::Material(id) => {
                 let material = scene.find_material(id)?.clone();
                 Some(Self::unplaced(
-                    Part::Material(material, scene.finish(id)),
+                    Part::Material(Box::new(material), scene.finish(id)),
                     scene.material_name(id).to_owned(),
                 ))
             }

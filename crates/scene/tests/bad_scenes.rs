@@ -129,7 +129,7 @@ const AFTER_A_MATERIAL: &[Case] = &[
     Case(
         "settings { integrator \"oclusion\" }",
         (2, 23),
-        "integrator is one of whitted, occlusion",
+        "integrator is one of whitted, path, occlusion",
         "did you mean \"occlusion\"?",
     ),
     Case("settings { occlusion-distance 0 }", (2, 12), "occlusion-distance must be greater than 0", ""),

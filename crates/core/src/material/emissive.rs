@@ -65,6 +65,10 @@ impl Surface for Emissive {
         Some(Emission { radiance: self.radiance.rgb(), two_sided: self.two_sided })
     }
 
+    fn emission_is_textured(&self) -> bool {
+        self.radiance.is_textured()
+    }
+
     fn is_textured(&self) -> bool {
         self.radiance.is_textured()
     }

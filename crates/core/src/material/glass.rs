@@ -5,6 +5,7 @@ use super::clear::Clear;
 use super::medium::{Medium, absorption};
 use crate::lobe::Roughness;
 use crate::part::Given;
+use crate::texture::{Level, Paint, TexturePoint, TextureSource};
 use crate::{
     Bsdf, Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, SurfacePoint, Value, Values,
 };
@@ -13,9 +14,9 @@ use crate::{
 #[derive(Debug, Clone, PartialEq)]
 pub struct Glass {
     ior: f64,
-    tint: Rgb,
+    tint: Paint,
     tint_distance: f64,
-    roughness: f64,
+    roughness: Level,
     thin: bool,
     priority: u32,
 }
@@ -51,9 +52,9 @@ impl Part for Glass {
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         Ok(Self {
             ior: given.positive("ior")?,
-            tint: given.color("tint")?,
+            tint: given.paint("tint")?,
             tint_distance: given.positive("tint-distance")?,
-            roughness: given.fraction("roughness")?,
+            roughness: given.level("roughness")?,
             thin: given.flag("thin")?,
             priority: given.whole("priority", 0, u32::MAX)?,
         })
@@ -62,9 +63,9 @@ impl Part for Glass {
     fn values(&self) -> Values {
         Values::new()
             .with("ior", Value::Number(self.ior))
-            .with("tint", Value::Color(self.tint))
+            .with("tint", self.tint.value())
             .with("tint-distance", Value::Number(self.tint_distance))
-            .with("roughness", Value::Number(self.roughness))
+            .with("roughness", self.roughness.value())
             .with("thin", Value::Flag(self.thin))
             .with("priority", Value::Number(f64::from(self.priority)))
     }
@@ -83,14 +84,26 @@ impl Surface for Glass {
     fn bsdf(&self, at: &SurfacePoint) -> Bsdf {
         let mut bsdf = Bsdf::new(at);
         // The tint of a solid is that of its inside.
-        let tint = if self.thin { self.tint } else { Rgb::WHITE };
-        let roughness = Roughness::new(self.roughness);
+        let tint = if self.thin { self.tint.rgb() } else { Rgb::WHITE };
+        let roughness = Roughness::new(self.roughness.base());
         Clear { ior: self.ior, roughness, tint, thin: self.thin }.add_to(&mut bsdf, Rgb::WHITE, at);
         bsdf
     }
 
     fn medium(&self) -> Option<Medium> {
-        let absorption = absorption(self.tint, self.tint_distance);
+        let absorption = absorption(self.tint.rgb(), self.tint_distance);
         (!self.thin).then_some(Medium { ior: self.ior, absorption, priority: self.priority })
+    }
+
+    fn is_textured(&self) -> bool {
+        self.tint.is_textured() || self.roughness.is_textured()
+    }
+
+    fn resolved(&self, textures: &impl TextureSource, at: &TexturePoint) -> Self {
+        Self {
+            tint: self.tint.resolved(textures, at),
+            roughness: self.roughness.resolved(textures, at),
+            ..*self
+        }
     }
 }

@@ -4,6 +4,7 @@ use super::Surface;
 use crate::lobe::fresnel::Fresnel;
 use crate::lobe::{Boundary, Complement, Roughness};
 use crate::part::Given;
+use crate::texture::{Level, Paint, TexturePoint, TextureSource};
 use crate::{
     Bsdf, Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, SurfacePoint, Value, Values,
 };
@@ -12,14 +13,14 @@ use crate::{
 #[derive(Debug, Clone, PartialEq)]
 pub struct Metal {
     reflectance: Reflectance,
-    edge: Rgb,
-    roughness: f64,
+    edge: Paint,
+    roughness: Level,
 }
 
 /// How its colour was given.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Reflectance {
-    Color(Rgb),
+    Color(Paint),
     /// An index into the names.
     Preset(usize),
 }
@@ -61,7 +62,7 @@ const UNNAMED: Rgb = Rgb::new(0.97, 0.96, 0.92);
 impl Metal {
     fn color(&self) -> Rgb {
         match self.reflectance {
-            Reflectance::Color(color) => color,
+            Reflectance::Color(color) => color.rgb(),
             Reflectance::Preset(index) => REFLECTANCES[index],
         }
     }
@@ -102,19 +103,19 @@ impl Part for Metal {
                 return Err(InvalidPart::new("preset", "must not be given beside color", "given"));
             }
             (false, true) => Reflectance::Preset(given.choice("preset")?),
-            (_, false) => Reflectance::Color(given.color("color")?),
+            (_, false) => Reflectance::Color(given.paint("color")?),
         };
-        Ok(Self { reflectance, edge: given.color("edge")?, roughness: given.fraction("roughness")? })
+        Ok(Self { reflectance, edge: given.paint("edge")?, roughness: given.level("roughness")? })
     }
 
     fn values(&self) -> Values {
         let values = match self.reflectance {
-            Reflectance::Color(color) => Values::new().with("color", Value::Color(color)),
+            Reflectance::Color(color) => Values::new().with("color", color.value()),
             Reflectance::Preset(index) => {
                 Values::new().with("preset", Value::Word(PRESETS[index].to_owned()))
             }
         };
-        values.with("edge", Value::Color(self.edge)).with("roughness", Value::Number(self.roughness))
+        values.with("edge", self.edge.value()).with("roughness", self.roughness.value())
     }
 }
 
@@ -130,8 +131,25 @@ impl Surface for Metal {
 
     fn bsdf(&self, at: &SurfacePoint) -> Bsdf {
         let mut bsdf = Bsdf::new(at);
-        let fresnel = Fresnel::metal(self.color(), self.edge);
-        Self::add_lobes(&mut bsdf, Rgb::WHITE, fresnel, Roughness::new(self.roughness));
+        let fresnel = Fresnel::metal(self.color(), self.edge.rgb());
+        Self::add_lobes(&mut bsdf, Rgb::WHITE, fresnel, Roughness::new(self.roughness.base()));
         bsdf
+    }
+
+    fn is_textured(&self) -> bool {
+        let color = matches!(self.reflectance, Reflectance::Color(color) if color.is_textured());
+        color || self.edge.is_textured() || self.roughness.is_textured()
+    }
+
+    fn resolved(&self, textures: &impl TextureSource, at: &TexturePoint) -> Self {
+        let reflectance = match self.reflectance {
+            Reflectance::Color(color) => Reflectance::Color(color.resolved(textures, at)),
+            preset @ Reflectance::Preset(_) => preset,
+        };
+        Self {
+            reflectance,
+            edge: self.edge.resolved(textures, at),
+            roughness: self.roughness.resolved(textures, at),
+        }
     }
 }

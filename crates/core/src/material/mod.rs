@@ -109,6 +109,12 @@ pub trait Surface {
         None
     }
 
+    /// Whether a texture multiplies the light of its own, so that it is no lamp of the one radiance that
+    /// [`emission`](Self::emission) tells.
+    fn emission_is_textured(&self) -> bool {
+        false
+    }
+
     /// Whether its look jumps from one position to the next; only then are positions
     /// [`undecided`](Self::undecided).
     fn is_pattern(&self) -> bool {
@@ -180,6 +186,12 @@ impl Material {
     #[must_use]
     pub fn emission(&self) -> Option<Emission> {
         each_material!(self, material => material.emission())
+    }
+
+    /// See [`Surface::emission_is_textured`].
+    #[must_use]
+    pub fn emission_is_textured(&self) -> bool {
+        each_material!(self, material => material.emission_is_textured())
     }
 
     /// As [`visit_lobes`](Self::visit_lobes), with [`Surface::mean_lobes`].

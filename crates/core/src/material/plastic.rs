@@ -4,6 +4,7 @@ use super::Surface;
 use crate::lobe::fresnel::Fresnel;
 use crate::lobe::{Boundary, Complement, Roughness};
 use crate::part::Given;
+use crate::texture::{Level, Paint, TexturePoint, TextureSource};
 use crate::{
     Bsdf, Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, SurfacePoint, Value, Values,
 };
@@ -12,9 +13,9 @@ use crate::{
 /// scattered, and all of that comes out again of which the colour leaves all: white plastic absorbs nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plastic {
-    color: Rgb,
+    color: Paint,
     ior: f64,
-    roughness: f64,
+    roughness: Level,
 }
 
 impl Part for Plastic {
@@ -35,17 +36,17 @@ impl Part for Plastic {
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         Ok(Self {
-            color: given.color("color")?,
+            color: given.paint("color")?,
             ior: given.positive("ior")?,
-            roughness: given.fraction("roughness")?,
+            roughness: given.level("roughness")?,
         })
     }
 
     fn values(&self) -> Values {
         Values::new()
-            .with("color", Value::Color(self.color))
+            .with("color", self.color.value())
             .with("ior", Value::Number(self.ior))
-            .with("roughness", Value::Number(self.roughness))
+            .with("roughness", self.roughness.value())
     }
 }
 
@@ -62,9 +63,21 @@ impl Surface for Plastic {
     fn bsdf(&self, at: &SurfacePoint) -> Bsdf {
         let mut bsdf = Bsdf::new(at);
         let fresnel = Fresnel::clear(self.ior / at.outside_ior);
-        let boundary = Boundary::new(Roughness::new(self.roughness), fresnel);
+        let boundary = Boundary::new(Roughness::new(self.roughness.base()), fresnel);
         bsdf.add(Rgb::WHITE, boundary.lobe());
-        bsdf.add(Rgb::WHITE, Complement::below(boundary, self.color));
+        bsdf.add(Rgb::WHITE, Complement::below(boundary, self.color.rgb()));
         bsdf
+    }
+
+    fn is_textured(&self) -> bool {
+        self.color.is_textured() || self.roughness.is_textured()
+    }
+
+    fn resolved(&self, textures: &impl TextureSource, at: &TexturePoint) -> Self {
+        Self {
+            color: self.color.resolved(textures, at),
+            roughness: self.roughness.resolved(textures, at),
+            ..*self
+        }
     }
 }

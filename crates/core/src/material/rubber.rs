@@ -4,6 +4,7 @@ use super::Surface;
 use crate::lobe::fresnel::Fresnel;
 use crate::lobe::{Boundary, RoughDiffuse, Roughness};
 use crate::part::Given;
+use crate::texture::{Level, Paint, TexturePoint, TextureSource};
 use crate::{
     Bsdf, Field, FieldKind, InvalidPart, Lane, Lobes, Part, Rgb, ShadingPoint, SurfacePoint, Value, Values,
 };
@@ -12,8 +13,8 @@ use crate::{
 /// matter below, so that white rubber absorbs nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rubber {
-    color: Rgb,
-    roughness: f64,
+    color: Paint,
+    roughness: Level,
 }
 
 /// Index of refraction: natural rubber's is 1.52 (*Polymer Handbook*, 4th ed. 1999), and 1.5 shares its table with most glass and
@@ -30,11 +31,11 @@ impl Part for Rubber {
     ];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
-        Ok(Self { color: given.color("color")?, roughness: given.fraction("roughness")? })
+        Ok(Self { color: given.paint("color")?, roughness: given.level("roughness")? })
     }
 
     fn values(&self) -> Values {
-        Values::new().with("color", Value::Color(self.color)).with("roughness", Value::Number(self.roughness))
+        Values::new().with("color", self.color.value()).with("roughness", self.roughness.value())
     }
 }
 
@@ -51,10 +52,18 @@ impl Surface for Rubber {
     fn bsdf(&self, at: &SurfacePoint) -> Bsdf {
         let mut bsdf = Bsdf::new(at);
         let fresnel = Fresnel::clear(IOR / at.outside_ior);
-        let boundary = Boundary::new(Roughness::new(self.roughness), fresnel);
+        let boundary = Boundary::new(Roughness::new(self.roughness.base()), fresnel);
         let left = Rgb::WHITE - boundary.reflected(bsdf.cosine());
         bsdf.add(Rgb::WHITE, boundary.lobe());
-        bsdf.add(left, RoughDiffuse::new(self.color, self.roughness));
+        bsdf.add(left, RoughDiffuse::new(self.color.rgb(), self.roughness.base()));
         bsdf
+    }
+
+    fn is_textured(&self) -> bool {
+        self.color.is_textured() || self.roughness.is_textured()
+    }
+
+    fn resolved(&self, textures: &impl TextureSource, at: &TexturePoint) -> Self {
+        Self { color: self.color.resolved(textures, at), roughness: self.roughness.resolved(textures, at) }
     }
 }

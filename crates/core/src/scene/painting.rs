@@ -1,6 +1,6 @@
 //! Which textures does a scene have, what is painted with them, and how does a material finish?
 
-use super::{ChangeKind, Edit, MaterialId, Scene, SceneError, Subject, TextureId};
+use super::{Change, ChangeKind, Edit, MaterialId, Scene, SceneError, Subject, TextureId};
 use crate::texture::{Texture, TextureSource};
 use crate::{Finish, Material, Part, Values};
 
@@ -53,6 +53,19 @@ impl Scene {
             uses(&worn.material.values()) || uses(&worn.finish.values())
         };
         self.materials.iter().filter(painted).map(|(id, ..)| id).collect()
+    }
+
+    /// The materials, also gone ones, that may look different after a change: the one that was changed, or all that are painted
+    /// with the texture that was. Over all [changes since](Self::changes_since) a revision none is missed: of a material that was
+    /// painted with a texture only then, the log has a change of its own.
+    #[must_use]
+    pub fn materials_touched_by(&self, change: &Change) -> Vec<MaterialId> {
+        match change.subject {
+            _ if change.what == ChangeKind::Name => Vec::new(),
+            Subject::Material(id) => vec![id],
+            Subject::Texture(id) => self.painted_with(id),
+            Subject::Entity(_) | Subject::Settings => Vec::new(),
+        }
     }
 
     /// What shapes of a material have beside its lobes; nothing special for a material that is not there.

@@ -194,7 +194,6 @@ fn whole_surfaces() {
         ("sheen", number(0.5)),
         ("anisotropy", number(0.5)),
         ("anisotropy-rotation", number(0.5)),
-        ("opacity", number(0.9)),
     ];
     let color = [("color", Value::Color(GREY)), ("roughness", number(0.4))];
     let phong = [("diffuse", Value::Color(GREY)), ("reflectiveness", number(0.2))];

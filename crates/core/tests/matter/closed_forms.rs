@@ -243,12 +243,12 @@ fn directions_that_leave_the_shape_on_the_wrong_side_bring_no_light() {
 }
 
 #[test]
-fn opacity_lets_the_rest_through_straight() {
-    let paper = material("principled", &[("opacity", number(0.25))]);
-    let at = seen_under(0.6);
-    let rays = paper.bsdf(&at).rays();
+fn in_matter_of_its_own_index_glass_is_not_seen() {
+    let glass = material("glass", &[("ior", number(1.33))]);
+    let at = SurfacePoint { outside_ior: 1.33, ..seen_under(0.6) };
+    let rays = glass.bsdf(&at).rays();
     let straight = rays.iter().find(|ray| ray.is_transmitted).unwrap();
-    assert!((straight.weight.g - 0.75).abs() < 1e-15);
+    assert_eq!((straight.weight, rays.len()), (Rgb::WHITE, 1));
     assert!(straight.direction.distance(-at.to_viewer()) < 1e-15);
 }
 

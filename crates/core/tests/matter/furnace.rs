@@ -120,7 +120,6 @@ fn principled_bases() {
     check("principled", &[("metallic", number(1.0))], &CLOSE);
     check("principled", &[("transmission", number(1.0))], &CLOSE);
     check("principled", &[("metallic", number(0.4)), ("transmission", number(0.5))], &COARSE);
-    check("principled", &[("opacity", number(0.3)), ("transmission", number(0.5))], &COARSE);
 }
 
 #[test]

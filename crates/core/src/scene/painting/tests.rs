@@ -77,3 +77,38 @@ fn what_names_no_texture_of_the_scene_is_refused() {
     assert_eq!(r.refusal(taken), SceneError::TextureNameTaken("clouds".into()));
     assert_eq!(r.refusal(Edit::RenameTexture(unknown, "x".into())), SceneError::UnknownTexture(unknown));
 }
+
+#[test]
+fn changes_tell_which_materials_they_touch() {
+    let (r, clouds) = room();
+    let touched = |edit: Edit| {
+        let mut scene = r.scene.clone();
+        scene.apply(edit).unwrap();
+        let changes = scene.changes_since(r.scene.revision());
+        let mut ids: Vec<_> = changes.iter().flat_map(|change| scene.materials_touched_by(change)).collect();
+        ids.sort_unstable();
+        ids.dedup();
+        ids
+    };
+    let both = [r.white, r.grey];
+    assert_eq!(touched(Edit::Texture(clouds, noise(7.0))), both);
+    assert_eq!(touched(Edit::Material(r.white, matte(0.1))), [r.white]);
+    assert_eq!(touched(Edit::Finish(r.grey, Finish::default())), [r.grey]);
+    assert_eq!(touched(Edit::RemoveMaterial(r.grey)), [r.grey]);
+    // No longer painted with what is then changed, and still touched.
+    let bare = Edit::Batch(vec![
+        Edit::Texture(clouds, noise(7.0)),
+        Edit::Material(r.white, matte(1.0)),
+        Edit::Finish(r.grey, Finish::default()),
+        Edit::RemoveTexture(clouds),
+    ]);
+    assert_eq!(touched(bare), both);
+    for unseen in [
+        Edit::RenameTexture(clouds, "fog".into()),
+        Edit::RenameMaterial(r.grey, "ash".into()),
+        Edit::Remove(r.ball),
+        Edit::AddTexture { name: "dust".into(), texture: noise(1.0), id: None },
+    ] {
+        assert!(touched(unseen.clone()).is_empty(), "{unseen:?}");
+    }
+}

@@ -70,3 +70,40 @@ fn a_resolved_material_is_the_one_that_was_never_textured() {
         assert_eq!((kind.make)(&full).unwrap().lobe_kinds(), right.lobe_kinds(), "{}", kind.name);
     }
 }
+
+#[test]
+fn light_of_its_own_under_a_texture_is_told_as_under_white() {
+    let by = TextureUse::of(TextureId::from_index(1).unwrap());
+    let light = Value::Color(Rgb::new(1.0, 2.0, 3.0));
+    let mut shining = 0;
+    for kind in Material::KINDS {
+        let required = kind.fields.iter().filter(|field| !field.may_be_missing);
+        let plain = required.fold(Values::new(), |values, field| values.with(field.name, light.clone()));
+        let Some(emission) = kind.fields.iter().find(|field| field.kind == FieldKind::Quantity) else {
+            continue;
+        };
+        let plain = (kind.make)(&plain.with(emission.name, light.clone())).unwrap();
+        let painted = plain.with(emission.name, light.clone().textured(by)).unwrap();
+        assert!(plain.emission().is_some_and(|shown| shown.radiance == Rgb::new(1.0, 2.0, 3.0)));
+        assert_eq!(painted.emission(), plain.emission());
+        assert!(painted.emission_is_textured() && !plain.emission_is_textured(), "{}", kind.name);
+        for field in kind.fields.iter().filter(|field| field.kind == FieldKind::Fraction) {
+            let rough = plain.with(field.name, Value::Number(0.5).textured(by)).unwrap();
+            assert!(rough.is_textured() && !rough.emission_is_textured(), "{} {}", kind.name, field.name);
+        }
+        shining += 1;
+    }
+    assert_eq!(shining, 2);
+}
+
+#[test]
+fn a_textured_metal_by_name_keeps_its_name() {
+    let by = TextureUse::of(TextureId::from_index(1).unwrap());
+    let (source, at) = (Everywhere(Texel::opaque(Rgb::grey(0.5))), TexturePoint::default());
+    let gold = |roughness: Value| {
+        let values = Values::new().with("preset", Value::Word("gold".to_owned()));
+        (Material::kind_named("metal").unwrap().make)(&values.with("roughness", roughness)).unwrap()
+    };
+    let painted = gold(Value::Number(0.5).textured(by));
+    assert_eq!(painted.resolved(&source, &at), gold(Value::Number(0.25)));
+}
