@@ -112,8 +112,10 @@ impl Extraction {
     fn lamps(&self, prims: &[Prim], frame: DVec3, origin: DVec3) -> Lamps {
         let named = self.parts.materials.iter().map(|(_, material)| (material, true));
         let bodies = self.parts.bodies.iter().map(|body| (&body.material, body.shadow));
+        // What shines otherwise from point to point is met by paths alone.
         let shining = |(material, shadow): (&Material, bool)| {
-            material.emission().map(|emission| Shining { emission, shadow })
+            let emission = material.emission().filter(|_| !material.emission_is_textured());
+            emission.map(|emission| Shining { emission, shadow })
         };
         let shining: Vec<_> = named.chain(bodies).map(shining).collect();
         let unseen: Vec<_> = self
