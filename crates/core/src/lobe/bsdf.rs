@@ -5,15 +5,15 @@
 
 use arrayvec::ArrayVec;
 use glam::DVec3;
+use smallvec::SmallVec;
 
 use super::local::{Frame, LocalLobe, LocalSample};
 use super::{BsdfLobe, Lobes, Mirror, SmoothReflection, SurfacePoint, ThinWall, fresnel::Fresnel};
 use crate::numeric::LEAST_COSINE;
 use crate::{Rgb, Triple};
 
-/// Most lobes that a point has. The richest material has sheen, a coat and its complement, metal and its complement, a base
-/// and its reflection, a boundary and its complement.
-const MOST_LOBES: usize = 10;
+/// Lobes that need no memory of their own: most points have as many.
+const FEW_LOBES: usize = 2;
 
 /// How light leaves a point of a surface towards the viewer.
 #[derive(Debug, Clone)]
@@ -27,7 +27,7 @@ pub struct Bsdf {
     to_viewer: DVec3,
     /// The shape's own normal on the viewer's side, in the frame.
     geometric: DVec3,
-    lobes: ArrayVec<Weighted, MOST_LOBES>,
+    lobes: SmallVec<[Weighted; FEW_LOBES]>,
 }
 
 /// A lobe, how much of it is there, and how often a sample is one of its.
@@ -84,7 +84,7 @@ impl Bsdf {
             frame,
             to_viewer: seen.normalize(),
             geometric: frame.to_local(at.geometric),
-            lobes: ArrayVec::new(),
+            lobes: SmallVec::new(),
         }
     }
 
@@ -119,8 +119,7 @@ impl Bsdf {
         let chance = (weight * lobe.albedo(self.to_viewer)).max_channel();
         if chance > 0.0 {
             self.ambient += weight * lobe.ambient(self.to_viewer);
-            // Never more than there is room for: no material has as many lobes.
-            let _ = self.lobes.try_push(Weighted { lobe, weight, chance });
+            self.lobes.push(Weighted { lobe, weight, chance });
         }
     }
 
