@@ -270,3 +270,69 @@ fn a_thousand_overlapping_solids_leave_every_pixel_finite() {
         assert!(mean(&film, size) < 1.0 + 1e-6 && mean(&film, size) > 0.01, "{}", mean(&film, size));
     }
 }
+
+/// A square metre that is seen whole, under ambient light, with more in its scene.
+fn painted(material: &str, place: &str, more: &str) -> Scene {
+    parsed(&format!(
+        "camera \"c\" {{ eye 0 0 5; target 0 0 0; fov 12 }}\nambient-light \"a\" {{ radiance 1 }}\nsettings {{ background 0.25 }}\n\
+         checker-texture \"tiles\" {{ color 1; other 0.5; scale 2 1 }}\n{material}\n{more}\n\
+         rectangle \"r\" material=\"m\" {{ corner -0.5 -0.5 0; edge-u 1 0 0; edge-v 0 1 0{place} }}"
+    ))
+}
+
+/// What is seen left, right, above and below of the middle, by every backend.
+fn seen_around(scene: &Scene) -> [f32; 4] {
+    let size = Size::new(41, 41);
+    let films = BACKENDS.map(|backend| traced(scene, backend, &whitted(scene, size), Film::new(size), 1));
+    let at = [[12, 20], [28, 20], [20, 12], [20, 28]];
+    let [scalar, oracle, wide] = films.map(|film| at.map(|[x, y]| film.radiance(x, y)[0]));
+    assert_eq!((scalar, scalar), (oracle, wide));
+    scalar
+}
+
+#[test]
+fn textures_lie_on_shapes_and_move_with_them() {
+    let [left, right, ..] = seen_around(&painted("matte \"m\" { color 1 texture=\"tiles\" }", "", ""));
+    assert!((left - 0.5).abs() < 1e-6 && (right - 1.0).abs() < 1e-6, "{left} {right}");
+    let turned = painted("matte \"m\" { color 1 texture=\"tiles\" }", "; turn 90 0 0 1", "");
+    let [.., above, below] = seen_around(&turned);
+    assert!((below - 0.5).abs() < 1e-6 && (above - 1.0).abs() < 1e-6, "{above} {below}");
+    let channels = painted(
+        "phong \"m\" { ambient 1; diffuse 0; reflectiveness 0.4 texture=\"tiles\" channel=\"g\" }",
+        "",
+        "",
+    );
+    // The rest is a mirror of the background.
+    let [left, right, ..] = seen_around(&channels);
+    assert!(
+        (left - (0.8 + 0.2 * 0.25)).abs() < 1e-6 && (right - (0.6 + 0.4 * 0.25)).abs() < 1e-6,
+        "{left} {right}"
+    );
+}
+
+#[test]
+fn what_is_not_opaque_shows_what_is_behind_and_lets_light_through() {
+    let back = "matte \"b\" { color 0.75 }\nrectangle \"back\" material=\"b\" { corner -2 -2 -1; edge-u 4 0 0; edge-v 0 4 0 }";
+    let veil = seen_around(&painted("matte \"m\" { color 1; opacity 0.4 }", "", back));
+    assert!(veil.iter().all(|seen| (seen - (0.4 + 0.6 * 0.75)).abs() < 1e-6), "{veil:?}");
+    let holes = painted("matte \"m\" { color 1; opacity 1 texture=\"tiles\"; alpha-cutoff 0.7 }", "", back);
+    let [left, right, ..] = seen_around(&holes);
+    assert!((left - 0.75).abs() < 1e-6 && (right - 1.0).abs() < 1e-6, "{left} {right}");
+    let from_behind = painted("matte \"m\" { color 1; sides \"single\" }", "; turn 180 0 1 0", back);
+    assert!(seen_around(&from_behind).iter().all(|seen| (seen - 0.75).abs() < 1e-6));
+    // A light behind the veil, its shadow on a floor.
+    let text = |veil: &str| {
+        format!(
+            "camera \"c\" {{ eye 0 2 0; direction 0 -1 0; up 0 0 -1; fov 5 }}\nmatte \"f\" {{ color 1 }}\nmatte \"m\" {{ color 1{veil} }}\n\
+             plane \"floor\" material=\"f\"\nrectangle \"r\" material=\"m\" {{ corner 0.5 1 -1; edge-u 2 0 0; edge-v 0 0 2 }}\n\
+             point-light \"l\" {{ position 3 2.5 0; intensity 10 }}"
+        )
+    };
+    let size = Size::new(1, 1);
+    let light = |veil: &str| {
+        let scene = parsed(&text(veil));
+        mean(&traced(&scene, "wide", &whitted(&scene, size), Film::new(size), 1), size)
+    };
+    let (whole, half, none) = (light("; opacity 0"), light("; opacity 0.3"), light(""));
+    assert!(whole > 0.1 && none == 0.0 && (half / whole - 0.7).abs() < 1e-6, "{whole} {half} {none}");
+}
