@@ -90,7 +90,7 @@ fn some_part<T>(random: &mut Random, kind: &Kind<T>, size: f64) -> T {
         let mut given = Given::default();
         // Of two fields one is given.
         let mut fields: Vec<_> = kind.fields.iter().collect();
-        fields.retain(|field| !(field.name == "power" && kind.field("radiance").is_some()));
+        fields.retain(|field| !(["power", "file"].contains(&field.name) && kind.field("radiance").is_some()));
         let fields = fields.into_iter();
         let values = fields.map(|field| (field.name, given.value(random, field, size)));
         (kind.make)(&values.fold(Values::new(), |values, (name, value)| values.with(name, value)))
