@@ -130,8 +130,9 @@ impl Extraction {
         let parts = &self.parts;
         let finishes = parts.finishes.iter().copied().chain(std::iter::repeat(Finish::default()));
         let materials: Vec<_> = self.materials().map(|material| material.relative_to(origin)).collect();
-        let environment = parts.lights.iter().find_map(|light| light.part.environment().cloned());
-        Matter::new(materials.iter().zip(finishes), parts.textures.clone(), self.own.clone(), environment)
+        let surroundings =
+            parts.lights.iter().filter_map(|light| light.part.environment().cloned()).collect();
+        Matter::new(materials.iter().zip(finishes), parts.textures.clone(), self.own.clone(), surroundings)
     }
 
     /// Whether the shapes are those of a snapshot, bit for bit, for no edit has touched any.

@@ -45,8 +45,8 @@ pub(crate) struct Matter {
     textures: BTreeMap<TextureId, Texture>,
     /// Shapes before they were placed, by their numbers, where materials ask where on them a point lies.
     own: BTreeMap<u32, OwnShape>,
-    /// Light from all around, if the scene has any; without one the background.
-    pub(crate) environment: Option<Environment>,
+    /// Light from all around; without any the background.
+    pub(crate) surroundings: Vec<Environment>,
     /// Whether any surface is see-through.
     pub(crate) is_see_through: bool,
     /// Whether lanes alone cannot shade the scene.
@@ -58,16 +58,16 @@ impl Matter {
         materials: impl Iterator<Item = (&'a Material, Finish)>,
         textures: BTreeMap<TextureId, Texture>,
         own: BTreeMap<u32, OwnShape>,
-        environment: Option<Environment>,
+        surroundings: Vec<Environment>,
     ) -> Self {
-        let (mut rows, mut is_needed) = (Vec::new(), environment.is_some());
+        let (mut rows, mut is_needed) = (Vec::new(), !surroundings.is_empty());
         for (material, finish) in materials {
             let row = MatterRow::new(material, finish);
             is_needed |= material.needs_bsdf() || !row.is_plain();
             rows.push(row);
         }
         let is_see_through = rows.iter().any(MatterRow::is_see_through);
-        Self { rows, textures, own, environment, is_see_through, is_needed }
+        Self { rows, textures, own, surroundings, is_see_through, is_needed }
     }
 
     /// Of a shape.

@@ -15,14 +15,20 @@ impl<S: Search> Walker<'_, S> {
     /// Radiance that a ray shows that meets nothing.
     pub(in crate::integrator) fn surroundings(&self, path: &PathRay) -> Rgb {
         let snapshot = self.frame.snapshot;
-        let Some(environment) = &snapshot.matter().environment else { return snapshot.background() };
-        let seen = environment.radiance(path.ray.direction);
-        match path.origin {
-            Origin::Reflected(pdf) | Origin::Transmitted(pdf) if !environment.is_even() => {
-                seen * (pdf / (pdf + environment.pdf(path.ray.direction)))
-            }
-            _ => seen,
+        let all = &snapshot.matter().surroundings;
+        if all.is_empty() {
+            return snapshot.background();
         }
+        let seen = |environment: &Environment| {
+            let seen = environment.radiance(path.ray.direction);
+            match path.origin {
+                Origin::Reflected(pdf) | Origin::Transmitted(pdf) if !environment.is_even() => {
+                    seen * (pdf / (pdf + environment.pdf(path.ray.direction)))
+                }
+                _ => seen,
+            }
+        };
+        all.iter().map(seen).fold(Rgb::BLACK, |sum, light| sum + light)
     }
 
     /// Radiance that a point shows of the light from all around, as far as rays in chosen directions do not find it.
@@ -33,24 +39,31 @@ impl<S: Search> Walker<'_, S> {
         numbers: &Numbers,
         estimate: Estimate,
     ) -> Rgb {
-        let Some(environment) = &self.frame.snapshot.matter().environment else { return Rgb::BLACK };
-        match estimate {
-            Estimate::Alone => self.openness_to(environment, vertex, path, numbers),
-            Estimate::WithPaths if environment.is_even() => Rgb::BLACK,
-            Estimate::WithPaths => {
-                let u = numbers.sampler.pair(numbers.sample, pairs::surroundings(path.depth)).map(share);
-                let Some(found) = environment.sample(u) else { return Rgb::BLACK };
-                let shown = vertex.bsdf.evaluate(found.direction) * found.radiance;
-                let pdf = found.pdf + vertex.bsdf.pdf(found.direction);
-                self.light_of_afar(
-                    environment,
-                    vertex,
-                    path,
-                    (shown * (1.0 / pdf), found.direction),
-                    estimate,
-                )
-            }
+        let mut light = Rgb::BLACK;
+        for environment in &self.frame.snapshot.matter().surroundings {
+            light += match estimate {
+                Estimate::Alone => self.openness_to(environment, vertex, path, numbers),
+                Estimate::WithPaths if environment.is_even() => Rgb::BLACK,
+                Estimate::WithPaths => self.chosen_of(environment, vertex, path, numbers),
+            };
         }
+        light
+    }
+
+    /// What is shown of it along one direction that it chooses, beside those that paths choose.
+    fn chosen_of(
+        &mut self,
+        environment: &Environment,
+        vertex: &Vertex<'_>,
+        path: &PathRay,
+        numbers: &Numbers,
+    ) -> Rgb {
+        let u = numbers.sampler.pair(numbers.sample, pairs::surroundings(path.depth)).map(share);
+        let Some(found) = environment.sample(u) else { return Rgb::BLACK };
+        let shown = vertex.bsdf.evaluate(found.direction) * found.radiance;
+        let pdf = found.pdf + vertex.bsdf.pdf(found.direction);
+        let shown = (shown * (1.0 / pdf), found.direction);
+        self.light_of_afar(environment, vertex, path, shown, Estimate::WithPaths)
     }
 
     /// What is shown of it where no rays are sent on in chosen directions: as much as a matte surface of the same albedo would

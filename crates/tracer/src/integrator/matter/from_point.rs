@@ -22,9 +22,9 @@ pub(in crate::integrator) fn light_along(
     let ray = Ray::new(point, direction);
     let media = Media::round(snapshot, &ray);
     if !bounces {
-        let Some(environment) = &snapshot.matter().environment else { return Rgb::BLACK };
         let open = walker.comes_through((ray, Span::AHEAD), leaving, &media, frame.view.clear_shadows);
-        return environment.radiance(direction) * open;
+        let all = snapshot.matter().surroundings.iter().map(|environment| environment.radiance(direction));
+        return open * all.fold(Rgb::BLACK, |sum, light| sum + light);
     }
     let mut next = PathRay {
         ray,

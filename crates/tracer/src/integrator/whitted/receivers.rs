@@ -58,7 +58,7 @@ impl<'a> Receivers<'a> {
         }
         let mut sampled =
             Sampled { picks: snapshot.lamps().tree.as_ref().map(|_| Picks::default()), ..Sampled::default() };
-        sampled.around = (all || snapshot.matter().environment.is_some()).then(Picks::default);
+        sampled.around = (all || !snapshot.matter().surroundings.is_empty()).then(Picks::default);
         let mut stats = LampStats::default();
         for (number, lamp) in snapshot.lamps().asked().iter().enumerate() {
             match self.sight.gather(&Trees, snapshot, lamp, &at, &mut stats) {
