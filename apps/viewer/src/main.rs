@@ -5,6 +5,7 @@ mod app;
 mod camera_control;
 mod canvas;
 mod document;
+mod dropped;
 mod egui_paint;
 mod events;
 mod frame_worker;
@@ -16,8 +17,10 @@ mod loader;
 mod options;
 mod outline;
 mod panel;
+mod preview;
 mod redraw;
 mod refine;
+mod retype;
 mod screen;
 mod status;
 mod tracing;
@@ -61,8 +64,9 @@ fn run(options: Options) -> Result<(), String> {
         .map_err(|why| format!("{NO_DISPLAY}\n({})", reason(&why.to_string())))?;
     let pool = Arc::new(Pool::new(options.threads.map_or(0, usize::from)).map_err(|e| e.to_string())?);
     let encoder = Pool::new(1).map_err(|e| e.to_string())?;
+    let balls = preview::BallTracing::new(Pool::new(1).map_err(|e| e.to_string())?)?;
     let opened = loader::welcome(&pool)?;
-    let mut app = App::new(options, opened, pool, encoder, events.create_proxy());
+    let mut app = App::new(options, opened, pool, (encoder, balls), events.create_proxy());
     events.run_app(&mut app).map_err(|e| e.to_string())?;
     app.failure.map_or(Ok(()), Err)
 }

@@ -4,11 +4,15 @@
 mod dialogs;
 mod fields;
 mod inspector;
+mod material;
+mod paint;
 mod placement;
 mod question;
 mod switches;
+mod textures;
 mod theme;
 mod tree;
+mod widgets;
 
 use egui::{Frame, Margin, Panel, Rect, Ui};
 
@@ -60,6 +64,7 @@ fn side(ui: &mut Ui, viewer: &mut Viewer) {
     egui::ScrollArea::vertical().id_salt("inspector").auto_shrink([false, false]).show(ui, |ui| {
         inspector::show(ui, viewer);
         ui.add_space(6.0);
+        textures::show(ui, viewer);
         switches::show(ui, viewer);
     });
 }
