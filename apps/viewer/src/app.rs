@@ -153,6 +153,9 @@ impl App {
 
     /// Starts to read a picture that is to be a texture, if there is something that it can be put on.
     pub(crate) fn picture_dropped(&mut self, file: &Path) {
+        if self.viewer.guard.question().is_some() {
+            return self.viewer.notify("answer the question first, then drop the picture again");
+        }
         let Some(target) = dropped::target(&mut self.viewer) else { return };
         self.viewer.notify(format!("reading {}", file.display()));
         let proxy = self.proxy.clone();

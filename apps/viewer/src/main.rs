@@ -14,6 +14,7 @@ mod input;
 mod keys;
 mod latest;
 mod loader;
+mod naming;
 mod options;
 mod outline;
 mod panel;

@@ -16,7 +16,7 @@ const STAGE: &str = r#"
 settings { background 0.3 0.34 0.4; max-depth 8 }
 camera "camera" { eye 0 1.7 4.6; target 0 0.94 0; fov 29 }
 ambient-light "sky" { radiance 0.3 0.34 0.4 }
-rectangle-light "lamp" { corner -3.2 3 2; edge-u 1.4 0 1.4; edge-v 0.9 1.2 -0.9; radiance 9 }
+rectangle-light "lamp" { corner -3.2 3 2; edge-u 0.9 1.2 -0.9; edge-v 1.4 0 1.4; radiance 9 }
 checker "ground" { color 0.55; other 0.2; scale 1.6 }
 matte "ball" { color 0.5 }
 plane "ground" material="ground"
@@ -105,9 +105,12 @@ impl Preview {
         self.wanted.clone().filter(|_| due)
     }
 
-    /// Takes in a picture; one in full is kept.
+    /// Takes in a picture; one in full is kept. One that was wanted before is shown too, until there is a newer one: else
+    /// nothing would be seen while a value is dragged.
     pub(crate) fn put(&mut self, ball: Ball, in_full: bool) {
-        if self.wanted.as_ref() == Some(&ball.sample) || self.due {
+        let is_there = |sample: &Sample| self.finished.iter().any(|ball| ball.sample == *sample);
+        let wanted = self.wanted.as_ref();
+        if wanted == Some(&ball.sample) || !wanted.is_some_and(is_there) {
             self.image = Some(ball.image.clone());
         }
         if in_full {
@@ -182,7 +185,7 @@ impl Tracing for BallTracing {
         let view = View { size: Size { width, height }, ..job.view.clone() };
         let mut film = Film::new(view.size);
         render(backends()[0], &job.snapshot, &view, &mut film, &self.pool, control).ok()?;
-        let rgb = Display::Filmic.exposed(0.0).rgb8(&film);
+        let rgb = Display::Srgb.exposed(0.0).rgb8(&film);
         let image = ColorImage::from_rgb([width as usize, height as usize], &rgb);
         Some(Ball { sample: job.sample.clone(), image })
     }

@@ -3,7 +3,8 @@
 use catoptra_core::{Field, FieldKind, InvalidPart, Kind, Material, Rgb, Value, Values};
 
 /// The material of that kind which keeps every value that the kind knows by name and accepts; without its texture, if it
-/// accepts it only so. All else is as when left out; a colour that must be given is the first one of the old material.
+/// accepts it only so. All else is as when left out; a colour that must be given is the first one of the old material, and a
+/// mirror keeps no reflectiveness of 0, with which it would be black.
 ///
 /// # Errors
 /// A kind that cannot be made from usual values.
@@ -17,7 +18,7 @@ pub(crate) fn of_kind(material: &Material, kind: &Kind<Material>) -> Result<Mate
         }
     }
     for field in kind.fields {
-        let Some(kept) = old.get(field.name) else { continue };
+        let Some(kept) = old.get(field.name).filter(|kept| !blackens(kind, field, kept)) else { continue };
         let accepted = [kept.clone(), kept.clone().untextured()]
             .map(|value| values.clone().with(field.name, value))
             .into_iter()
@@ -25,6 +26,11 @@ pub(crate) fn of_kind(material: &Material, kind: &Kind<Material>) -> Result<Mate
         values = accepted.unwrap_or(values);
     }
     (kind.make)(&values)
+}
+
+/// Whether nothing would be seen of the new material but black.
+fn blackens(kind: &Kind<Material>, field: &Field, value: &Value) -> bool {
+    kind.name == "mirror" && field.name == "reflectiveness" && *value == Value::Number(0.0)
 }
 
 /// What a field is that must be given, if the old material has none of that name.
@@ -68,8 +74,10 @@ mod tests {
                 let new = became(&usual, to.name);
                 assert_eq!(new.kind_name(), to.name);
                 for (name, value) in new.values().iter() {
-                    if let Some(old) = usual.values().get(name) {
-                        assert_eq!(value, old, "{name} of {} as {}", from.name, to.name);
+                    let is_kept = from.field(name).map(|f| f.kind) == to.field(name).map(|f| f.kind);
+                    if let Some(old) = usual.values().get(name).filter(|_| is_kept) {
+                        let blackens = blackens(to, to.field(name).unwrap(), old);
+                        assert_eq!(value == old, !blackens, "{name} of {} as {}", from.name, to.name);
                     }
                 }
             }

@@ -16,6 +16,7 @@ use crate::guard::{Answer, Guard, Next};
 use crate::input::{Mode, Pointer};
 use crate::latest::Latest;
 use crate::loader::Opened;
+use crate::naming::Named;
 use crate::preview::Preview;
 use crate::tracing::Request;
 
@@ -77,7 +78,7 @@ pub(crate) struct Viewer {
     /// The picture of a material.
     pub(crate) preview: Preview,
     /// A name that is being typed, and whose it is to be.
-    pub(crate) typed_name: Option<(EntityId, String)>,
+    pub(crate) typed_name: Option<(Named, String)>,
     pub(crate) shown: Shown,
     pub(crate) pointer: Pointer,
     /// The size of the picture in pixels.
@@ -293,10 +294,9 @@ impl Viewer {
 
     /// Gives the name that is being typed, if any, to whose it is to be.
     pub(crate) fn finish_name(&mut self) {
-        if let Some((id, typed)) = self.typed_name.take()
-            && self.document.scene().name(id).is_some_and(|name| name != typed)
-        {
-            self.edit(Edit::Name(id, typed));
+        let Some((owner, typed)) = self.typed_name.take() else { return };
+        if let Some(edit) = owner.renamed(self.document.scene(), typed) {
+            self.edit(edit);
         }
     }
 

@@ -7,6 +7,18 @@ use egui::Ui;
 
 use super::{paint, widgets};
 
+/// Points between names and values.
+const GAP: f32 = 8.0;
+
+/// Points beside a slider: its number and two small buttons.
+const BESIDE_SLIDER: f32 = 92.0;
+
+/// Points beside a list: a second, narrow one.
+const BESIDE_LIST: f32 = 46.0;
+
+/// The narrowest that a slider or a list becomes, in points.
+const NARROWEST: f32 = 32.0;
+
 /// What is done to a field.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Changed {
@@ -66,8 +78,12 @@ pub(super) fn show(
     values: &Values,
     offers: &Offers<'_>,
 ) -> Option<Changed> {
+    let fields: Vec<&'static Field> = fields.into_iter().collect();
+    let room = ui.available_width() - widest_name(ui, &fields) - GAP;
     let mut changed = None;
-    egui::Grid::new(("fields", salt)).num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
+    egui::Grid::new(("fields", salt)).num_columns(2).spacing([GAP, 4.0]).show(ui, |ui| {
+        ui.spacing_mut().slider_width = (room - BESIDE_SLIDER).clamp(NARROWEST, ui.spacing().slider_width);
+        ui.spacing_mut().combo_width = (room - BESIDE_LIST).clamp(NARROWEST, ui.spacing().combo_width);
         for field in fields {
             if let Some(value) = row(ui, (salt, field), values, offers) {
                 changed = Some(Changed { field: field.name, value });
@@ -75,6 +91,15 @@ pub(super) fn show(
         }
     });
     changed
+}
+
+/// Points that the widest of the names takes.
+fn widest_name(ui: &Ui, fields: &[&'static Field]) -> f32 {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let width = |field: &&Field| {
+        ui.painter().layout_no_wrap(field.name.to_owned(), font.clone(), egui::Color32::WHITE).size().x
+    };
+    fields.iter().map(width).fold(0.0, f32::max)
 }
 
 /// A key for the steps of one field of one thing.
@@ -123,7 +148,8 @@ fn given(
     offers: &Offers<'_>,
 ) -> Option<Option<Value>> {
     ui.label(field.name).on_hover_text(field.doc);
-    let can_be_taken = offers.optional && field.may_be_missing && field.default.is_none();
+    let can_be_taken =
+        offers.optional && field.may_be_missing && field.default.is_none() && field.instead_of.is_none();
     let cell = |ui: &mut Ui| {
         let mut new = edit(ui, field, value, offers).map(Some);
         if let Some(value) = paint::add(ui, field, value, offers) {

@@ -7,6 +7,7 @@ use egui::{TextEdit, Ui};
 
 use super::fields::{self, Offers, step_key};
 use super::{material, placement, tree};
+use crate::naming::Named;
 use crate::viewer::Viewer;
 
 /// Shows what is selected.
@@ -25,19 +26,28 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
 
 /// The name, to be changed, and the word for what it is.
 fn heading(ui: &mut Ui, viewer: &mut Viewer, id: EntityId) {
-    let name = viewer.document.scene().name(id).unwrap_or_default();
-    let typed = viewer.typed_name.as_ref().filter(|(owner, _)| *owner == id);
-    let mut text = typed.map_or(name, |(_, typed)| typed.clone());
     ui.horizontal(|ui| {
-        let response = ui.add(TextEdit::singleline(&mut text).desired_width(140.0));
-        if response.has_focus() || response.lost_focus() {
-            viewer.typed_name = Some((id, text));
-        }
-        if !response.has_focus() {
-            viewer.finish_name();
-        }
+        name(ui, viewer, Named::Entity(id));
         ui.weak(tree::kind_name(viewer.document.scene(), id));
     });
+}
+
+/// A name, to be changed.
+pub(super) fn name(ui: &mut Ui, viewer: &mut Viewer, owner: Named) {
+    let name = owner.name(viewer.document.scene()).unwrap_or_default();
+    let typed = viewer.typed_name.as_ref().filter(|(typing, _)| *typing == owner);
+    let is_typed = typed.is_some();
+    let mut text = typed.map_or(name, |(_, typed)| typed.clone());
+    let response = ui.add(TextEdit::singleline(&mut text).id_salt(owner).desired_width(140.0));
+    if response.has_focus() || response.lost_focus() {
+        if !is_typed {
+            viewer.finish_name();
+        }
+        viewer.typed_name = Some((owner, text));
+    }
+    if !response.has_focus() && viewer.typed_name.as_ref().is_some_and(|(typing, _)| *typing == owner) {
+        viewer.finish_name();
+    }
 }
 
 /// Makes an edit of a changed part, or tells why it was refused.

@@ -10,6 +10,9 @@ use super::widgets;
 /// The word for no texture.
 const NONE: &str = "none";
 
+/// Width of the list of channels, in points.
+const CHANNEL_WIDTH: f32 = 36.0;
+
 /// A button that adds a texture to a value that takes one and has none.
 pub(super) fn add(ui: &mut Ui, field: &Field, value: &Value, offers: &Offers<'_>) -> Option<Value> {
     let (first, _) = offers.textures.first()?;
@@ -54,7 +57,7 @@ pub(super) fn choose(
         if field.kind == FieldKind::Fraction {
             let words = Channel::ALL.map(Channel::word);
             let now = by.channel.unwrap_or_default().word();
-            ui.spacing_mut().combo_width = 36.0;
+            ui.spacing_mut().combo_width = CHANNEL_WIDTH;
             if let Some(channel) = widgets::choice(ui, "channel", &words, now) {
                 let by = TextureUse { channel: Channel::named(&channel), ..*by };
                 new = Some(base.clone().textured(by));

@@ -5,7 +5,8 @@ use catoptra_core::{Texture, Values};
 use egui::{CollapsingHeader, Ui};
 
 use super::fields::{self, Offers, step_key};
-use super::inspector::put;
+use super::inspector::{name, put};
+use crate::naming::Named;
 use crate::viewer::Viewer;
 
 /// Shows the list, and the selected texture below its name.
@@ -21,6 +22,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
             let selected = viewer.texture == Some(*id);
             let line = ui.selectable_label(selected, name).on_hover_text(texture.kind_name());
             if line.clicked() {
+                viewer.finish_name();
                 viewer.texture = if selected { None } else { Some(*id) };
             }
             if selected {
@@ -34,15 +36,15 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
 fn one(ui: &mut Ui, viewer: &mut Viewer, id: TextureId, texture: &Texture) {
     let used = used_by(viewer.document.scene(), id);
     ui.horizontal(|ui| {
-        ui.weak(texture.kind_name());
+        name(ui, viewer, Named::Texture(id));
         let remove = ui.add_enabled(used.is_empty(), egui::Button::new("Remove").small());
         if remove.on_disabled_hover_text("A material is painted with it.").clicked() {
             viewer.edit(Edit::RemoveTexture(id));
         }
     });
-    if !used.is_empty() {
-        ui.add(egui::Label::new(egui::RichText::new(format!("on {used}")).weak()).truncate());
-    }
+    let told = if used.is_empty() { String::new() } else { format!(" on {used}") };
+    let told = egui::RichText::new(format!("{}{told}", texture.kind_name())).weak();
+    ui.add(egui::Label::new(told).truncate());
     let key = |field| step_key("texture", id.index(), field);
     let (kind, values) = (texture.kind(), texture.values());
     let offers = Offers { optional: true, ..Offers::NONE };
