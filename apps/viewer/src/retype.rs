@@ -58,8 +58,8 @@ mod tests {
 
     use super::*;
 
-    fn made(kind: &str, values: Values) -> Material {
-        (Material::kind_named(kind).unwrap().make)(&values).unwrap()
+    fn made(kind: &str, values: &Values) -> Material {
+        (Material::kind_named(kind).unwrap().make)(values).unwrap()
     }
 
     fn became(material: &Material, kind: &str) -> Material {
@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn every_kind_becomes_every_other_and_keeps_what_they_share() {
         for from in Material::KINDS {
-            let usual = of_kind(&made("glass", Values::new()), from).unwrap();
+            let usual = of_kind(&made("glass", &Values::new()), from).unwrap();
             for to in Material::KINDS {
                 let new = became(&usual, to.name);
                 assert_eq!(new.kind_name(), to.name);
@@ -88,7 +88,7 @@ mod tests {
     fn a_texture_goes_along_where_it_is_taken() {
         let wood = TextureUse::of(TextureId::from_index(1).unwrap());
         let red = Value::Color(Rgb::new(0.6, 0.1, 0.1));
-        let painted = made("matte", Values::new().with("color", red.clone().textured(wood)));
+        let painted = made("matte", &Values::new().with("color", red.clone().textured(wood)));
         assert_eq!(became(&painted, "mirror").values().get("color"), Some(&red.clone().textured(wood)));
         let kept = became(&painted, "plastic").values().get("color").cloned().map(Value::untextured);
         assert_eq!(kept, Some(red));
@@ -97,13 +97,13 @@ mod tests {
     #[test]
     fn a_color_that_must_be_given_is_the_first_of_the_old_material() {
         let green = Value::Color(Rgb::new(0.1, 0.6, 0.2));
-        let old = made("principled", Values::new().with("base-color", green.clone()));
+        let old = made("principled", &Values::new().with("base-color", green.clone()));
         assert_eq!(became(&old, "matte").values().get("color"), Some(&green));
     }
 
     #[test]
     fn a_named_metal_stays_one_among_metals_only() {
-        let gold = made("metal", Values::new().with("preset", Value::Word("gold".to_owned())));
+        let gold = made("metal", &Values::new().with("preset", Value::Word("gold".to_owned())));
         assert_eq!(became(&gold, "metal"), gold);
         assert!(became(&gold, "plastic").values().get("preset").is_none());
     }

@@ -89,7 +89,7 @@ fn camera(ui: &mut Ui, viewer: &mut Viewer, id: EntityId) {
     let key = |field| step_key("camera", id.index(), field);
     let values = camera.values();
     if let Some(changed) = fields::show(ui, key(""), Camera::KIND.fields, &values, &Offers::NONE) {
-        let camera = changed.make(&Camera::KIND, values);
+        let camera = changed.make(Camera::KIND, values);
         put(viewer, camera, key(changed.field), |camera| Edit::Camera(id, camera));
     }
     ui.horizontal(|ui| {

@@ -80,7 +80,7 @@ fn settings(ui: &mut Ui, viewer: &mut Viewer) {
     let now = *viewer.document.scene().settings();
     let (kind, values) = (Settings::KIND, now.values());
     let changed = fields::show(ui, step_key("settings", 0, ""), kind.fields, &values, &Offers::NONE);
-    let changed = changed.map(|changed| (changed.field, changed.make(&kind, values)));
+    let changed = changed.map(|changed| (changed.field, changed.make(kind, values)));
     let occlusion = now.integrator() == Integrator::Occlusion;
     let limited = occlusion.then(|| limit(ui, &now)).flatten();
     if let Some((field, settings)) = changed.or(limited) {
