@@ -13,12 +13,12 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::keyboard::ModifiersState;
 use winit::window::WindowId;
 
+use crate::ball::BallTracing;
 use crate::dropped;
 use crate::frame_worker::{Finished, FrameWorker};
 use crate::guard::Next;
 use crate::loader::{self, Opened, Outcome};
 use crate::options::Options;
-use crate::preview::BallTracing;
 use crate::screen::Screen;
 use crate::status::Meter;
 use crate::tracing::{Frame, PoolTracing};

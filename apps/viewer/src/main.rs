@@ -2,6 +2,7 @@
 
 mod actions;
 mod app;
+mod ball;
 mod camera_control;
 mod canvas;
 mod document;
@@ -65,7 +66,7 @@ fn run(options: Options) -> Result<(), String> {
         .map_err(|why| format!("{NO_DISPLAY}\n({})", reason(&why.to_string())))?;
     let pool = Arc::new(Pool::new(options.threads.map_or(0, usize::from)).map_err(|e| e.to_string())?);
     let encoder = Pool::new(1).map_err(|e| e.to_string())?;
-    let balls = preview::BallTracing::new(Pool::new(1).map_err(|e| e.to_string())?)?;
+    let balls = ball::BallTracing::new(Pool::new(1).map_err(|e| e.to_string())?)?;
     let opened = loader::welcome(&pool)?;
     let mut app = App::new(options, opened, pool, (encoder, balls), events.create_proxy());
     events.run_app(&mut app).map_err(|e| e.to_string())?;

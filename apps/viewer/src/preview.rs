@@ -1,75 +1,13 @@
-//! What does a material look like by itself? A ball of it stands on checkered ground under a lamp, and is traced small, on a
-//! thread of its own, once for each state of the material.
+//! Which material is shown by a picture, and when is that picture to be traced? Once for each state of the material.
 
 use std::collections::VecDeque;
 
-use catoptra_core::scene::{Edit, MaterialId, Scene, TextureId};
-use catoptra_core::{Camera, Finish, Material, Part as _, Texture, TextureSource};
-use catoptra_tracer::{Control, Display, Film, Pool, Size, Snapshot, View, backends, render};
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 
-use crate::frame_worker::Tracing;
-use crate::refine::reduced;
-
-/// What stands round the ball, and the ball with no material of its own yet.
-const STAGE: &str = r#"
-settings { background 0.3 0.34 0.4; max-depth 8 }
-camera "camera" { eye 0 1.7 4.6; target 0 0.94 0; fov 29 }
-ambient-light "sky" { radiance 0.3 0.34 0.4 }
-rectangle-light "lamp" { corner -3.2 3 2; edge-u 0.9 1.2 -0.9; edge-v 1.4 0 1.4; radiance 9 }
-checker "ground" { color 0.55; other 0.2; scale 1.6 }
-matte "ball" { color 0.5 }
-plane "ground" material="ground"
-sphere "ball" material="ball" { center 0 1 0; radius 1 }
-"#;
-
-/// Samples a pixel.
-const SAMPLES: u32 = 4;
+use crate::ball::{Ball, Sample};
 
 /// Pictures that are kept.
 const KEPT: usize = 16;
-
-/// All that the look of a material depends on.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Sample {
-    material: Material,
-    finish: Finish,
-    /// The textures that it names, in order.
-    textures: Vec<(TextureId, Texture)>,
-}
-
-impl Sample {
-    /// Of a material of a scene; `None` once it has been removed.
-    pub(crate) fn of(scene: &Scene, id: MaterialId) -> Option<Self> {
-        let (material, finish) = (scene.find_material(id)?.clone(), scene.finish(id));
-        let (of_material, of_finish) = (material.values(), finish.values());
-        let mut ids: Vec<TextureId> = of_material.textures().chain(of_finish.textures()).collect();
-        ids.sort_unstable();
-        ids.dedup();
-        let textures = ids.into_iter().filter_map(|id| Some((id, scene.texture(id)?.clone()))).collect();
-        Some(Self { material, finish, textures })
-    }
-
-    /// Puts it on the ball of a stage.
-    fn dress(self, stage: &mut Scene, ball: MaterialId) {
-        let add = |(id, texture): (TextureId, Texture)| Edit::AddTexture {
-            name: id.to_string(),
-            texture,
-            id: Some(id),
-        };
-        let mut edits: Vec<Edit> = self.textures.into_iter().map(add).collect();
-        edits.extend([Edit::Material(ball, self.material), Edit::Finish(ball, self.finish)]);
-        let dressed = stage.apply(Edit::Batch(edits));
-        debug_assert!(dressed.is_ok(), "a material with its textures was refused: {dressed:?}");
-    }
-}
-
-/// A picture of a material.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Ball {
-    sample: Sample,
-    image: ColorImage,
-}
 
 /// Which picture is shown, and which is to be traced.
 #[derive(Default)]
@@ -83,9 +21,6 @@ pub(crate) struct Preview {
 }
 
 impl Preview {
-    /// Width and height of the picture, in pixels.
-    pub(crate) const SIDE: u32 = 96;
-
     /// Wants the picture of that material: it is shown at once if it is known, and else comes due.
     pub(crate) fn want(&mut self, sample: Sample) {
         if self.wanted.as_ref() == Some(&sample) {
@@ -124,168 +59,73 @@ impl Preview {
     /// The picture for egui, as soon as there is one.
     pub(crate) fn picture(&mut self, context: &Context) -> Option<egui::TextureId> {
         if let Some(image) = self.image.take() {
-            match &mut self.texture {
-                Some(texture) => texture.set(image, TextureOptions::LINEAR),
-                None => self.texture = Some(context.load_texture("ball", image, TextureOptions::LINEAR)),
-            }
+            // A new one each time: the rasteriser keeps what it drew of a texture, even if that is changed.
+            self.texture = Some(context.load_texture("ball", image, TextureOptions::LINEAR));
         }
         self.texture.as_ref().map(TextureHandle::id)
     }
 }
 
-/// Traces balls.
-pub(crate) struct BallTracing {
-    pool: Pool,
-    stage: Scene,
-    ball: MaterialId,
-    camera: Camera,
-}
-
-impl BallTracing {
-    /// On the threads of that pool.
-    ///
-    /// # Errors
-    /// A report of what is wrong with the stage.
-    pub(crate) fn new(pool: Pool) -> Result<Self, String> {
-        let (stage, _) = catoptra_scene::parse(STAGE, "stage", None).map_err(|e| e.to_string())?;
-        let camera = stage.main_camera().and_then(|id| stage.world_camera(id));
-        let camera = camera.ok_or_else(|| "the stage has no camera".to_owned())?;
-        let ball = stage.material_named("ball").ok_or_else(|| "the stage has no ball".to_owned())?;
-        Ok(Self { pool, stage, ball, camera })
-    }
-}
-
-/// A stage with a ball on it, ready to be traced.
-pub(crate) struct Job {
-    sample: Sample,
-    snapshot: Snapshot,
-    view: View,
-}
-
-impl Tracing for BallTracing {
-    type Request = Sample;
-    type Job = Job;
-    type Frame = Ball;
-    type Spare = Ball;
-
-    fn prepare(&mut self, sample: Sample) -> Job {
-        let mut stage = self.stage.clone();
-        sample.clone().dress(&mut stage, self.ball);
-        let size = Size::new(Preview::SIDE, Preview::SIDE);
-        let view = View::of(&stage, self.camera.clone(), size).with_samples(SAMPLES);
-        Job { sample, snapshot: Snapshot::extract(&stage, &self.pool), view }
-    }
-
-    fn size(job: &Job) -> (u32, u32) {
-        (job.view.size.width, job.view.size.height)
-    }
-
-    fn trace(&mut self, job: &Job, divisor: u32, control: &Control, _: &mut Vec<Ball>) -> Option<Ball> {
-        let (width, height) = reduced(job.view.size.width, job.view.size.height, divisor);
-        let view = View { size: Size { width, height }, ..job.view.clone() };
-        let mut film = Film::new(view.size);
-        render(backends()[0], &job.snapshot, &view, &mut film, &self.pool, control).ok()?;
-        let rgb = Display::Srgb.exposed(0.0).rgb8(&film);
-        let image = ColorImage::from_rgb([width as usize, height as usize], &rgb);
-        Some(Ball { sample: job.sample.clone(), image })
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use catoptra_core::{Rgb, TextureUse, Value, Values};
+    use catoptra_core::{Material, Rgb, Scene, Value, Values};
+    use egui::Color32;
 
     use super::*;
+    use crate::egui_paint::EguiLayer;
 
-    fn traced(scene: &Scene, id: MaterialId) -> Ball {
-        let mut tracing = BallTracing::new(Pool::new(1).unwrap()).unwrap();
-        let job = tracing.prepare(Sample::of(scene, id).unwrap());
-        tracing.trace(&job, 1, &Control::default(), &mut Vec::new()).unwrap()
-    }
-
-    /// The value of that colour.
-    fn color(r: f64, g: f64, b: f64) -> Value {
-        Value::Color(Rgb::new(r, g, b))
-    }
-
-    fn of_kind(kind: &str, values: &Values) -> (Scene, MaterialId) {
+    fn sample(grey: f64) -> Sample {
+        let values = Values::new().with("color", Value::Color(Rgb::grey(grey)));
         let mut scene = Scene::new();
-        let material = (Material::kind_named(kind).unwrap().make)(values).unwrap();
-        let id = scene.add_material("it", material).unwrap();
-        (scene, id)
+        let matte = (Material::kind_named("matte").unwrap().make)(&values).unwrap();
+        let id = scene.add_material("it", matte).unwrap();
+        Sample::of(&scene, id).unwrap()
     }
 
-    /// Mean of a channel over the middle of the ball.
-    fn middle(ball: &Ball, channel: usize) -> f64 {
-        let side = Preview::SIDE as usize;
-        let (from, to) = (side * 3 / 8, side * 5 / 8);
-        let pixels = (from..to).flat_map(|y| (from..to).map(move |x| y * side + x));
-        let sum: f64 = pixels.map(|i| f64::from(ball.image.pixels[i].to_array()[channel])).sum();
-        sum / ((to - from) * (to - from)) as f64
-    }
-
-    #[test]
-    fn the_ball_has_the_color_of_the_material() {
-        let (scene, id) = of_kind("matte", &Values::new().with("color", color(0.8, 0.1, 0.1)));
-        let ball = traced(&scene, id);
-        assert!(middle(&ball, 0) > 2.0 * middle(&ball, 1), "{} {}", middle(&ball, 0), middle(&ball, 1));
-    }
-
-    #[test]
-    fn every_kind_of_material_is_traced() {
-        let grey = of_kind("matte", &Values::new().with("color", color(0.5, 0.5, 0.5))).0;
-        let old = grey.materials().next().unwrap().2.clone();
-        for kind in Material::KINDS {
-            let mut scene = Scene::new();
-            let id = scene.add_material("it", crate::retype::of_kind(&old, kind).unwrap()).unwrap();
-            let ball = traced(&scene, id);
-            assert!(middle(&ball, 1) > 8.0, "{} is black: {}", kind.name, middle(&ball, 1));
-        }
-    }
-
-    #[test]
-    fn a_texture_and_a_finish_are_seen_on_it() {
-        let white = Values::new().with("color", color(1.0, 1.0, 1.0));
-        let (mut scene, id) = of_kind("matte", &white);
-        let plain = Sample::of(&scene, id).unwrap();
-        let red = Values::new().with("color", color(1.0, 0.0, 0.0));
-        let red = red.with("other", color(1.0, 0.0, 0.0));
-        // The second texture, so that its id is not the first one of the stage.
-        for name in ["a", "b"] {
-            let checker = (Texture::kind_named("checker-texture").unwrap().make)(&red).unwrap();
-            scene.add_texture(name, checker).unwrap();
-        }
-        let by = TextureUse::of(scene.texture_named("b").unwrap());
-        let painted = scene.material(id).with("color", color(1.0, 1.0, 1.0).textured(by)).unwrap();
-        scene.apply(Edit::Material(id, painted)).unwrap();
-        assert!(Sample::of(&scene, id).unwrap() != plain);
-        let ball = traced(&scene, id);
-        assert!(middle(&ball, 0) > 100.0 && middle(&ball, 1) < 10.0);
-        let gone = Finish::default().with("opacity", Value::Number(0.0)).unwrap();
-        scene.apply(Edit::Finish(id, gone)).unwrap();
-        assert!(middle(&traced(&scene, id), 1) > 30.0, "one sees through it");
+    fn ball(grey: f64, color: Color32) -> Ball {
+        Ball { sample: sample(grey), image: ColorImage::filled([4, 4], color) }
     }
 
     #[test]
     fn a_picture_is_due_only_after_a_change_and_a_known_one_never() {
-        let sample = |v: f64| {
-            let (scene, id) = of_kind("matte", &Values::new().with("color", color(v, v, v)));
-            Sample::of(&scene, id).unwrap()
-        };
-        let ball = |v| Ball { sample: sample(v), image: ColorImage::example() };
         let mut preview = Preview::default();
         assert_eq!(preview.take_due(), None);
         preview.want(sample(0.1));
         assert_eq!(preview.take_due(), Some(sample(0.1)));
         preview.want(sample(0.1));
         assert_eq!(preview.take_due(), None, "nothing has changed");
-        preview.put(ball(0.1), true);
+        preview.put(ball(0.1, Color32::RED), true);
         preview.want(sample(0.2));
         assert_eq!(preview.take_due(), Some(sample(0.2)));
-        preview.put(ball(0.2), false);
+        preview.put(ball(0.2, Color32::RED), false);
         preview.want(sample(0.1));
         assert_eq!(preview.take_due(), None, "it is known");
         preview.want(sample(0.2));
         assert_eq!(preview.take_due(), Some(sample(0.2)), "only a coarse one is known");
+    }
+
+    #[test]
+    fn a_new_picture_is_seen_in_the_place_of_the_old_one() {
+        let (context, mut layer, mut preview) = (Context::default(), EguiLayer::new(), Preview::default());
+        let size = (40, 40);
+        let mut seen = |preview: &mut Preview| {
+            let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(40.0, 40.0));
+            let input = egui::RawInput { screen_rect: Some(screen), ..Default::default() };
+            let output = context.run_ui(input, |ui| {
+                let picture = preview.picture(ui.ctx()).unwrap();
+                let uv = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+                ui.painter().image(picture, screen, uv, Color32::WHITE);
+            });
+            let primitives = context.tessellate(output.shapes, 1.0);
+            layer.paint(size, primitives, &output.textures_delta, 1.0);
+            let mut frame = vec![0; 1600];
+            layer.blend_over(&mut frame, size);
+            frame[820]
+        };
+        preview.want(sample(0.1));
+        for (color, pixel) in [(Color32::RED, 0x00ff_0000), (Color32::GREEN, 0x0000_ff00)] {
+            preview.put(ball(0.1, color), false);
+            assert_eq!(seen(&mut preview) & 0x00ff_ffff, pixel);
+        }
     }
 }

@@ -10,6 +10,7 @@ use egui::{Context, Event, Modifiers, PointerButton, Pos2, Rect, Shape};
 use super::show;
 use crate::document::Document;
 use crate::loader::Opened;
+use crate::naming::Named;
 use crate::viewer::Viewer;
 
 const TEXT: &str = "image-texture \"wood\" { file \"wood.png\"; wrap-v \"clamp\" }\n\
@@ -175,12 +176,33 @@ fn glass_is_water_by_its_name() {
 #[test]
 fn a_named_metal_gets_a_color_and_a_name_again() {
     let mut bench = Bench::new("ring");
-    let metal = |bench: &Bench| bench.material("gold").values();
+    let metal = |bench: &Bench, field: &str| bench.material("gold").values().get(field).cloned();
+    let named = |name: &str| Some(Value::Word(name.to_owned()));
     bench.click("gold");
     bench.click("copper");
-    assert_eq!(metal(&bench).get("preset"), Some(&Value::Word("copper".to_owned())));
+    assert_eq!(metal(&bench, "preset"), named("copper"));
     bench.undo();
-    assert_eq!(metal(&bench).get("preset"), Some(&Value::Word("gold".to_owned())));
+    assert_eq!(metal(&bench, "preset"), named("gold"));
+    bench.click("0.97");
+    assert_eq!((metal(&bench, "preset"), metal(&bench, "color").is_some()), (None, true));
+    bench.click("–");
+    bench.click("silver");
+    assert_eq!((metal(&bench, "preset"), metal(&bench, "color")), (named("silver"), None));
+}
+
+#[test]
+fn a_name_that_is_typed_for_a_texture_becomes_its_name() {
+    let mut bench = Bench::new("ball");
+    let wood = bench.texture("wood");
+    bench.viewer.texture = Some(wood);
+    bench.viewer.typed_name = Some((Named::Texture(wood), "oak".to_owned()));
+    bench.frames(2);
+    assert_eq!(bench.viewer.document.scene().texture_name(wood), Some("oak"));
+    bench.undo();
+    bench.viewer.typed_name = Some((Named::Texture(wood), "noise".to_owned()));
+    bench.frames(2);
+    assert_eq!(bench.viewer.document.scene().texture_name(wood), Some("wood"), "that name is taken");
+    assert!(bench.viewer.notice.is_some());
 }
 
 #[test]

@@ -235,5 +235,5 @@ fn offer(ui: &mut Ui, field: &Field, value: Value, tip: &str) -> Option<Value> {
         _ => return None,
     };
     let text = format!("{} {}", widgets::short(size), field.unit);
-    ui.button(text).on_hover_text(tip).clicked().then_some(value)
+    ui.button(text.trim_end()).on_hover_text(tip).clicked().then_some(value)
 }

@@ -7,7 +7,7 @@ use egui::{CollapsingHeader, ComboBox, Ui};
 
 use super::fields::{self, Changed, Offers, step_key};
 use super::inspector::put;
-use crate::preview::{Preview, Sample};
+use crate::ball::{SIDE, Sample};
 use crate::retype;
 use crate::viewer::Viewer;
 
@@ -47,7 +47,7 @@ fn ball(ui: &mut Ui, viewer: &mut Viewer, worn: MaterialId) {
     if let Some(sample) = Sample::of(viewer.document.scene(), worn) {
         viewer.preview.want(sample);
     }
-    let side = Preview::SIDE as f32;
+    let side = SIDE as f32;
     match viewer.preview.picture(ui.ctx()) {
         Some(picture) => {
             let picture = egui::load::SizedTexture::new(picture, [side, side]);
