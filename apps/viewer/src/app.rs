@@ -1,7 +1,7 @@
 //! What happens when? Events of the window, finished frames and opened files become changes of the viewer; whatever
 //! went stale is asked for once the events are through; then the loop sleeps.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -13,6 +13,8 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy};
 use winit::keyboard::ModifiersState;
 use winit::window::WindowId;
 
+use crate::ball::BallTracing;
+use crate::dropped;
 use crate::frame_worker::{Finished, FrameWorker};
 use crate::guard::Next;
 use crate::loader::{self, Opened, Outcome};
@@ -28,6 +30,10 @@ pub(crate) enum Wake {
     Frame,
     /// A file was read.
     Opened(Outcome),
+    /// A picture that was dropped was read.
+    Picture(dropped::Outcome),
+    /// A picture of a material was finished.
+    Ball,
 }
 
 /// The running viewer.
@@ -38,6 +44,8 @@ pub(crate) struct App {
     /// A thread that only encodes frames, so that the window never waits for what the pool is busy with.
     pub(crate) encoder: Pool,
     pub(crate) worker: FrameWorker<PoolTracing>,
+    /// Traces the picture of a material.
+    balls: FrameWorker<BallTracing>,
     pub(crate) screen: Option<Screen>,
     pub(crate) modifiers: ModifiersState,
     /// The frame in the window.
@@ -69,7 +77,7 @@ impl App {
         options: Options,
         opened: Opened,
         pool: Arc<Pool>,
-        encoder: Pool,
+        (encoder, balls): (Pool, BallTracing),
         proxy: EventLoopProxy<Wake>,
     ) -> Self {
         let wake = proxy.clone();
@@ -77,11 +85,17 @@ impl App {
             // The loop may have ended; then no one waits for the frame.
             let _ = wake.send_event(Wake::Frame);
         });
+        let wake = proxy.clone();
+        let balls = FrameWorker::start(balls, move || {
+            // As above.
+            let _ = wake.send_event(Wake::Ball);
+        });
         let mut app = Self {
             viewer: Viewer::new(opened),
             pool,
             encoder,
             worker,
+            balls,
             screen: None,
             modifiers: ModifiersState::empty(),
             shown: None,
@@ -137,6 +151,27 @@ impl App {
         }
     }
 
+    /// Starts to read a picture that is to be a texture, if there is something that it can be put on.
+    pub(crate) fn picture_dropped(&mut self, file: &Path) {
+        if self.viewer.guard.question().is_some() {
+            return self.viewer.notify("answer the question first, then drop the picture again");
+        }
+        let Some(target) = dropped::target(&mut self.viewer) else { return };
+        self.viewer.notify(format!("reading {}", file.display()));
+        let proxy = self.proxy.clone();
+        dropped::read(file.to_owned(), target, move |outcome| {
+            // The loop may have ended; then no one waits for the picture.
+            let _ = proxy.send_event(Wake::Picture(outcome));
+        });
+    }
+
+    fn take_ball(&mut self) {
+        if let Some(finished) = self.balls.take() {
+            self.viewer.preview.put(finished.frame, finished.divisor == 1);
+            self.viewer.stale.panel = true;
+        }
+    }
+
     /// Follows the scene and asks for a new picture if one is due.
     pub(crate) fn request_if_stale(&mut self) {
         self.viewer.follow_scene();
@@ -185,6 +220,8 @@ impl ApplicationHandler<Wake> for App {
         match event {
             Wake::Frame => self.request_redraw(),
             Wake::Opened(outcome) => self.opened(outcome),
+            Wake::Picture(outcome) => dropped::put(&mut self.viewer, outcome),
+            Wake::Ball => self.take_ball(),
         }
     }
 
@@ -207,6 +244,9 @@ impl ApplicationHandler<Wake> for App {
             None => {}
         }
         self.request_if_stale();
+        if let Some(sample) = self.viewer.preview.take_due() {
+            self.balls.submit(sample);
+        }
         self.write_picture_if_wanted();
         if self.viewer.stale.overlay || self.viewer.stale.panel {
             self.request_redraw();

@@ -91,6 +91,11 @@ impl Document {
         self.path.clone().unwrap_or_else(|| free_name(Path::new(""), WELCOME_NAME, "kdl"))
     }
 
+    /// The folder that the paths in the scene start from.
+    pub(crate) fn folder(&self) -> PathBuf {
+        self.place().parent().map_or_else(PathBuf::new, Path::to_owned)
+    }
+
     /// Whether someone else has changed the file in which the scene is kept.
     pub(crate) fn on_disk(&self) -> OnDisk {
         self.file.on_disk()

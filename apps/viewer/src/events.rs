@@ -7,6 +7,7 @@ use winit::window::CursorIcon;
 
 use crate::actions;
 use crate::app::App;
+use crate::dropped;
 use crate::guard::{Answer, Next};
 use crate::input::{Button, Mode};
 use crate::keys::{self, Command};
@@ -34,6 +35,7 @@ impl App {
                 self.key_to_question(screen, event, key);
             }
             WindowEvent::KeyboardInput { event: key, .. } => self.key(screen, event, key),
+            WindowEvent::DroppedFile(path) if dropped::is_picture(path) => self.picture_dropped(path),
             WindowEvent::DroppedFile(path) => self.viewer.leave(Next::Open(path.clone())),
             WindowEvent::ModifiersChanged(modifiers) => {
                 self.modifiers = modifiers.state();

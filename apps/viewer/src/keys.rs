@@ -108,7 +108,8 @@ pub(crate) const OTHERS: &[(&str, &str)] = &[
     ("Left drag on a rim", "change the size of the selected lamp: sides, corners too"),
     ("Wheel", "zoom to the pointer; turntable: along the view"),
     ("Ctrl wheel", "the other of the two"),
-    ("Drop a file", "open a scene; asks about unsaved edits"),
+    ("Drop a scene", "open it; asks about unsaved edits"),
+    ("Drop a picture", "make it the texture of the selected shape"),
     ("Tab, Enter", "go through a question's buttons, press one"),
 ];
 

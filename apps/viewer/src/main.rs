@@ -2,9 +2,11 @@
 
 mod actions;
 mod app;
+mod ball;
 mod camera_control;
 mod canvas;
 mod document;
+mod dropped;
 mod egui_paint;
 mod events;
 mod frame_worker;
@@ -13,11 +15,14 @@ mod input;
 mod keys;
 mod latest;
 mod loader;
+mod naming;
 mod options;
 mod outline;
 mod panel;
+mod preview;
 mod redraw;
 mod refine;
+mod retype;
 mod screen;
 mod status;
 mod tracing;
@@ -61,8 +66,9 @@ fn run(options: Options) -> Result<(), String> {
         .map_err(|why| format!("{NO_DISPLAY}\n({})", reason(&why.to_string())))?;
     let pool = Arc::new(Pool::new(options.threads.map_or(0, usize::from)).map_err(|e| e.to_string())?);
     let encoder = Pool::new(1).map_err(|e| e.to_string())?;
+    let balls = ball::BallTracing::new(Pool::new(1).map_err(|e| e.to_string())?)?;
     let opened = loader::welcome(&pool)?;
-    let mut app = App::new(options, opened, pool, encoder, events.create_proxy());
+    let mut app = App::new(options, opened, pool, (encoder, balls), events.create_proxy());
     events.run_app(&mut app).map_err(|e| e.to_string())?;
     app.failure.map_or(Ok(()), Err)
 }

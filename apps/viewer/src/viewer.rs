@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use catoptra_core::scene::{Edit, EntityId, SceneError, Subject};
+use catoptra_core::scene::{Edit, EntityId, SceneError, Subject, TextureId};
 use catoptra_core::{Aabb, Camera, Integrator};
 use catoptra_raster::{Overlay, OverlayStyle};
 use catoptra_tracer::{Backend, Display, Extraction, Pick, Size, Tone, View, backends, pick};
@@ -16,6 +16,8 @@ use crate::guard::{Answer, Guard, Next};
 use crate::input::{Mode, Pointer};
 use crate::latest::Latest;
 use crate::loader::Opened;
+use crate::naming::Named;
+use crate::preview::Preview;
 use crate::tracing::Request;
 
 /// Samples a pixel where each is one direction that sees the sky or does not: a quarter of the noise of a single one.
@@ -71,8 +73,12 @@ pub(crate) struct Viewer {
     pub(crate) through: Option<EntityId>,
     pub(crate) settings: ViewSettings,
     pub(crate) selection: Option<EntityId>,
+    /// The texture whose fields are shown.
+    pub(crate) texture: Option<TextureId>,
+    /// The picture of a material.
+    pub(crate) preview: Preview,
     /// A name that is being typed, and whose it is to be.
-    pub(crate) typed_name: Option<(EntityId, String)>,
+    pub(crate) typed_name: Option<(Named, String)>,
     pub(crate) shown: Shown,
     pub(crate) pointer: Pointer,
     /// The size of the picture in pixels.
@@ -116,6 +122,8 @@ impl Viewer {
                 style,
             },
             selection: None,
+            texture: None,
+            preview: Preview::default(),
             typed_name: None,
             shown: Shown { panel: true, help: false, overlays: true },
             pointer: Pointer::default(),
@@ -138,6 +146,7 @@ impl Viewer {
         self.latest = opened.latest;
         self.seen = self.document.scene().revision();
         self.selection = None;
+        self.texture = None;
         self.typed_name = None;
         self.error = None;
         self.guard.forget();
@@ -285,10 +294,9 @@ impl Viewer {
 
     /// Gives the name that is being typed, if any, to whose it is to be.
     pub(crate) fn finish_name(&mut self) {
-        if let Some((id, typed)) = self.typed_name.take()
-            && self.document.scene().name(id).is_some_and(|name| name != typed)
-        {
-            self.edit(Edit::Name(id, typed));
+        let Some((owner, typed)) = self.typed_name.take() else { return };
+        if let Some(edit) = owner.renamed(self.document.scene(), typed) {
+            self.edit(edit);
         }
     }
 
@@ -325,6 +333,7 @@ impl Viewer {
         if self.selection.is_some_and(|id| !scene.contains(id)) {
             self.selection = None;
         }
+        self.texture = self.texture.filter(|id| scene.find_texture(*id).is_some());
         if moved.is_some() {
             self.adopt(moved);
         }

@@ -1,55 +1,105 @@
-//! How is a field of any part shown and changed? One widget for each kind of field, so that a new part needs none.
+//! How is a field of any part shown and changed? One row for each field, as its kind asks, so that a new part needs none.
 
 use std::hash::{Hash as _, Hasher as _};
 
-use catoptra_core::glam::DVec3;
-use catoptra_core::{Field, FieldKind, Rgb, Value, Values};
-use egui::{ComboBox, DragValue, Slider, SliderClamping, Ui};
+use catoptra_core::{Field, FieldKind, InvalidPart, Kind, TextureId, Value, Values};
+use egui::Ui;
 
-/// The share of a number's size that one pixel of dragging changes.
-const DRAG_SPEED: f64 = 0.005;
+use super::{paint, widgets};
 
-/// Shows fields with their values in two columns. Returns the field that was changed and its new value.
+/// Points between names and values.
+const GAP: f32 = 8.0;
+
+/// Points beside a slider: its number and two small buttons.
+const BESIDE_SLIDER: f32 = 92.0;
+
+/// Points beside a list: a second, narrow one.
+const BESIDE_LIST: f32 = 46.0;
+
+/// The narrowest that a slider or a list becomes, in points.
+const NARROWEST: f32 = 32.0;
+
+/// What is done to a field.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Changed {
+    /// Its name.
+    pub(super) field: &'static str,
+    /// Its new value; `None` where it is taken away.
+    pub(super) value: Option<Value>,
+}
+
+impl Changed {
+    /// The values of a part with this change: a field that stands instead of another takes its place.
+    pub(super) fn apply(&self, fields: &[Field], values: Values) -> Values {
+        let Some(value) = self.value.clone() else { return values.without(self.field) };
+        let other = fields.iter().find(|field| field.name == self.field).and_then(|field| field.instead_of);
+        let values = match other {
+            Some(other) => values.without(other),
+            None => values,
+        };
+        values.with(self.field, value)
+    }
+
+    /// A part of that kind and those values, with this change.
+    ///
+    /// # Errors
+    /// A value that the part refuses.
+    pub(super) fn make<T>(&self, kind: &Kind<T>, values: Values) -> Result<T, InvalidPart> {
+        (kind.make)(&self.apply(kind.fields, values))
+    }
+}
+
+/// What can be done to fields beside changing the values that they have.
+#[derive(Clone, Copy)]
+pub(super) struct Offers<'a> {
+    /// The textures to choose from, with their names.
+    pub(super) textures: &'a [(TextureId, String)],
+    /// Whether a field takes that value.
+    pub(super) takes: &'a dyn Fn(&'static str, Value) -> bool,
+    /// What a field would be if it stood instead of the one that is given.
+    pub(super) equivalent: &'a dyn Fn(&Field) -> Option<Value>,
+    /// What is said of that.
+    pub(super) note: &'a str,
+    /// Whether fields that need not be given can be given and taken away.
+    pub(super) optional: bool,
+}
+
+impl Offers<'_> {
+    /// Nothing but the values.
+    pub(super) const NONE: Offers<'static> =
+        Offers { textures: &[], takes: &|_, _| false, equivalent: &|_| None, note: "", optional: false };
+}
+
+/// Shows fields with their values in two columns. Returns what a person does to one of them.
 pub(super) fn show(
     ui: &mut Ui,
     salt: u64,
-    fields: &'static [Field],
+    fields: impl IntoIterator<Item = &'static Field>,
     values: &Values,
-) -> Option<(&'static str, Value)> {
-    show_offering(ui, salt, fields, (values, |_: &str| None))
-}
-
-/// Shows fields as [`show`] does. A field that stands instead of one that is given is offered, where `equivalent` knows
-/// what it would be.
-pub(super) fn show_offering(
-    ui: &mut Ui,
-    salt: u64,
-    fields: &'static [Field],
-    (values, equivalent): (&Values, impl Fn(&str) -> Option<Value>),
-) -> Option<(&'static str, Value)> {
+    offers: &Offers<'_>,
+) -> Option<Changed> {
+    let fields: Vec<&'static Field> = fields.into_iter().collect();
+    let room = ui.available_width() - widest_name(ui, &fields) - GAP;
     let mut changed = None;
-    egui::Grid::new(("fields", salt)).num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
+    egui::Grid::new(("fields", salt)).num_columns(2).spacing([GAP, 4.0]).show(ui, |ui| {
+        ui.spacing_mut().slider_width = (room - BESIDE_SLIDER).clamp(NARROWEST, ui.spacing().slider_width);
+        ui.spacing_mut().combo_width = (room - BESIDE_LIST).clamp(NARROWEST, ui.spacing().combo_width);
         for field in fields {
-            let given = values.get(field.name).cloned().or_else(|| field.default.map(|make| make()));
-            let new = match (given, field.instead_of) {
-                (Some(value), _) => {
-                    ui.label(field.name).on_hover_text(field.doc);
-                    edit(ui, field, &value)
-                }
-                (None, Some(other)) => {
-                    let Some(value) = equivalent(field.name) else { continue };
-                    ui.weak(field.name).on_hover_text(field.doc);
-                    offer(ui, field, other, value)
-                }
-                (None, None) => continue,
-            };
-            if let Some(value) = new {
-                changed = Some((field.name, value));
+            if let Some(value) = row(ui, (salt, field), values, offers) {
+                changed = Some(Changed { field: field.name, value });
             }
-            ui.end_row();
         }
     });
     changed
+}
+
+/// Points that the widest of the names takes.
+fn widest_name(ui: &Ui, fields: &[&'static Field]) -> f32 {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let width = |field: &&Field| {
+        ui.painter().layout_no_wrap(field.name.to_owned(), font.clone(), egui::Color32::WHITE).size().x
+    };
+    fields.iter().map(width).fold(0.0, f32::max)
 }
 
 /// A key for the steps of one field of one thing.
@@ -59,179 +109,131 @@ pub(super) fn step_key(what: &str, index: u32, field: &str) -> u64 {
     hasher.finish() >> 1
 }
 
-fn edit(ui: &mut Ui, field: &Field, value: &Value) -> Option<Value> {
-    match (field.kind, value) {
-        (FieldKind::Fraction, Value::Number(v)) => slider(ui, *v, 0.0..=1.0, "").map(Value::Number),
-        (FieldKind::Angle, Value::Number(v)) => {
-            slider(ui, v.to_degrees(), 0.0..=180.0, "°").map(|degrees| Value::Number(degrees.to_radians()))
+/// Shows one field, if there is anything to show. Returns its new value, which may be none.
+fn row(
+    ui: &mut Ui,
+    (salt, field): (u64, &'static Field),
+    values: &Values,
+    offers: &Offers<'_>,
+) -> Option<Option<Value>> {
+    let replaced = field.instead_of.filter(|other| values.get(other).is_some());
+    let default = || field.default.filter(|_| replaced.is_none()).map(|make| make());
+    let new = match (values.get(field.name).cloned().or_else(default), replaced) {
+        (Some(value), _) => return given(ui, (salt, field), &value, offers),
+        (None, Some(other)) => {
+            let value = (offers.equivalent)(field)?;
+            ui.weak(field.name).on_hover_text(field.doc);
+            offer(
+                ui,
+                field,
+                value,
+                &format!("Give the {} instead of the {other}. {}", field.name, offers.note),
+            )
         }
-        (FieldKind::Count, Value::Number(v)) => count(ui, *v).map(Value::Number),
-        (kind, Value::Number(v)) => number(ui, *v, field.unit, kind == FieldKind::Length).map(Value::Number),
-        (_, Value::Vector(v)) => vector(ui, *v).map(Value::Vector),
-        (FieldKind::Color, Value::Color(c)) => color(ui, *c).map(Value::Color),
-        (_, Value::Color(c)) => quantity(ui, *c).map(Value::Color),
-        (_, Value::Flag(on)) => flag(ui, *on).map(Value::Flag),
-        (FieldKind::Choice(words), Value::Word(word)) => choice(ui, field.name, words, word).map(Value::Word),
-        (_, Value::Word(word)) => {
-            ui.label(word);
-            None
+        (None, None) => {
+            let value = first_value(field, offers).filter(|_| offers.optional)?;
+            ui.weak(field.name).on_hover_text(field.doc);
+            ui.button("give").clicked().then_some(value)
         }
-        (_, Value::Mesh(source)) => {
-            let triangles = source.mesh.triangles().len();
-            ui.label(&source.path).on_hover_text(format!("{triangles} triangles"));
-            None
+    };
+    ui.end_row();
+    new.map(Some)
+}
+
+/// A field that has a value, and below it the texture that multiplies it.
+fn given(
+    ui: &mut Ui,
+    (salt, field): (u64, &'static Field),
+    value: &Value,
+    offers: &Offers<'_>,
+) -> Option<Option<Value>> {
+    ui.label(field.name).on_hover_text(field.doc);
+    let can_be_taken =
+        offers.optional && field.may_be_missing && field.default.is_none() && field.instead_of.is_none();
+    let cell = |ui: &mut Ui| {
+        let mut new = edit(ui, field, value, offers).map(Some);
+        if let Some(value) = paint::add(ui, field, value, offers) {
+            new = Some(Some(value));
         }
-        (_, Value::Profile(source)) => {
-            let (flux, peak) = (source.profile.flux(), source.profile.peak());
-            ui.label(&source.path).on_hover_text(format!("{flux:.0} lm, at most {peak:.0} cd"));
-            None
+        if can_be_taken && ui.small_button("×").on_hover_text("Take it away.").clicked() {
+            new = Some(None);
         }
-        (_, Value::Pair(v)) => {
-            ui.label(format!("{} {}", short(v.x), short(v.y)));
-            None
-        }
-        (_, Value::Image(source)) => {
-            let (width, height) = (source.image.width(), source.image.height());
-            ui.label(&source.path).on_hover_text(format!("{width} x {height} pixels"));
-            None
-        }
-        (_, Value::Texture(texture)) => {
-            ui.label(texture.to_string());
-            None
-        }
-        (_, Value::Textured(textured)) => {
-            let base = edit(ui, field, &textured.base);
-            ui.label("×").on_hover_text(textured.by.texture.to_string());
-            base.map(|base| base.textured(textured.by))
-        }
+        new
+    };
+    let mut new = ui.push_id((salt, field.name), |ui| ui.horizontal(cell).inner).inner;
+    ui.end_row();
+    if let Value::Textured(textured) = value {
+        ui.weak("  × texture").on_hover_text("What multiplies it.");
+        let chosen =
+            ui.push_id((salt, field.name, "texture"), |ui| paint::choose(ui, field, textured, offers));
+        new = chosen.inner.map(Some).or(new);
+        ui.end_row();
+    }
+    new
+}
+
+/// What a field is at first that need not be given; `None` where there is no such value.
+fn first_value(field: &Field, offers: &Offers<'_>) -> Option<Value> {
+    match field.kind {
+        FieldKind::Fraction => Some(Value::Number(0.5)),
+        FieldKind::Choice(words) => words.first().map(|word| Value::Word((*word).to_owned())),
+        FieldKind::Texture => offers.textures.first().map(|(id, _)| Value::Texture(*id)),
+        _ => None,
     }
 }
 
-/// A button that tells what the field would be, and gives it in place of the other.
-fn offer(ui: &mut Ui, field: &Field, other: &str, value: Value) -> Option<Value> {
-    let size = match &value {
-        Value::Color(c) => c.max_channel(),
-        Value::Number(v) => *v,
+fn edit(ui: &mut Ui, field: &Field, value: &Value, offers: &Offers<'_>) -> Option<Value> {
+    match (field.kind, value) {
+        (FieldKind::Fraction, Value::Number(v)) => widgets::slider(ui, *v, 0.0..=1.0, "").map(Value::Number),
+        (FieldKind::Angle, Value::Number(v)) => widgets::slider(ui, v.to_degrees(), 0.0..=180.0, "°")
+            .map(|degrees| Value::Number(degrees.to_radians())),
+        (FieldKind::Count, Value::Number(v)) => widgets::count(ui, *v).map(Value::Number),
+        (kind, Value::Number(v)) => {
+            widgets::number(ui, *v, field.unit, kind == FieldKind::Length).map(Value::Number)
+        }
+        (_, Value::Vector(v)) => widgets::vector(ui, *v).map(Value::Vector),
+        (_, Value::Pair(v)) => widgets::pair(ui, *v).map(Value::Pair),
+        (FieldKind::Color, Value::Color(c)) => widgets::color(ui, *c).map(Value::Color),
+        (_, Value::Color(c)) => widgets::quantity(ui, *c).map(Value::Color),
+        (_, Value::Flag(on)) => widgets::flag(ui, *on).map(Value::Flag),
+        (FieldKind::Choice(words), Value::Word(word)) => {
+            widgets::choice(ui, field.name, words, word).map(Value::Word)
+        }
+        (_, Value::Texture(texture)) => paint::pick(ui, Some(*texture), offers.textures).map(Value::Texture),
+        (_, Value::Textured(textured)) => {
+            edit(ui, field, &textured.base, offers).map(|base| base.textured(textured.by))
+        }
+        (_, Value::Word(word)) => told(ui, word, String::new),
+        (_, Value::Mesh(source)) => {
+            told(ui, &source.path, || format!("{} triangles", source.mesh.triangles().len()))
+        }
+        (_, Value::Profile(source)) => told(ui, &source.path, || {
+            format!("{:.0} lm, at most {:.0} cd", source.profile.flux(), source.profile.peak())
+        }),
+        (_, Value::Image(source)) => told(ui, &source.path, || {
+            format!("{}: {} x {} pixels", source.path, source.image.width(), source.image.height())
+        }),
+    }
+}
+
+/// What cannot be changed here, with more about it under the pointer.
+fn told(ui: &mut Ui, text: &str, more: impl Fn() -> String) -> Option<Value> {
+    ui.add(egui::Label::new(text).truncate()).on_hover_ui(|ui| {
+        ui.label(more());
+    });
+    None
+}
+
+/// A button that tells what the field would be, or a list of words, to give it in place of the other.
+fn offer(ui: &mut Ui, field: &Field, value: Value, tip: &str) -> Option<Value> {
+    let size = match (field.kind, &value) {
+        (FieldKind::Choice(words), _) => {
+            return widgets::choice(ui, field.name, words, "–").map(Value::Word);
+        }
+        (_, Value::Color(c)) => c.max_channel(),
+        (_, Value::Number(v)) => *v,
         _ => return None,
     };
-    let text = format!("{} {}", short(size), field.unit);
-    let tip = format!("Give the {} instead of the {other}; the light stays as it is.", field.name);
-    ui.button(text).on_hover_text(tip).clicked().then_some(value)
-}
-
-/// Four digits of a number, in powers of ten where it is huge or tiny.
-fn short(v: f64) -> String {
-    let digits = format!("{v:.3e}");
-    let rounded: f64 = digits.parse().unwrap_or(v);
-    if v != 0.0 && !(1e-3..1e6).contains(&v.abs()) { digits } else { rounded.to_string() }
-}
-
-fn slider(ui: &mut Ui, value: f64, range: std::ops::RangeInclusive<f64>, unit: &str) -> Option<f64> {
-    let mut v = value;
-    let widest = if *range.end() > 1.0 { 1 } else { 3 };
-    let clamping = SliderClamping::Edits;
-    ui.add(Slider::new(&mut v, range).suffix(unit).max_decimals(widest).clamping(clamping))
-        .changed()
-        .then_some(v)
-}
-
-fn count(ui: &mut Ui, value: f64) -> Option<f64> {
-    let mut v = value;
-    ui.add(
-        DragValue::new(&mut v)
-            .speed(0.05)
-            .fixed_decimals(0)
-            .range(0.0..=f64::from(u32::MAX))
-            .clamp_existing_to_range(false),
-    )
-    .changed()
-    .then_some(v.round())
-}
-
-fn speed(value: f64) -> f64 {
-    (value.abs() * DRAG_SPEED).max(0.01)
-}
-
-fn number(ui: &mut Ui, value: f64, unit: &str, positive: bool) -> Option<f64> {
-    let mut v = value;
-    let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    let mut widget = DragValue::new(&mut v).speed(speed(value)).max_decimals(4).suffix(suffix);
-    if positive {
-        widget = widget.range(1e-6..=f64::MAX).clamp_existing_to_range(false);
-    }
-    ui.add(widget).changed().then_some(v)
-}
-
-/// Three numbers in a row.
-pub(super) fn vector(ui: &mut Ui, value: DVec3) -> Option<DVec3> {
-    let mut v = value;
-    let mut changed = false;
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 3.0;
-        for part in [&mut v.x, &mut v.y, &mut v.z] {
-            let speed = speed(*part);
-            let widget = DragValue::new(part).speed(speed).max_decimals(3);
-            changed |= ui.add_sized([49.0, ui.spacing().interact_size.y], widget).changed();
-        }
-    });
-    changed.then_some(v)
-}
-
-fn color(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
-    let mut rgb = [value.r as f32, value.g as f32, value.b as f32];
-    let changed = ui.color_edit_button_rgb(&mut rgb).changed();
-    let channel = |v: f32| f64::from(v.clamp(0.0, 1.0));
-    changed.then(|| Rgb::new(channel(rgb[0]), channel(rgb[1]), channel(rgb[2])))
-}
-
-/// An amount of light: its strongest channel as a number, and its colour relative to that.
-fn quantity(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
-    let strength = value.r.max(value.g).max(value.b);
-    let tint = if strength > 0.0 { value * (1.0 / strength) } else { Rgb::WHITE };
-    ui.horizontal(|ui| {
-        let tint = color(ui, tint).map(|tint| (tint, strength));
-        let mut s = strength;
-        let widget = DragValue::new(&mut s)
-            .speed(speed(strength))
-            .max_decimals(4)
-            .range(0.0..=f64::MAX)
-            .clamp_existing_to_range(false);
-        let strong = ui.add(widget).changed();
-        tint.map(|(tint, strength)| tint * strength).or_else(|| {
-            let tint = if strength > 0.0 { value * (1.0 / strength) } else { Rgb::WHITE };
-            strong.then(|| tint * s)
-        })
-    })
-    .inner
-}
-
-fn flag(ui: &mut Ui, value: bool) -> Option<bool> {
-    let mut on = value;
-    ui.checkbox(&mut on, "").changed().then_some(on)
-}
-
-fn choice(ui: &mut Ui, name: &str, words: &[&str], now: &str) -> Option<String> {
-    let mut picked = None;
-    ComboBox::from_id_salt(name).selected_text(now).show_ui(ui, |ui| {
-        for word in words {
-            if ui.selectable_label(*word == now, *word).clicked() {
-                picked = Some((*word).to_owned());
-            }
-        }
-    });
-    picked.filter(|word| word != now)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        for (v, told) in
-            [(0.0, "0"), (12.566_370_6, "12.57"), (100.0, "100"), (2.5e-7, "2.500e-7"), (1e9, "1.000e9")]
-        {
-            assert_eq!(short(v), told);
-        }
-    }
+    let text = format!("{} {}", widgets::short(size), field.unit);
+    ui.button(text.trim_end()).on_hover_text(tip).clicked().then_some(value)
 }

@@ -1,14 +1,20 @@
 //! What stands beside and over the picture? The panel with tree, inspector and switches, the status line, the list of
 //! keys, the report of an error, and what is asked before work is lost.
 
+#[cfg(test)]
+mod clicks;
 mod dialogs;
 mod fields;
 mod inspector;
+mod material;
+mod paint;
 mod placement;
 mod question;
 mod switches;
+mod textures;
 mod theme;
 mod tree;
+mod widgets;
 
 use egui::{Frame, Margin, Panel, Rect, Ui};
 
@@ -60,6 +66,7 @@ fn side(ui: &mut Ui, viewer: &mut Viewer) {
     egui::ScrollArea::vertical().id_salt("inspector").auto_shrink([false, false]).show(ui, |ui| {
         inspector::show(ui, viewer);
         ui.add_space(6.0);
+        textures::show(ui, viewer);
         switches::show(ui, viewer);
     });
 }
@@ -73,6 +80,7 @@ mod tests {
     use super::*;
     use crate::guard::{Next, Question};
     use crate::loader;
+    use crate::naming::Named;
 
     fn viewer() -> Viewer {
         Viewer::new(loader::welcome(&Pool::new(1).unwrap()).unwrap())
@@ -107,7 +115,7 @@ mod tests {
             let mut viewer = viewer();
             let floor = named(&viewer, "floor").unwrap();
             viewer.select(Some(floor));
-            viewer.typed_name = Some((floor, "ground".to_owned()));
+            viewer.typed_name = Some((Named::Entity(floor), "ground".to_owned()));
             (viewer, Some(floor))
         };
         let (mut closing, _) = typing();

@@ -4,7 +4,7 @@ use catoptra_core::Placement;
 use catoptra_core::glam::{DQuat, DVec3, EulerRot};
 use egui::{DragValue, Ui};
 
-use super::fields;
+use super::widgets;
 
 /// The order in which the three angles are applied.
 const ORDER: EulerRot = EulerRot::YXZ;
@@ -14,12 +14,12 @@ pub(super) fn show(ui: &mut Ui, salt: u64, placement: &Placement) -> Option<Plac
     let mut changed = None;
     egui::Grid::new(("placement", salt)).num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
         ui.label("move").on_hover_text("metres along x, y and z");
-        if let Some(to) = fields::vector(ui, placement.translation()) {
+        if let Some(to) = widgets::vector(ui, placement.translation()) {
             changed = Placement::new(placement.rotation(), to, placement.scale()).ok();
         }
         ui.end_row();
         ui.label("turn").on_hover_text("degrees about x, y and z");
-        if let Some(degrees) = fields::vector(ui, degrees(placement.rotation())) {
+        if let Some(degrees) = widgets::vector(ui, degrees(placement.rotation())) {
             changed = Placement::new(rotation(degrees), placement.translation(), placement.scale()).ok();
         }
         ui.end_row();

@@ -5,7 +5,7 @@ use catoptra_core::scene::{Edit, Integrator, Settings};
 use catoptra_tracer::{Display, backends};
 use egui::{ComboBox, Ui};
 
-use super::fields::{self, step_key};
+use super::fields::{self, Offers, step_key};
 use crate::input::Mode;
 use crate::viewer::Viewer;
 
@@ -78,8 +78,9 @@ fn overlays(ui: &mut Ui, viewer: &mut Viewer) {
 /// The settings that are saved with the scene: background, what is shown, and how far it goes.
 fn settings(ui: &mut Ui, viewer: &mut Viewer) {
     let now = *viewer.document.scene().settings();
-    let changed = fields::show(ui, step_key("settings", 0, ""), Settings::KIND.fields, &now.values());
-    let changed = changed.map(|(field, value)| (field, now.with(field, value)));
+    let (kind, values) = (Settings::KIND, now.values());
+    let changed = fields::show(ui, step_key("settings", 0, ""), kind.fields, &values, &Offers::NONE);
+    let changed = changed.map(|changed| (changed.field, changed.make(kind, values)));
     let occlusion = now.integrator() == Integrator::Occlusion;
     let limited = occlusion.then(|| limit(ui, &now)).flatten();
     if let Some((field, settings)) = changed.or(limited) {

@@ -1,0 +1,247 @@
+//! Do clicks in the panel do what they say? Tests that find a word in what egui shows and click on it.
+
+use std::path::Path;
+
+use catoptra_core::scene::{MaterialId, TextureId};
+use catoptra_core::{Material, Value};
+use catoptra_tracer::Pool;
+use egui::{Context, Event, Modifiers, PointerButton, Pos2, Rect, Shape};
+
+use super::show;
+use crate::document::Document;
+use crate::loader::Opened;
+use crate::naming::Named;
+use crate::viewer::Viewer;
+
+const TEXT: &str = "image-texture \"wood\" { file \"wood.png\"; wrap-v \"clamp\" }\n\
+    noise-texture \"noise\"\nchecker-texture \"tiles\" { scale 2 3 }\nbrick-texture \"bricks\"\nmarble-texture \"marble\"\n\
+    matte \"grey\" { color 0.5 0.4 0.3; reflectiveness 0.2 }\n\
+    phong \"worn\" { diffuse 0.8 texture=\"wood\"; reflectiveness 0.5 texture=\"noise\" channel=\"g\"\n\
+        opacity 0.9 texture=\"noise\"; alpha-cutoff 0.4; sides \"single\"; normal-map \"tiles\"; normal-strength 0.5 }\n\
+    glass \"clear\"\nmetal \"gold\" { preset \"gold\" }\nprincipled \"all\"\n\
+    sphere \"ball\" material=\"grey\" { radius 1 }\nsphere \"old\" material=\"worn\" { radius 1 }\n\
+    sphere \"lens\" material=\"clear\" { radius 1 }\nsphere \"ring\" material=\"gold\" { radius 1 }\n\
+    sphere \"toy\" material=\"all\" { radius 1 }\n";
+
+/// A viewer with egui.
+struct Bench {
+    viewer: Viewer,
+    context: Context,
+    _folder: tempfile::TempDir,
+}
+
+impl Bench {
+    /// With that shape selected.
+    fn new(selected: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).unwrap();
+        write("room.kdl", TEXT.as_bytes());
+        catoptra_scene::image::write_png(&folder.path().join("wood.png"), 1, 1, &[90, 60, 30]).unwrap();
+        let document = Document::open(Path::new(&folder.path().join("room.kdl"))).unwrap();
+        let mut viewer = Viewer::new(Opened::new(document, &Pool::new(1).unwrap()));
+        let shape = viewer.document.scene().entity_named(selected);
+        viewer.select(shape);
+        let context = Context::default();
+        super::set_theme(&context);
+        let mut bench = Self { viewer, context, _folder: folder };
+        bench.frames(3);
+        bench
+    }
+
+    fn frame(&mut self, events: Vec<Event>) -> Vec<(String, Rect)> {
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, egui::vec2(1280.0, 2600.0)));
+        let input = egui::RawInput { screen_rect, events, ..Default::default() };
+        let viewer = &mut self.viewer;
+        let output = self.context.run_ui(input, |ui| {
+            show(ui, viewer, "");
+        });
+        viewer.follow_scene();
+        let mut texts = Vec::new();
+        for clipped in &output.shapes {
+            collect(&clipped.shape, &mut texts);
+        }
+        texts
+    }
+
+    fn frames(&mut self, count: usize) -> Vec<(String, Rect)> {
+        (0..count).map(|_| self.frame(Vec::new())).last().unwrap()
+    }
+
+    /// Clicks on a word: on the one that is shown over all others of the same.
+    fn click(&mut self, word: &str) {
+        let shown = self.frames(2);
+        let found = shown.iter().rev().find(|(text, _)| text == word);
+        let pos = found.unwrap_or_else(|| panic!("{word} is not shown: {shown:?}")).1.center();
+        let button = |pressed| {
+            let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+            Event::PointerButton { pos, button, pressed, modifiers }
+        };
+        self.frame(vec![Event::PointerMoved(pos)]);
+        self.frame(vec![button(true)]);
+        self.frame(vec![button(false)]);
+        self.frames(2);
+    }
+
+    fn material_id(&self, name: &str) -> MaterialId {
+        self.viewer.document.scene().material_named(name).unwrap()
+    }
+
+    fn material(&self, name: &str) -> &Material {
+        self.viewer.document.scene().material(self.material_id(name))
+    }
+
+    fn texture(&self, name: &str) -> TextureId {
+        self.viewer.document.scene().texture_named(name).unwrap()
+    }
+
+    fn value(&self, material: &str, field: &str) -> Value {
+        self.material(material).values().get(field).unwrap().clone()
+    }
+
+    fn undo(&mut self) {
+        assert!(self.viewer.document.undo());
+        assert!(self.viewer.document.is_saved(), "it was one step");
+    }
+}
+
+fn collect(shape: &Shape, texts: &mut Vec<(String, Rect)>) {
+    match shape {
+        Shape::Text(text) => {
+            texts.push((text.galley.text().to_owned(), text.galley.rect.translate(text.pos.to_vec2())));
+        }
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, texts)),
+        _ => {}
+    }
+}
+
+#[test]
+fn looking_at_materials_and_textures_changes_nothing_of_them() {
+    for shape in ["ball", "old", "lens", "ring", "toy"] {
+        let mut bench = Bench::new(shape);
+        for texture in ["wood", "noise", "tiles", "bricks", "marble"] {
+            bench.viewer.texture = Some(bench.texture(texture));
+            bench.frames(3);
+            assert!(bench.viewer.document.is_saved(), "{shape} with {texture} was changed");
+        }
+    }
+}
+
+#[test]
+fn a_field_gets_a_texture_and_loses_it() {
+    let mut bench = Bench::new("ball");
+    let before = bench.value("grey", "color");
+    bench.click("+");
+    bench.click("marble");
+    let id = bench.texture("marble");
+    assert_eq!(
+        bench.viewer.document.scene().painted_with(id),
+        [bench.material_id("grey")],
+        "{:?}",
+        bench.viewer.notice
+    );
+    bench.undo();
+    assert_eq!(bench.value("grey", "color"), before);
+    let mut bench = Bench::new("old");
+    let is_painted = |bench: &Bench| matches!(bench.value("worn", "reflectiveness"), Value::Textured(_));
+    assert!(is_painted(&bench));
+    bench.click("g");
+    bench.click("luminance");
+    let Value::Textured(textured) = bench.value("worn", "reflectiveness") else {
+        panic!("it lost its texture")
+    };
+    assert_eq!(textured.by.channel, Some(catoptra_core::texture::Channel::Luminance));
+    bench.undo();
+}
+
+#[test]
+fn another_kind_keeps_the_color_as_one_step() {
+    let mut bench = Bench::new("ball");
+    let (before, color) = (bench.material("grey").clone(), bench.value("grey", "color"));
+    bench.click("matte");
+    bench.click("plastic");
+    assert_eq!((bench.material("grey").kind_name(), bench.value("grey", "color")), ("plastic", color));
+    bench.undo();
+    assert_eq!(*bench.material("grey"), before);
+}
+
+#[test]
+fn glass_is_water_by_its_name() {
+    let mut bench = Bench::new("lens");
+    bench.click("preset");
+    bench.click("water");
+    assert_eq!(bench.value("clear", "ior"), Value::Number(1.333));
+    bench.undo();
+}
+
+#[test]
+fn a_named_metal_gets_a_color_and_a_name_again() {
+    let mut bench = Bench::new("ring");
+    let metal = |bench: &Bench, field: &str| bench.material("gold").values().get(field).cloned();
+    let named = |name: &str| Some(Value::Word(name.to_owned()));
+    bench.click("gold");
+    bench.click("copper");
+    assert_eq!(metal(&bench, "preset"), named("copper"));
+    bench.undo();
+    assert_eq!(metal(&bench, "preset"), named("gold"));
+    bench.click("0.97");
+    assert_eq!((metal(&bench, "preset"), metal(&bench, "color").is_some()), (None, true));
+    bench.click("–");
+    bench.click("silver");
+    assert_eq!((metal(&bench, "preset"), metal(&bench, "color")), (named("silver"), None));
+}
+
+#[test]
+fn a_name_that_is_typed_for_a_texture_becomes_its_name() {
+    let mut bench = Bench::new("ball");
+    let wood = bench.texture("wood");
+    bench.viewer.texture = Some(wood);
+    bench.viewer.typed_name = Some((Named::Texture(wood), "oak".to_owned()));
+    bench.frames(2);
+    assert_eq!(bench.viewer.document.scene().texture_name(wood), Some("oak"));
+    bench.undo();
+    bench.viewer.typed_name = Some((Named::Texture(wood), "noise".to_owned()));
+    bench.frames(2);
+    assert_eq!(bench.viewer.document.scene().texture_name(wood), Some("wood"), "that name is taken");
+    assert!(bench.viewer.notice.is_some());
+}
+
+#[test]
+fn a_texture_is_selected_and_its_wrapping_changed() {
+    let mut bench = Bench::new("ball");
+    bench.click("wood");
+    assert_eq!(bench.viewer.texture, Some(bench.texture("wood")));
+    bench.click("repeat");
+    bench.click("mirror");
+    let wood = bench.texture("wood");
+    let values = |bench: &Bench| bench.viewer.document.scene().find_texture(wood).unwrap().values();
+    assert_eq!(values(&bench).get("wrap"), Some(&Value::Word("mirror".to_owned())));
+    bench.undo();
+    assert_eq!(values(&bench).get("wrap"), Some(&Value::Word("repeat".to_owned())));
+    bench.click("×");
+    assert_eq!(values(&bench).get("wrap-v"), None);
+    bench.undo();
+}
+
+#[test]
+fn a_new_texture_comes_and_goes() {
+    let mut bench = Bench::new("ball");
+    bench.click("Add");
+    bench.click("marble-texture");
+    let id = bench.texture("marble-texture");
+    assert_eq!(bench.viewer.texture, Some(id));
+    bench.click("Remove");
+    assert_eq!(bench.viewer.document.scene().find_texture(id), None);
+    assert_eq!(bench.viewer.texture, None);
+}
+
+#[test]
+fn a_finish_gets_a_normal_map_and_loses_it() {
+    let mut bench = Bench::new("ball");
+    bench.click("Finish");
+    let finish = |bench: &Bench| bench.viewer.document.scene().finish(bench.material_id("grey"));
+    // Of the two that can be given, the normal map is the last.
+    bench.click("give");
+    assert_eq!(finish(&bench).normal_map().map(|map| map.texture), Some(bench.texture("wood")));
+    bench.click("×");
+    assert!(finish(&bench).is_plain());
+}
