@@ -16,7 +16,7 @@ use catoptra_tracer::{Control, Film, Pool, Size, Snapshot, View, backend_named, 
 /// # Panics
 /// When the scene has no camera, there is no such backend, or there are no threads: a test ends there.
 pub fn film(scene: &Scene, backend: &str, size: Size, threads: usize) -> Film {
-    let view = View::of(scene, camera_of(scene), size);
+    let view = View::of(scene, camera_of(scene), size).with_samples(1);
     traced(scene, backend, &view, Film::new(size), threads)
 }
 

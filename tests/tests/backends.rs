@@ -72,7 +72,7 @@ fn failures(name: &str, scene: &Scene) -> Vec<String> {
 #[test]
 fn every_backend_equals_the_oracle_on_every_shipped_scene() {
     let scenes = shipped_scenes();
-    assert!(scenes.len() >= 11, "eight seed scenes and three of the gallery, not {}", scenes.len());
+    assert!(scenes.len() >= 20, "eight seed scenes and twelve of the gallery, not {}", scenes.len());
     let failures: Vec<_> = scenes.iter().flat_map(|(name, scene)| failures(name, scene)).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }

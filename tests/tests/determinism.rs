@@ -28,9 +28,9 @@ fn scenes() -> Vec<(String, Scene)> {
     scenes
 }
 
-/// What a scene's first camera sees, with reflections and their order in play.
+/// What a scene's first camera sees by one sample a pixel, with reflections and their order in play.
 fn view(scene: &Scene) -> View {
-    View { moments: true, ..View::of(scene, camera_of(scene), ODD) }
+    View { moments: true, samples: 1, ..View::of(scene, camera_of(scene), ODD) }
 }
 
 /// A size that no tile divides, so that tiles at the border are cut.

@@ -109,7 +109,7 @@ fn scene(things: &str) -> Scene {
 }
 
 fn view(scene: &Scene, size: Size) -> View {
-    View { edges: Edges::Exact, ..View::of(scene, camera_of(scene), size) }
+    View { edges: Edges::Exact, samples: 1, ..View::of(scene, camera_of(scene), size) }
 }
 
 /// The root of the mean square of the differences, and the largest.

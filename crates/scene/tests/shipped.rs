@@ -25,7 +25,7 @@ fn shipped() -> Vec<PathBuf> {
 #[test]
 fn every_shipped_scene_loads_and_has_a_camera() {
     let files = shipped();
-    assert!(files.len() >= 11, "only {} scenes", files.len());
+    assert!(files.len() >= 20, "only {} scenes", files.len());
     for path in files {
         let (scene, _) = load(&path).unwrap_or_else(|e| panic!("{:?}", miette::Report::new(e)));
         assert!(scene.main_camera().is_some(), "{}", path.display());
