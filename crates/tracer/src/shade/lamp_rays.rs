@@ -94,12 +94,11 @@ impl<S: Simd> Shader<'_, S> {
         let s = self.s;
         let (zero, one) = (F::splat(s, 0.0), F::splat(s, 1.0));
         let smooth = self.search.snapshot.columns().smooth;
-        let (ground, smoothed) = (self.chunk.normal[at.slot], self.chunk.smooth[at.slot]);
-        let normal = if smooth { smoothed } else { ground };
+        let ground = self.chunk.normal[at.slot];
+        let normal = if smooth { self.chunk.smooth[at.slot] } else { ground };
         let sampler = self.block_sampler(at, tile);
         let count = self.view.lamp_rays_of_sample();
-        let first = self.sample.index.wrapping_mul(count);
-        let pair = pair_of_lamp(number, at.depth);
+        let (first, pair) = (self.sample.index.wrapping_mul(count), pair_of_lamp(number, at.depth));
         let may_be_blocked = lamp.shadow && !self.plan.lamps[number].blockers.is_empty();
         let glossy = self.chunk.glossy[at.slot];
         let area = F::splat(s, (lamp.area / f64::from(count)) as f32);
