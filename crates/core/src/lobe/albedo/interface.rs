@@ -17,7 +17,7 @@ use crate::optics::{reflect, refract};
 
 /// Ratios of indices (one of them is 1.5) and slopes in the table.
 const RATIOS: usize = 17;
-const ALPHAS: usize = 18;
+const ALPHAS: usize = 16;
 
 /// (n − 1)/(n + 1) of the largest ratio of indices in the table.
 const LARGEST: f64 = (LARGEST_ETA - 1.0) / (LARGEST_ETA + 1.0);
