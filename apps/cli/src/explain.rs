@@ -15,7 +15,9 @@ use crate::{Outcome, interrupt, progress};
 pub(crate) fn run(args: &ExplainArgs) -> Result<Outcome> {
     let means = Means::of(&args.job)?;
     check_heard()?;
-    let job = Job::new(&args.job, means, &[])?;
+    let mut job = Job::new(&args.job, means, &[])?;
+    // A frame tells the same of the work for a sample as many do.
+    job.view.samples = args.job.samples.unwrap_or(1);
     job.warn_of_idle(&args.job);
     let control = interrupt::control();
     let mut film = job.film()?;

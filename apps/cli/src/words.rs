@@ -17,7 +17,7 @@ pub(crate) fn thousands(number: u64) -> String {
 pub(crate) fn counted(number: u64, what: &str) -> String {
     let ending = match number {
         1 => "",
-        _ if what.ends_with('x') || what.ends_with("sh") => "es",
+        _ if what.ends_with(['x', 's']) || what.ends_with("sh") => "es",
         _ => "s",
     };
     format!("{} {what}{ending}", thousands(number))

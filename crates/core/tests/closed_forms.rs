@@ -466,7 +466,7 @@ fn power_is_spread_over_the_surface_and_all_directions() {
         assert!((scaled.emission.radiance.g * 4.0 / lamp.emission.radiance.g - 1.0).abs() < 1e-14);
         let both = light.values().with("radiance", Value::Color(Rgb::WHITE));
         let both = (light.kind().make)(&both).unwrap_err();
-        assert_eq!(both.to_string(), "power must not be given beside radiance, not given");
+        assert_eq!(both.to_string(), "power must be given alone, not beside radiance");
     }
     let [(rectangle, flux_of_one), (disk, _), (sphere, _)] = surface_lights(12.0);
     let two_sided = rectangle.with("two-sided", Value::Flag(true)).unwrap().lamp().unwrap();

@@ -256,12 +256,13 @@ impl Part for EnvironmentLight {
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         let (radiance, picture) = match (given.has("radiance"), given.has("file")) {
             (true, true) => {
-                return Err(InvalidPart::new("file", "must not be given beside radiance", "given"));
+                return Err(InvalidPart::new("file", "must be given alone", "beside radiance"));
             }
             (false, true) => {
                 (Rgb::BLACK, Some(Picture { source: given.image("file")?, spread: Arc::default() }))
             }
-            _ => (given.quantity("radiance")?, None),
+            (true, false) => (given.quantity("radiance")?, None),
+            (false, false) => return Err(InvalidPart::new("radiance", "must be given, or file", "missing")),
         };
         Ok(Self {
             radiance: radiance.into(),

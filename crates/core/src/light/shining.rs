@@ -74,7 +74,7 @@ impl Shining {
             (true, false) => Output::Radiance(given.quantity("radiance")?),
             (false, true) => Output::Power(given.quantity("power")?),
             (true, true) => {
-                return Err(InvalidPart::new("power", "must not be given beside radiance", "given"));
+                return Err(InvalidPart::new("power", "must be given alone", "beside radiance"));
             }
             (false, false) => {
                 return Err(InvalidPart::new("radiance", "must be given, or power", "missing"));

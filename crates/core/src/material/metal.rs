@@ -100,7 +100,7 @@ impl Part for Metal {
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         let reflectance = match (given.has("color"), given.has("preset")) {
             (true, true) => {
-                return Err(InvalidPart::new("preset", "must not be given beside color", "given"));
+                return Err(InvalidPart::new("preset", "must be given alone", "beside color"));
             }
             (false, true) => Reflectance::Preset(given.choice("preset")?),
             (_, false) => Reflectance::Color(given.paint("color")?),

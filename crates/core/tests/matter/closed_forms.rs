@@ -190,7 +190,7 @@ fn metals_by_name_have_the_colour_of_the_name() {
     }
     let both = metal.values().with("preset", Value::Word("gold".into()));
     let refused = (metal.kind().make)(&both).unwrap_err().to_string();
-    assert_eq!(refused, "preset must not be given beside color, not given");
+    assert_eq!(refused, "preset must be given alone, not beside color");
 }
 
 #[test]

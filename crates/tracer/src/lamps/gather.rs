@@ -98,15 +98,24 @@ fn blockers<'a>(
             Some(blocker) if contour::may_hide(at.point, at.normal, &lamp.outline, blocker) => {
                 blockers.try_push((blocker, leaving)).ok()?;
             }
-            None if may_hide(snapshot, lamp, prim, at) => return None,
+            None if may_stand_between(snapshot, lamp, prim, at) => return None,
             _ => {}
         }
     }
     Some(blockers)
 }
 
-/// Whether a shape without an outline may hide some of a lamp from a point.
-fn may_hide(snapshot: &Snapshot, lamp: &LampRow, prim: u32, at: &LitPoint) -> bool {
+/// Whether a shape may hide some of a lamp from a point.
+pub(crate) fn may_hide(snapshot: &Snapshot, lamp: &LampRow, prim: u32, at: &LitPoint) -> bool {
+    let outlined = match &snapshot.lamps().blockers[prim as usize] {
+        Some(blocker) => contour::may_hide(at.point, at.normal, &lamp.outline, blocker),
+        None => true,
+    };
+    outlined && may_stand_between(snapshot, lamp, prim, at)
+}
+
+/// Whether the ball round a shape reaches between a point and a lamp.
+fn may_stand_between(snapshot: &Snapshot, lamp: &LampRow, prim: u32, at: &LitPoint) -> bool {
     let Some(bounds) = snapshot.prims()[prim as usize].shape.bounds() else { return true };
     let ball = Ball::round(bounds);
     let origin = snapshot.origin_in_frame();

@@ -5,7 +5,7 @@ mod gather;
 mod lanes;
 mod rays;
 
-pub(crate) use gather::{Gathered, LitPoint, gather, gather_for_rays};
+pub(crate) use gather::{Gathered, LitPoint, gather, gather_for_rays, may_hide};
 pub(crate) use lanes::{BallOutline, Outline, open_from_afar};
 pub(crate) use rays::{
     Drawn, Found, Half, LampRay, LampRays, PickedRay, follow, follow_picked, half_of_ray, pair_of_lamp,

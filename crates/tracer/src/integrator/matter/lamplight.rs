@@ -3,14 +3,13 @@
 use std::f64::consts::PI;
 
 use catoptra_core::Rgb;
-use catoptra_core::contour;
 use catoptra_core::glam::DVec3;
 
 use super::{Estimate, Numbers, Origin, PathRay, Vertex};
 use crate::LampLight;
 use crate::integrator::Search;
 use crate::integrator::walker::Walker;
-use crate::lamps::{Found, Gathered, LampRay, LampRays, LitPoint, gather_for_rays, picked};
+use crate::lamps::{Found, Gathered, LampRay, LampRays, LitPoint, gather_for_rays, may_hide, picked};
 use crate::snapshot::LampRow;
 
 /// Rays to each lamp from every point of a path.
@@ -79,12 +78,10 @@ impl<S: Search> Walker<'_, S> {
         let matter = snapshot.matter();
         let is_clear = |prim: u32| matter.row(&snapshot.prims()[prim as usize]).is_see_through();
         if matter.is_see_through && lamp.shadow {
+            // Asked alike whoever searches, so that all find the same light in the same way.
             let found = self.sight.blockers(self.search, snapshot, lamp, at);
-            let may_hide = |prim: u32| match &snapshot.lamps().blockers[prim as usize] {
-                Some(blocker) => contour::may_hide(at.point, at.normal, &lamp.outline, blocker),
-                None => true,
-            };
-            if found.iter().any(|&prim| is_clear(prim) && may_hide(prim)) {
+            let counts = |prim: u32| is_clear(prim) && !snapshot.lamps().is_wall_of(prim, at.point);
+            if found.iter().any(|&prim| counts(prim) && may_hide(snapshot, lamp, prim, at)) {
                 return gather_for_rays(lamp, at, stats);
             }
         }
