@@ -18,24 +18,6 @@ pub(super) struct LampSight {
 }
 
 impl LampSight {
-    /// The shapes that may stand between a point and a lamp.
-    pub(super) fn blockers<S: Search>(
-        &mut self,
-        search: &S,
-        snapshot: &Snapshot,
-        lamp: &LampRow,
-        at: &LitPoint,
-    ) -> &[u32] {
-        self.blockers.clear();
-        if lamp.shadow {
-            let prim = at.surface.map_or(NOTHING, |surface| surface.prim);
-            let here = PointBounds::at(prim, at.point - snapshot.origin_in_frame());
-            search.find_blockers(snapshot, lamp, &here, &mut self.blockers);
-            self.blockers.sort_unstable();
-        }
-        &self.blockers
-    }
-
     /// What a lamp of unit radiance gives to a point.
     pub(super) fn gather<S: Search>(
         &mut self,
@@ -45,7 +27,13 @@ impl LampSight {
         at: &LitPoint,
         stats: &mut LampStats,
     ) -> Gathered {
-        self.blockers(search, snapshot, lamp, at);
+        self.blockers.clear();
+        if lamp.shadow {
+            let prim = at.surface.map_or(NOTHING, |surface| surface.prim);
+            let here = PointBounds::at(prim, at.point - snapshot.origin_in_frame());
+            search.find_blockers(snapshot, lamp, &here, &mut self.blockers);
+            self.blockers.sort_unstable();
+        }
         gather(snapshot, lamp, self.blockers.iter().copied(), at, &mut self.scratch, stats)
     }
 }

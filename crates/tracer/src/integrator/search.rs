@@ -44,8 +44,6 @@ impl Search for Trees {
         blockers: &mut Vec<u32>,
     ) {
         blockers_between(snapshot, lamp, point, false, blockers);
-        let here = point.center + snapshot.origin_in_frame();
-        blockers.retain(|prim| !snapshot.lamps().is_wall_of(*prim, here));
     }
 }
 

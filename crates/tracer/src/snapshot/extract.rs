@@ -77,7 +77,7 @@ impl Extraction {
         let lamps = self.lamps(&prims, frame, origin);
         Snapshot {
             lamps,
-            matter: self.matter(origin),
+            matter: self.matter(&prims, origin),
             origin,
             frame,
             preset,
@@ -126,13 +126,19 @@ impl Extraction {
         Lamps::new(prims, |material| shining[material as usize], &unseen, origin - frame)
     }
 
-    fn matter(&self, origin: DVec3) -> Matter {
+    fn matter(&self, prims: &[Prim], origin: DVec3) -> Matter {
         let parts = &self.parts;
         let finishes = parts.finishes.iter().copied().chain(std::iter::repeat(Finish::default()));
         let materials: Vec<_> = self.materials().map(|material| material.relative_to(origin)).collect();
         let surroundings =
             parts.lights.iter().filter_map(|light| light.part.environment().cloned()).collect();
-        Matter::new(materials.iter().zip(finishes), parts.textures.clone(), self.own.clone(), surroundings)
+        Matter::new(
+            prims,
+            materials.iter().zip(finishes),
+            parts.textures.clone(),
+            self.own.clone(),
+            surroundings,
+        )
     }
 
     /// Whether the shapes are those of a snapshot, bit for bit, for no edit has touched any.

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use catoptra_core::contour::{self, Blocker};
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Aabb, Constant3, Emission, Lamp, Shape};
+use catoptra_core::{Constant3, Emission, Lamp, Shape};
 
 use super::lamp_tree::LampTree;
 use super::{Ball, Prim};
@@ -48,21 +48,6 @@ impl FlatLamp {
     }
 }
 
-/// See [`Lamps::walls`].
-fn walls(prims: &[Prim], unseen: &[Lamp]) -> Option<(Aabb, Vec<bool>)> {
-    let shapes = prims.iter().map(|prim| &prim.shape).chain(unseen.iter().map(|lamp| &lamp.shape));
-    let boxes: Option<Vec<Aabb>> = shapes.map(Shape::bounds).collect();
-    let all = boxes?.into_iter().reduce(Aabb::union)?;
-    let is_wall = |prim: &Prim| {
-        let Shape::Rectangle(rectangle) = &prim.shape else { return false };
-        let [u, v] = rectangle.edges();
-        let side = |corner: DVec3| u.cross(v).dot(corner - rectangle.corner());
-        let sides = all.corners().map(side);
-        sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0)
-    };
-    Some((all, prims.iter().map(is_wall).collect()))
-}
-
 /// Up to so many lamps every point asks each of them; of more it asks some, picked at random.
 pub(crate) const MOST_LAMPS: usize = 1000;
 
@@ -85,9 +70,6 @@ pub(crate) struct Lamps {
     pub(crate) tree: Option<LampTree>,
     /// Shapes that shine but light nothing, as they have no end.
     pub(crate) endless: Vec<u32>,
-    /// A box round all that there is, and the flat shapes that have all of it on one side: they stand between no two points
-    /// within it. Nothing where something has no end.
-    pub(crate) walls: Option<(Aabb, Vec<bool>)>,
     /// Square metres of each shape that lights others, one side of it.
     pub(crate) areas: HashMap<u32, f64>,
 }
@@ -119,14 +101,8 @@ impl Lamps {
             lamps.tree = Some(LampTree::new(&lamps.rows.iter().map(power).collect::<Vec<_>>()));
         } else if !lamps.rows.is_empty() {
             lamps.blockers = prims.iter().map(|prim| Blocker::of(&prim.shape)).collect();
-            lamps.walls = walls(prims, unseen);
         }
         lamps
-    }
-
-    /// Whether a shape stands between no point of the snapshot's frame and any lamp.
-    pub(crate) fn is_wall_of(&self, prim: u32, point: DVec3) -> bool {
-        self.walls.as_ref().is_some_and(|(all, walls)| walls[prim as usize] && all.contains(point))
     }
 
     /// Those that every point asks: all, or none where they are so many that some are picked.

@@ -47,7 +47,9 @@ pub(crate) struct Matter {
     own: BTreeMap<u32, OwnShape>,
     /// Light from all around; without any the background.
     pub(crate) surroundings: Vec<Environment>,
-    /// Whether any surface is see-through.
+    /// The shapes that light goes through.
+    pub(crate) clear: Vec<u32>,
+    /// Whether there are any.
     pub(crate) is_see_through: bool,
     /// Whether lanes alone cannot shade the scene.
     pub(crate) is_needed: bool,
@@ -55,6 +57,7 @@ pub(crate) struct Matter {
 
 impl Matter {
     pub(super) fn new<'a>(
+        prims: &[Prim],
         materials: impl Iterator<Item = (&'a Material, Finish)>,
         textures: BTreeMap<TextureId, Texture>,
         own: BTreeMap<u32, OwnShape>,
@@ -66,8 +69,11 @@ impl Matter {
             is_needed |= material.needs_bsdf() || !row.is_plain();
             rows.push(row);
         }
-        let is_see_through = rows.iter().any(MatterRow::is_see_through);
-        Self { rows, textures, own, surroundings, is_see_through, is_needed }
+        let is_clear = |prim: &Prim| rows[prim.material as usize].is_see_through();
+        let clear: Vec<u32> =
+            prims.iter().zip(0..).filter(|(prim, _)| is_clear(prim)).map(|(_, at)| at).collect();
+        let is_see_through = !clear.is_empty();
+        Self { rows, textures, own, surroundings, clear, is_see_through, is_needed }
     }
 
     /// Of a shape.

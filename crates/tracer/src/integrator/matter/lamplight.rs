@@ -75,15 +75,10 @@ impl<S: Search> Walker<'_, S> {
         if self.frame.view.lamp_light != LampLight::Exact {
             return gather_for_rays(lamp, at, stats);
         }
-        let matter = snapshot.matter();
-        let is_clear = |prim: u32| matter.row(&snapshot.prims()[prim as usize]).is_see_through();
-        if matter.is_see_through && lamp.shadow {
-            // Asked alike whoever searches, so that all find the same light in the same way.
-            let found = self.sight.blockers(self.search, snapshot, lamp, at);
-            let counts = |prim: u32| is_clear(prim) && !snapshot.lamps().is_wall_of(prim, at.point);
-            if found.iter().any(|&prim| counts(prim) && may_hide(snapshot, lamp, prim, at)) {
-                return gather_for_rays(lamp, at, stats);
-            }
+        // Asked alike whoever searches, so that all find the same light in the same way.
+        let clear = &snapshot.matter().clear;
+        if lamp.shadow && clear.iter().any(|&prim| may_hide(snapshot, lamp, prim, at)) {
+            return gather_for_rays(lamp, at, stats);
         }
         self.sight.gather(self.search, snapshot, lamp, at, stats)
     }
