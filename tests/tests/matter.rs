@@ -336,3 +336,19 @@ fn what_is_not_opaque_shows_what_is_behind_and_lets_light_through() {
     let (whole, half, none) = (light("; opacity 0"), light("; opacity 0.3"), light(""));
     assert!(whole > 0.1 && none == 0.0 && (half / whole - 0.7).abs() < 1e-6, "{whole} {half} {none}");
 }
+
+#[test]
+fn paths_choose_anew_at_every_veil() {
+    let veil = |i: u32| {
+        format!("rectangle \"v{i}\" material=\"m\" {{ corner -2 -2 -{i}; edge-u 4 0 0; edge-v 0 4 0 }}\n")
+    };
+    let scene = parsed(&format!(
+        "camera \"c\" {{ eye 0 0 5; target 0 0 0; fov 10 }}\nsettings {{ background 1 }}\nmatte \"m\" {{ color 0; opacity 0.5 }}\n{}",
+        (0..3).map(veil).collect::<String>()
+    ));
+    let size = Size::new(24, 24);
+    for backend in ["scalar", "wide"] {
+        let found = mean(&traced(&scene, backend, &paths(&scene, size, 64), Film::new(size), 2), size);
+        assert!((found - 0.125).abs() < 0.01, "{backend}: {found}");
+    }
+}

@@ -19,7 +19,15 @@ pub(crate) mod pairs {
     /// Where from all around light comes: from here on one for every bounce.
     const SURROUNDINGS: u32 = 3 << 29;
 
-    /// One of the choices of a path after so many bounces, of four.
+    /// Whether a path passes a surface that is not opaque: from here on one for every surface after a bounce.
+    const PASSAGES: u32 = 7 << 28;
+
+    /// Whether a path passes the surface that it comes to after so many bounces and surfaces passed since.
+    pub(crate) const fn passage(depth: u32, passed: u32) -> u32 {
+        PASSAGES.wrapping_add(depth.wrapping_mul(1 << 12)).wrapping_add(passed)
+    }
+
+    /// One of the choices of a path after so many bounces, of four at most.
     pub(crate) const fn bounce(depth: u32, choice: u32) -> u32 {
         BOUNCES.wrapping_add(depth.wrapping_mul(4)).wrapping_add(choice)
     }

@@ -38,8 +38,9 @@ impl Bounce for Path {
     ) -> Rgb {
         let pair =
             |choice: u32| numbers.sampler.pair(numbers.sample, pairs::bounce(path.depth, choice)).map(share);
-        let ([choose, survive], [through, _]) = (pair(0), pair(2));
-        let (u, texel) = (pair(1), pair(3));
+        let ([choose, survive], u, texel) = (pair(0), pair(1), pair(2));
+        let passage = pairs::passage(path.depth, path.passed);
+        let [through, _] = numbers.sampler.pair(numbers.sample, passage).map(share);
         let (vertex, path) = match walker.arrive(path, hit, Some(texel)) {
             Met::Nothing(path) => return path.weight * walker.surroundings(&path),
             Met::Passed(on) => {

@@ -3,10 +3,10 @@
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Rgb, Span};
 
-use super::{Bounce, Media, Numbers, Origin, PathRay, Spread};
+use super::{Media, Numbers, Origin, PathRay};
+use crate::integrator::Trees;
 use crate::integrator::path::Path;
 use crate::integrator::walker::Walker;
-use crate::integrator::{Search, Trees};
 use crate::{Frame, SurfaceId};
 
 /// Radiance that arrives at a point of the snapshot's frame, which some surface may hold, along a path that begins with a
@@ -26,21 +26,8 @@ pub(in crate::integrator) fn light_along(
         let all = snapshot.matter().surroundings.iter().map(|environment| environment.radiance(direction));
         return open * all.fold(Rgb::BLACK, |sum, light| sum + light);
     }
-    let mut next = PathRay {
-        ray,
-        leaving,
-        weight: Rgb::WHITE,
-        glossy: Rgb::BLACK,
-        origin: Origin::Apart,
-        depth: 1,
-        media,
-        spread: Spread::Cone { width: 0.0, growth: 0.0 },
-    };
-    let mut light = Rgb::BLACK;
-    loop {
-        let hit = Trees.nearest(snapshot, &next.ray, Span::AHEAD, next.leaving);
-        light += Path::meet(&mut walker, next, hit, numbers);
-        let Some(path) = walker.pending.pop() else { return light };
-        next = path;
-    }
+    let path = PathRay::new(ray, leaving, media);
+    walker
+        .follow_ray::<Path>(PathRay { glossy: Rgb::BLACK, origin: Origin::Apart, depth: 1, ..path }, numbers)
+        .0
 }

@@ -52,30 +52,39 @@ pub(super) struct PathRay {
     pub(super) origin: Origin,
     /// How many bounces it came by.
     pub(super) depth: u32,
+    /// How many surfaces it has passed since the last one.
+    pub(super) passed: u32,
     pub(super) media: Media,
     pub(super) spread: Spread,
 }
 
 impl PathRay {
-    /// Of the camera, and what it stands for a square of the picture of that side, in pixels.
-    pub(super) fn from_camera(frame: &Frame<'_>, ray: Ray, side: f64, media: &Media) -> Self {
+    /// One that begins a path and stands for no more than itself.
+    pub(super) fn new(ray: Ray, leaving: Option<SurfaceId>, media: Media) -> Self {
         Self {
             ray,
-            leaving: None,
+            leaving,
             weight: Rgb::WHITE,
             glossy: Rgb::WHITE,
             origin: Origin::Alone,
             depth: 0,
-            media: media.clone(),
-            spread: Spread::of_pixel(&frame.raster, side),
+            passed: 0,
+            media,
+            spread: Spread::Cone { width: 0.0, growth: 0.0 },
         }
+    }
+
+    /// Of the camera, and what it stands for a square of the picture of that side, in pixels.
+    pub(super) fn from_camera(frame: &Frame<'_>, ray: Ray, side: f64, media: &Media) -> Self {
+        Self { spread: Spread::of_pixel(&frame.raster, side), ..Self::new(ray, None, media.clone()) }
     }
 
     /// The ray that goes straight on from a hit.
     fn straight_on(self, hit: &Hit, point: DVec3) -> Self {
         let spread = self.spread.after(&self.ray, hit.crossing.t, 0.0);
         let direction = self.ray.direction;
-        Self { ray: Ray::new(point, direction), leaving: Some(hit.surface), spread, ..self }
+        let passed = self.passed + 1;
+        Self { ray: Ray::new(point, direction), leaving: Some(hit.surface), passed, spread, ..self }
     }
 }
 
@@ -105,20 +114,23 @@ impl<S: Search> Walker<'_, S> {
         let numbers = Numbers { sampler: camera.sampler, sample: camera.sample };
         let side = camera.side.unwrap_or_else(|| self.frame.view.side_of_sample());
         let media = Media::round_eye(self.frame);
-        let mut next = PathRay::from_camera(self.frame, camera.ray, side, &media);
-        let (mut light, mut first, mut is_first) = (Rgb::BLACK, None, true);
         self.stats.rays.primary += 1;
+        self.follow_ray::<B>(PathRay::from_camera(self.frame, camera.ray, side, &media), &numbers)
+    }
+
+    /// The light that arrives along a ray and all that go on from it, and what the ray meets first.
+    fn follow_ray<B: Bounce>(&mut self, first: PathRay, numbers: &Numbers) -> (Rgb, Option<Hit>) {
+        let nearest = |walker: &Self, path: &PathRay| {
+            walker.search.nearest(walker.frame.snapshot, &path.ray, Span::AHEAD, path.leaving)
+        };
         self.pending.clear();
-        loop {
-            let hit = self.search.nearest(self.frame.snapshot, &next.ray, Span::AHEAD, next.leaving);
-            if is_first {
-                (first, is_first) = (hit, false);
-            }
-            light += B::meet(self, next, hit, &numbers);
-            let Some(path) = self.pending.pop() else { break };
+        let first_hit = nearest(self, &first);
+        let mut light = B::meet(self, first, first_hit, numbers);
+        while let Some(path) = self.pending.pop() {
             self.stats.rays.reflection += 1;
-            next = path;
+            let hit = nearest(self, &path);
+            light += B::meet(self, path, hit, numbers);
         }
-        (light, first)
+        (light, first_hit)
     }
 }

@@ -57,6 +57,7 @@ impl Vertex<'_> {
             glossy: weight,
             origin,
             depth: path.depth + 1,
+            passed: 0,
             media: media.clone(),
             spread: path.spread.after(&path.ray, self.surface.hit.crossing.t, self.widening(origin)),
         }

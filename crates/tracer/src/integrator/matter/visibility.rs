@@ -5,10 +5,9 @@
 
 use catoptra_core::{Ray, Rgb, Span};
 
-use super::{Media, Met, PathRay, Spread};
+use super::{Media, Met, PathRay};
 use crate::SurfaceId;
 use crate::integrator::Search;
-use crate::integrator::matter::Origin;
 use crate::integrator::walker::Walker;
 
 /// Surfaces that a shadow ray may pass before it counts as blocked.
@@ -28,16 +27,7 @@ impl<S: Search> Walker<'_, S> {
             let blocked = self.search.occluded(snapshot, &ray, span, leaving);
             return if blocked { Rgb::BLACK } else { Rgb::WHITE };
         }
-        let mut path = PathRay {
-            ray,
-            leaving,
-            weight: Rgb::WHITE,
-            glossy: Rgb::WHITE,
-            origin: Origin::Alone,
-            depth: 0,
-            media: media.clone(),
-            spread: Spread::Cone { width: 0.0, growth: 0.0 },
-        };
+        let mut path = PathRay::new(ray, leaving, media.clone());
         let mut left = span.max;
         for _ in 0..MOST_SURFACES {
             let rest = Span { max: left, ..span };
