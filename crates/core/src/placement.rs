@@ -39,6 +39,11 @@ impl Placement {
         Ok(Self { rotation: rotation.normalize(), translation, scale })
     }
 
+    /// A move and nothing else; nowhere where it is not finite.
+    pub(crate) fn offset(by: DVec3) -> Self {
+        Self { translation: if by.is_finite() { by } else { DVec3::ZERO }, ..Self::IDENTITY }
+    }
+
     /// Afterwards moved by `by`.
     ///
     /// # Errors

@@ -8,7 +8,7 @@ use std::time::Instant;
 fn main() {
     for name in std::env::args().skip(1) {
         let start = Instant::now();
-        match catoptra_scene::mesh::read(Path::new(&name)) {
+        match catoptra_scene::model::read_mesh(Path::new(&name)) {
             Err(error) => println!("{error}"),
             Ok(mesh) => {
                 let took = start.elapsed();

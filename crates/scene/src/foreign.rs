@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::mesh;
+use crate::model;
 
 /// Endings of models that no mesh is read from here.
 const MODELS: &[&str] =
@@ -37,7 +37,7 @@ pub(crate) fn told(name: &Path, bytes: &[u8]) -> Option<(String, String)> {
         name.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
     let ending = by_content(bytes).unwrap_or(&given);
     let shown = name.display();
-    if mesh::ENDINGS.contains(&ending) {
+    if model::endings().any(|known| known == ending) {
         let rename = if given == ending { String::new() } else { format!("call it something.{ending} and ") };
         let help =
             format!("{rename}name it in a scene: mesh \"NAME\" material=\"MATERIAL\" {{ file \"{shown}\" }}");
@@ -50,7 +50,7 @@ pub(crate) fn told(name: &Path, bytes: &[u8]) -> Option<(String, String)> {
     if MODELS.contains(&ending) {
         let help = format!(
             "make it a mesh ({}) and name that in a scene: mesh \"NAME\" material=\"MATERIAL\" {{ file \"...\" }}",
-            mesh::ENDINGS.iter().map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(" or ")
+            model::endings().map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(" or ")
         );
         return Some((format!("is a model (.{ending}), not a scene"), help));
     }

@@ -4,7 +4,7 @@
 //!   [`Scene`](catoptra_core::scene::Scene) and a [`SceneFile`] that keeps the text; [`SceneFile::save`] writes back
 //!   only what has changed. The grammar follows the lists of kinds in the core: a new shape, light or material is
 //!   read and written without a change here.
-//! * [`mesh`] reads triangle meshes, [`ies`] how luminaires shine, [`image`] reads and writes PNG pictures.
+//! * [`model`] reads models and meshes, [`ies`] how luminaires shine, [`image`] reads and writes PNG pictures.
 //! * [`atomic`] writes any file whole or not at all, and says beforehand whether it can, and [`words`] finds the word that a misspelt one was meant to be.
 //!
 //! Whatever a file holds, reading it ends in a value or in an error that says what, where and what to do: never in a
@@ -19,7 +19,7 @@ mod file;
 mod foreign;
 pub mod ies;
 pub mod image;
-pub mod mesh;
+pub mod model;
 mod outline;
 mod printable;
 mod read;

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use catoptra_core::TriangleMesh;
-use catoptra_scene::mesh::{MeshError, read, read_bytes};
+use catoptra_scene::model::{ModelError, read_mesh, read_mesh_bytes};
 
 /// The header of an ascii PLY of a triangle, and its rows.
 fn ascii(header: &str, rows: &str) -> Vec<u8> {
@@ -251,7 +251,7 @@ fn every_bad_mesh_is_refused_with_its_place() {
     let mut wrong = Vec::new();
     for (name, cases) in [("bad.ply", bad_plys()), ("bad.obj", bad_objs())] {
         for Case(what, bytes, message) in cases {
-            match read_bytes(&bytes, Path::new(name)) {
+            match read_mesh_bytes(&bytes, Path::new(name)) {
                 Ok(_) => wrong.push(format!("{what} ({name}) was read")),
                 Err(e) if e.to_string().starts_with(name) && e.to_string().contains(message) => {}
                 Err(e) => wrong.push(format!("{what} ({name}): expected {message:?}, got {e}")),
@@ -262,7 +262,7 @@ fn every_bad_mesh_is_refused_with_its_place() {
 }
 
 fn good(bytes: &[u8], name: &str) -> TriangleMesh {
-    read_bytes(bytes, Path::new(name)).unwrap_or_else(|e: MeshError| panic!("{e}"))
+    read_mesh_bytes(bytes, Path::new(name)).unwrap_or_else(|e: ModelError| panic!("{e}"))
 }
 
 #[test]
@@ -314,7 +314,7 @@ fn corners_with_other_normals_become_vertices_of_their_own() {
 #[test]
 fn what_is_no_mesh_file_is_refused_by_its_name() {
     for name in ["/no/such.ply", "/etc/passwd", "/no/such.stl", "/"] {
-        let error = read(Path::new(name)).unwrap_err();
+        let error = read_mesh(Path::new(name)).unwrap_err();
         assert!(error.to_string().starts_with(name), "{error}");
         assert_eq!((error.line(), error.file()), (None, Path::new(name)));
     }

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use catoptra_scene::mesh::read_bytes;
+use catoptra_scene::model::read_mesh_bytes;
 use catoptra_scene::{SceneTextError, parse};
 
 fn refused(text: &str) -> SceneTextError {
@@ -73,7 +73,7 @@ fn of_long_words_and_comments_only_a_piece_is_shown() {
         assert!(shown.len() < 5000, "{} bytes: {}", shown.len(), &shown[..2000]);
     }
     let obj = format!("v 0 0 {long}\n");
-    assert!(read_bytes(obj.as_bytes(), Path::new("m.obj")).unwrap_err().to_string().len() < 1000);
+    assert!(read_mesh_bytes(obj.as_bytes(), Path::new("m.obj")).unwrap_err().to_string().len() < 1000);
 }
 
 #[test]
@@ -112,7 +112,7 @@ fn names_in_meshes_and_of_meshes_are_spelled_out() {
     for (bytes, name) in
         [(obj, "\u{1b}[2J.obj"), (ply, "m\u{202e}.ply"), (obj, "m\n.obj"), ("", "a\u{7}.stl")]
     {
-        let shown = read_bytes(bytes.as_bytes(), Path::new(name)).unwrap_err().to_string();
+        let shown = read_mesh_bytes(bytes.as_bytes(), Path::new(name)).unwrap_err().to_string();
         assert!(!shown.contains(|c: char| c.is_control() || c == '\u{202e}'), "{shown:?}");
     }
     let error = catoptra_scene::image::read_png(Path::new("/no/\u{1b}[2J.png")).unwrap_err();

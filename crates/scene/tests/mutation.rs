@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use catoptra_core::scene::Edit;
-use catoptra_scene::mesh::read_bytes;
+use catoptra_scene::model::read_mesh_bytes;
 use catoptra_scene::parse;
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
@@ -167,7 +167,7 @@ fn no_damaged_mesh_panics() {
     let (mut read, mut refused) = (0, 0);
     for i in 0..40_000 {
         let (name, original) = &meshes[i % meshes.len()];
-        match read_bytes(&damaged(original, &mut random), Path::new(name)) {
+        match read_mesh_bytes(&damaged(original, &mut random), Path::new(name)) {
             Ok(_) => read += 1,
             Err(error) => {
                 refused += 1;
@@ -184,9 +184,9 @@ fn no_damaged_mesh_panics() {
 #[test]
 fn every_truncation_of_a_mesh_is_refused_or_read() {
     for (name, bytes) in meshes() {
-        read_bytes(&bytes, Path::new(name)).unwrap();
+        read_mesh_bytes(&bytes, Path::new(name)).unwrap();
         for end in 0..bytes.len() {
-            let _ = read_bytes(&bytes[..end], Path::new(name));
+            let _ = read_mesh_bytes(&bytes[..end], Path::new(name));
         }
     }
 }

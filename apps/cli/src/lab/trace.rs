@@ -9,7 +9,7 @@ use catoptra_core::geometry::Mesh;
 use catoptra_core::glam::DVec3;
 use catoptra_core::material::Matte;
 use catoptra_core::{Camera, MeshSource, Ray, Rgb, Scene, TriangleMesh};
-use catoptra_scene::mesh;
+use catoptra_scene::model;
 use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
 use catoptra_tracer::{Backend, Pool, Preset, Size, Snapshot, View};
 use clap::Args;
@@ -141,7 +141,7 @@ fn mesh_bytes(mesh: &TriangleMesh) -> usize {
 
 /// A scene of one mesh.
 fn scene_of(path: &Path) -> Result<Scene> {
-    let mesh = mesh::read(path)?;
+    let mesh = model::read_mesh(path)?;
     let mut scene = Scene::new();
     let clay = scene.add_material("clay", Matte::new(Rgb::grey(0.5)).into_diagnostic()?).into_diagnostic()?;
     let source = MeshSource { path: path.display().to_string(), mesh: mesh.into() };

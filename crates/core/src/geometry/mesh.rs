@@ -21,10 +21,11 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// An instance in the mesh's own space.
+    /// An instance where the file has it.
     #[must_use]
     pub fn new(source: MeshSource) -> Self {
-        Self { source, to_world: Placement::IDENTITY, to_object: Placement::IDENTITY }
+        let to_world = Placement::offset(source.mesh.offset());
+        Self { source, to_world, to_object: to_world.inverse() }
     }
 
     /// The triangles and where they came from.

@@ -14,6 +14,8 @@ pub struct TriangleMesh {
     triangles: Vec<[u32; 3]>,
     normals: Option<Vec<[f32; 3]>>,
     uvs: Option<Vec<[f32; 2]>>,
+    colors: Option<Vec<[f32; 3]>>,
+    offset: DVec3,
     bounds: Aabb,
 }
 
@@ -44,7 +46,34 @@ impl TriangleMesh {
             check_finite("uvs", uvs, positions.len())?;
         }
         let bounds = Aabb::of(positions.iter().map(|&p| widen(p)));
-        Ok(Self { positions, triangles, normals, uvs, bounds })
+        Ok(Self { positions, triangles, normals, uvs, colors: None, offset: DVec3::ZERO, bounds })
+    }
+
+    /// With colours (linear Rec. 709), as many as corners; a `vertex-color-texture` shows them.
+    ///
+    /// # Errors
+    /// Colours that are not finite or not as many as the positions.
+    pub fn with_colors(self, colors: Vec<[f32; 3]>) -> Result<Self, InvalidPart> {
+        check_finite("colors", &colors, self.positions.len())?;
+        Ok(Self { colors: Some(colors), ..self })
+    }
+
+    /// The same, round a point: of corners far from zero, `f32` keeps what lies between them and `f64` where they stand.
+    #[must_use]
+    pub fn with_offset(self, offset: DVec3) -> Self {
+        Self { offset, ..self }
+    }
+
+    /// Where the origin of the mesh's own space lies before it is placed.
+    #[must_use]
+    pub fn offset(&self) -> DVec3 {
+        self.offset
+    }
+
+    /// Colours, as many as corners, linear Rec. 709.
+    #[must_use]
+    pub fn colors(&self) -> Option<&[[f32; 3]]> {
+        self.colors.as_deref()
     }
 
     /// Corners, metres, in the mesh's own space.

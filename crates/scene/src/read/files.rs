@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use catoptra_core::{Image, ImageSource, IntensityProfile, MeshSource, ProfileSource, TriangleMesh, Value};
 
-use crate::{ies, image, mesh};
+use crate::{ies, image, model};
 
 /// The files of one scene, by the path that the text names, and why some cannot be had.
 #[derive(Debug, Clone, Default)]
@@ -28,7 +28,8 @@ impl Files {
 
     /// The mesh at `path`, read now or before.
     pub(crate) fn mesh(&mut self, path: &str) -> Result<MeshSource, String> {
-        let mesh = get(&mut self.meshes, self.base.as_deref(), path, |file| mesh::read(file).map(Arc::new))?;
+        let mesh =
+            get(&mut self.meshes, self.base.as_deref(), path, |file| model::read_mesh(file).map(Arc::new))?;
         Ok(MeshSource { path: path.to_owned(), mesh })
     }
 

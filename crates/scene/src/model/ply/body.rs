@@ -1,7 +1,7 @@
 //! How the rows of a PLY file are read, number by number, as text or as bytes.
 
 use super::header::{Element, Sort};
-use crate::mesh::error::{Fault, Place};
+use crate::model::error::{Fault, Place};
 
 /// A source of numbers in rows that knows where it stands.
 pub(super) trait Body {

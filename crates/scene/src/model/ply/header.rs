@@ -1,6 +1,6 @@
 //! What a PLY header announces: how numbers are written, which elements follow, with which properties.
 
-use crate::mesh::error::{Fault, Place};
+use crate::model::error::{Fault, Place};
 
 /// How the body writes numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Why a mesh file is refused, and where in it.
+//! Why a model file is refused, and where in it.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use crate::printable::{brief, printable};
 /// Of longer messages the middle is left out, in characters.
 const LONGEST: usize = 300;
 
-/// Where in a mesh file something stands.
+/// Where in a model file something stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Place {
@@ -20,17 +20,17 @@ pub enum Place {
     Byte(usize),
 }
 
-/// A mesh file that cannot be used. Reads `bunny.ply:12: …` or `bunny.ply, byte 1024: …`.
+/// A model file that cannot be used. Reads `bunny.ply:12: …` or `bunny.ply, byte 1024: …`.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
 #[error("{}{}: {}", printable(&path.to_string_lossy()), at(*place), brief(message, LONGEST))]
-#[diagnostic(code(catoptra::mesh))]
-pub struct MeshError {
+#[diagnostic(code(catoptra::model))]
+pub struct ModelError {
     path: PathBuf,
     place: Place,
     message: String,
 }
 
-impl MeshError {
+impl ModelError {
     pub(super) fn new(path: &Path, fault: Fault) -> Self {
         Self { path: path.to_owned(), place: fault.place, message: fault.message }
     }

@@ -1,0 +1,128 @@
+//! How models come in from files, whatever the format: told apart by the file's ending.
+//!
+//! A file is read whole and checked while it is read: counts against the bytes that are there before anything is
+//! reserved, every index against its table, every coordinate in use for being finite. A refusal says where: the line of
+//! a text file, the byte of a binary one. What a file holds that is not shown as it means it, is a [`Warning`].
+//!
+//! A new format is one file or folder here and one line in [`FORMATS`].
+
+mod error;
+mod folder;
+mod merged;
+mod model;
+mod obj;
+mod ply;
+
+use std::path::Path;
+
+use catoptra_core::TriangleMesh;
+
+use error::Fault;
+pub use error::{ModelError, Place};
+pub use folder::Folder;
+pub use model::{Model, ModelMaterial, Warning};
+
+/// A kind of model file.
+#[derive(Debug, Clone, Copy)]
+pub struct Format {
+    /// Its name, such as `OBJ`.
+    pub name: &'static str,
+    /// Endings of its files, in lower case.
+    pub endings: &'static [&'static str],
+    /// What comes along beside triangles.
+    pub doc: &'static str,
+    read: fn(&[u8], &Folder) -> Result<Model, Fault>,
+}
+
+/// All kinds of model files that can be read.
+pub const FORMATS: &[Format] = &[
+    Format {
+        name: "PLY",
+        endings: &["ply"],
+        doc: "normals, texture coordinates",
+        read: |bytes, _| ply::read(bytes).and_then(model_of),
+    },
+    Format {
+        name: "OBJ",
+        endings: &["obj"],
+        doc: "normals, texture coordinates",
+        read: |bytes, _| obj::read(bytes).and_then(model_of),
+    },
+];
+
+/// Endings of all files that [`read`] understands.
+pub fn endings() -> impl Iterator<Item = &'static str> {
+    FORMATS.iter().flat_map(|format| format.endings).copied()
+}
+
+/// Reads a model and the files that it names.
+///
+/// # Errors
+/// A file that cannot be read, has an ending that no [format](FORMATS) has, or is no valid model.
+pub fn read(path: &Path) -> Result<Model, ModelError> {
+    let format = format_of(path).map_err(|fault| ModelError::new(path, fault))?;
+    let bytes = std::fs::read(path).map_err(|e| ModelError::unreadable(path, &e))?;
+    (format.read)(&bytes, &Folder::of(path)).map_err(|fault| ModelError::new(path, fault))
+}
+
+/// Reads a model from the bytes of a file whose name tells the format.
+///
+/// # Errors
+/// As for [`read`]; `name` stands for the file in messages.
+pub fn read_bytes(bytes: &[u8], name: &Path, folder: &Folder) -> Result<Model, ModelError> {
+    let read = format_of(name).and_then(|format| (format.read)(bytes, folder));
+    read.map_err(|fault| ModelError::new(name, fault))
+}
+
+/// Reads all triangles of a model as one mesh: shapes where the file places them, without lights and materials.
+///
+/// Positions are kept as `f32` round an offset in `f64`. Takes memory of about twice the file's size while reading.
+///
+/// # Errors
+/// As for [`read`], and a model without triangles.
+pub fn read_mesh(path: &Path) -> Result<TriangleMesh, ModelError> {
+    merged::mesh_of(read(path)?).map_err(|fault| ModelError::new(path, fault))
+}
+
+/// Reads all triangles of a model as one mesh from the bytes of a file whose name tells the format.
+///
+/// # Errors
+/// As for [`read_mesh`]; `name` stands for the file in messages.
+pub fn read_mesh_bytes(bytes: &[u8], name: &Path) -> Result<TriangleMesh, ModelError> {
+    let model = read_bytes(bytes, name, &Folder::none())?;
+    merged::mesh_of(model).map_err(|fault| ModelError::new(name, fault))
+}
+
+fn format_of(path: &Path) -> Result<&'static Format, Fault> {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
+    FORMATS.iter().find(|format| format.endings.contains(&ending.as_str())).ok_or_else(|| {
+        let known: Vec<String> = endings().map(|ending| format!(".{ending}")).collect();
+        let known = known.join(", ");
+        Fault::new(Place::File, format!("is no model file: its name must end in one of {known}"))
+    })
+}
+
+/// What a file of one mesh holds, before the mesh is made.
+#[derive(Default)]
+struct Polygons {
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    normals: Option<Vec<[f32; 3]>>,
+    uvs: Option<Vec<[f32; 2]>>,
+}
+
+/// The model of one mesh.
+fn model_of(found: Polygons) -> Result<Model, Fault> {
+    let mesh = TriangleMesh::new(found.positions, found.triangles, found.normals, found.uvs)
+        .map_err(|e| Fault::new(Place::File, e.to_string()))?;
+    Model::of_mesh(mesh).map_err(|e| Fault::new(Place::File, e.to_string()))
+}
+
+/// Narrows to `f32`, refusing what is not finite there.
+fn finite<const N: usize>(values: [f64; N], place: Place, what: &str) -> Result<[f32; N], Fault> {
+    let narrow = values.map(|v| v as f32);
+    match narrow.iter().position(|v| !v.is_finite()) {
+        None => Ok(narrow),
+        Some(i) => Err(Fault::new(place, format!("{what} must be finite numbers, not {}", values[i]))),
+    }
+}
