@@ -204,6 +204,14 @@ impl<L: Lane> Lobes<L> {
         self.diffuse.is_some() || self.is_glossy()
     }
 
+    /// The same, which shines by itself in some lanes alone.
+    #[inline(always)]
+    #[must_use]
+    pub fn shining(self, lanes: L::Mask) -> Self {
+        let dark = Triple::splat(self.share.number(0.0));
+        Self { emission: Triple::select(lanes, self.emission, dark), ..self }
+    }
+
     /// Radiance shown of itself and of ambient radiance, before its [share](Self::share).
     #[inline(always)]
     #[must_use]

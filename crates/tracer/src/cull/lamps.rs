@@ -83,9 +83,14 @@ pub(crate) fn blockers_between(
     });
 }
 
-/// Whether a shape may block a lamp: a lamp is not in its own way, unless it is a mesh.
+/// Whether a shape may block a lamp.
 fn may_block(snapshot: &Snapshot, lamp: &LampRow, prim: u32) -> bool {
-    lamp.prim != Some(prim) || snapshot.prims()[prim as usize].mesh.is_some()
+    own_shape(snapshot, lamp) != Some(prim)
+}
+
+/// The shape that a lamp is: it is not in its own way, unless it is a mesh.
+pub(crate) fn own_shape(snapshot: &Snapshot, lamp: &LampRow) -> Option<u32> {
+    lamp.prim.filter(|&prim| snapshot.prims()[prim as usize].mesh.is_none())
 }
 
 /// Whether any point lies on a side to which the lamp shines.

@@ -16,7 +16,7 @@ mod shaft;
 pub(crate) use beam::Beam;
 pub(crate) use candidates::Candidates;
 pub(crate) use frustum::{Frustum, quarters};
-pub(crate) use lamps::{all_blockers, blockers_between, is_few};
+pub(crate) use lamps::{all_blockers, blockers_between, is_few, own_shape};
 pub(crate) use plan::TilePlan;
 pub(crate) use planner::Planner;
 pub(crate) use point_bounds::PointBounds;

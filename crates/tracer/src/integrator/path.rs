@@ -9,15 +9,13 @@ use catoptra_core::{Material, Rgb};
 
 use super::matter::{self, Bounce, Estimate, Met, Numbers, Origin, PathRay};
 use super::walker::{CameraRay, Walker};
-use super::{Integrate, Search};
+use super::{Integrate, Search, whitted};
 use crate::sampler::{pairs, share};
+use crate::shade::{Gathers, survival};
 use crate::{Frame, Hit, Stats, Tile};
 
 /// See the file's head.
 pub(super) struct Path;
-
-/// From so many bounces on a path ends by chance.
-const ROULETTE_FROM: u32 = 3;
 
 impl Integrate for Path {
     fn gather<S: Search>(walker: &mut Walker<'_, S>, camera: &CameraRay) -> (Rgb, Option<Hit>) {
@@ -25,7 +23,10 @@ impl Integrate for Path {
     }
 
     fn trace_tile(frame: &Frame<'_>, tile: &mut Tile) -> Stats {
-        matter::trace_tile::<Self>(frame, tile)
+        match Gathers::paths(frame.snapshot) {
+            Some(gathers) => whitted::trace_lanes(frame, tile, gathers),
+            None => matter::trace_tile::<Self>(frame, tile),
+        }
     }
 }
 
@@ -69,7 +70,7 @@ impl Bounce for Path {
         }
         let Some(found) = vertex.bsdf.sample(choose, u) else { return light };
         let weight = path.weight * found.weight;
-        let stays = if depth < ROULETTE_FROM { 1.0 } else { weight.max_channel().min(1.0) };
+        let stays = survival(weight.max_channel(), depth);
         if !(survive < stays) {
             return light;
         }

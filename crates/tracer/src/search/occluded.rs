@@ -53,6 +53,12 @@ pub(crate) trait Segments<S: Simd> {
     /// The segment of a lane, in the snapshot's frame.
     fn segment(&self, snapshot: &Snapshot, lane: usize) -> Option<(Ray, Span)>;
 
+    /// The shape that they all end on, if that is known not to be in their way.
+    #[inline(always)]
+    fn arrives_at(&self) -> Option<u32> {
+        None
+    }
+
     /// The open ones as a bundle in the mesh's own space, if they have a common origin.
     fn bundle(
         &self,
@@ -157,6 +163,9 @@ impl<S: Simd> Searcher<'_, S> {
         open: M<S>,
         prim: u32,
     ) -> M<S> {
+        if segments.arrives_at() == Some(prim) {
+            return open;
+        }
         let (s, columns) = (self.s, self.snapshot.columns());
         columns.visit(s, prim, OccludeBy { search: self, segments, rays: *rays, open, prim })
     }

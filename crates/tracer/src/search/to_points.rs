@@ -24,6 +24,8 @@ pub(crate) struct ToPoints<S: Simd> {
     pub(crate) end: D<S>,
     /// The surfaces that the points lie on.
     pub(crate) leaving: Leaving<S>,
+    /// The lamp's own shape, unless that may be in its own way.
+    pub(crate) arriving: Option<u32>,
 }
 
 impl<S: Simd> ToPoints<S> {
@@ -47,6 +49,11 @@ impl<S: Simd> Segments<S> for ToPoints<S> {
         let from = Self::vector(&self.from, lane);
         let way = Self::vector(&self.to, lane) - from;
         Some((Ray::new(from + snapshot.origin_in_frame(), way), self.span(lane)))
+    }
+
+    #[inline(always)]
+    fn arrives_at(&self) -> Option<u32> {
+        self.arriving
     }
 
     #[inline(always)]

@@ -78,7 +78,9 @@ impl<S: Simd> Shader<'_, S> {
                 for packet in 0..count {
                     self.show(batch, packet, tile, depth);
                 }
-                if self.search.snapshot.has_mirrors() {
+                if self.gathers.paths {
+                    self.scatter_paths(batch, count, tile, depth);
+                } else if self.search.snapshot.has_mirrors() {
                     self.continue_paths(batch, count, depth);
                 }
             },

@@ -12,6 +12,7 @@ use fearless_simd::Simd;
 use super::Shader;
 use super::direct_light::Facing;
 use super::lamps::LitPacket;
+use crate::cull::own_shape;
 use crate::film::BLOCK;
 use crate::kernel::Leaving;
 use crate::lamps::{Half, half_of_ray, pair_of_lamp, share_seen};
@@ -97,7 +98,7 @@ impl<S: Simd> Shader<'_, S> {
         let ground = self.chunk.normal[at.slot];
         let normal = if smooth { self.chunk.smooth[at.slot] } else { ground };
         let sampler = self.block_sampler(at, tile);
-        let count = self.view.lamp_rays_of_sample();
+        let (paths, count) = (self.gathers.paths, self.lamp_rays());
         let (first, pair) = (self.sample.index.wrapping_mul(count), pair_of_lamp(number, at.depth));
         let may_be_blocked = lamp.shadow && !self.plan.lamps[number].blockers.is_empty();
         let glossy = self.chunk.glossy[at.slot];
@@ -125,6 +126,7 @@ impl<S: Simd> Shader<'_, S> {
                     to: points.at,
                     end: (D::splat(s, 1.0_f64.next_down()) - share).max(D::splat(s, 0.0)),
                     leaving: Leaving { prim: best.prim, facet: best.facet, any: true },
+                    arriving: own_shape(self.search.snapshot, lamp),
                 };
                 reached = above & !self.trace(&segments, above, number);
             }
@@ -147,7 +149,7 @@ impl<S: Simd> Shader<'_, S> {
             }
         }
         let of_lamp = area / unblocked;
-        if self.view.lamp_light == LampLight::PlainRays {
+        if paths || self.view.lamp_light == LampLight::PlainRays {
             return F::pick(lanes, (halves[0].brought + halves[1].brought) * of_lamp, zero);
         }
         share_seen(halves, of_lamp + of_lamp)
@@ -164,13 +166,20 @@ impl<S: Simd> Shader<'_, S> {
         )
     }
 
-    /// The random numbers of the blocks of the film that the lanes' pixels lie in.
+    /// How many rays go to each lamp from a point.
+    fn lamp_rays(&self) -> u32 {
+        if self.gathers.paths { 1 } else { self.view.lamp_rays_of_sample() }
+    }
+
+    /// The random numbers of the blocks of the film that the lanes' pixels lie in; those of the pixels for paths, which do not
+    /// run side by side.
     #[inline(always)]
     fn block_sampler(&self, at: &LitPacket<S>, tile: &Tile) -> Sampler<U<S>> {
+        let side = if self.gathers.paths { 1 } else { BLOCK };
         let (mut columns, mut rows) = ([0; MOST_LANES], [0; MOST_LANES]);
         for lane in self.chunk.lit[at.slot].lanes() {
             let [x, y] = tile.place_of(at.pixels.lane(lane) as usize);
-            (columns[lane], rows[lane]) = (x / BLOCK, y / BLOCK);
+            (columns[lane], rows[lane]) = (x / side, y / side);
         }
         self.sample.sampler(U::load(self.s, &columns), U::load(self.s, &rows))
     }

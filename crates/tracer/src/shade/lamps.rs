@@ -91,7 +91,12 @@ impl<'a, S: Simd> Shader<'a, S> {
         {
             found = self.seen_of_flat(at, lamp, flat, number);
         }
-        let FoundInLanes { mut seen, answered, mut sampled } = found;
+        let FoundInLanes { mut seen, mut answered, mut sampled } = found;
+        if self.gathers.paths {
+            // One ray tells paths as much: what they find by chance is off by more.
+            seen = F::pick(answered, seen, F::splat(self.s, 1.0));
+            (sampled, answered) = (!answered, !none);
+        }
         for lane in (lit & !answered & !sampled).lanes() {
             let gathered = self.gather_in_lane(at, lane, number);
             let (Gathered::Exactly(irradiance) | Gathered::UpTo(irradiance)) = gathered;

@@ -1,7 +1,7 @@
 //! The radiance that the lanes of a packet show under the light that has arrived, without mirror reflection.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, LaneMask, Material, Rgb};
+use catoptra_core::{Arithmetic, LaneMask, Material};
 use fearless_simd::Simd;
 
 use super::{Shader, dark};
@@ -16,10 +16,10 @@ impl<S: Simd> Shader<'_, S> {
     #[inline(always)]
     pub(super) fn show(&mut self, batch: &impl Batch<S>, slot: usize, tile: &mut Tile, depth: u32) {
         let (at, groups) = (self.chunk.at[slot], self.chunk.groups[slot].len());
-        if groups == 0 && depth > 0 && self.search.snapshot.background() == Rgb::BLACK {
+        if groups == 0 && depth > 0 && self.gathers.is_dark() {
             return;
         }
-        let sky = F3::of(self.chunk.best[slot].t, self.search.snapshot.background_light());
+        let sky = F3::of(self.chunk.best[slot].t, &self.gathers.sky);
         let mut shown = F3::select(batch.live_lanes(self.s, at), sky, dark(self.s));
         if groups > 0 {
             shown = self.show_group(batch, slot, 0, shown);
@@ -75,13 +75,14 @@ impl<S: Simd> Shader<'_, S> {
                 || self.move_off_edges(batch, slot, mask, &row.material),
             );
         }
-        let ambient = F3::of(F::splat(self.s, 0.0), snapshot.ambient_light());
+        let ambient = F3::of(F::splat(self.s, 0.0), &self.gathers.ambient);
         let irradiance = self.chunk.irradiance[slot];
+        let counted = self.counted_emission(batch, slot, mask, row);
         let (mut shown, share) = row.material.visit_lobes(
             #[inline(always)]
             || self.shading_point(slot),
             #[inline(always)]
-            |lobes| (lobes.without_glossy(ambient, irradiance), lobes.share),
+            |lobes| (lobes.shining(counted).without_glossy(ambient, irradiance), lobes.share),
         );
         if self.chunk.glossy[slot] {
             shown = shown + self.chunk.specular[slot];
@@ -93,7 +94,7 @@ impl<S: Simd> Shader<'_, S> {
     #[inline(always)]
     fn mean_base(&mut self, batch: &impl Batch<S>, slot: usize, material: &Material) -> F3<S> {
         let footprint = batch.footprint(self.s, self.chunk.at[slot]);
-        let ambient = F3::of(F::splat(self.s, 0.0), self.search.snapshot.ambient_light());
+        let ambient = F3::of(F::splat(self.s, 0.0), &self.gathers.ambient);
         let irradiance = self.chunk.irradiance[slot];
         let (mut shown, share) = material.visit_mean_lobes(
             (&self.shading_point(slot), &footprint),
@@ -109,7 +110,13 @@ impl<S: Simd> Shader<'_, S> {
     /// Where `f32` cannot decide on which side of a pattern's edge a point lies, replaces it by one from `f64` that
     /// lies in the same cell.
     #[inline(always)]
-    fn move_off_edges(&mut self, batch: &impl Batch<S>, slot: usize, mask: M<S>, material: &Material) {
+    pub(super) fn move_off_edges(
+        &mut self,
+        batch: &impl Batch<S>,
+        slot: usize,
+        mask: M<S>,
+        material: &Material,
+    ) {
         let at = self.shading_point(slot);
         // A ray's origin is no farther out than its end and three times its length.
         let size = at.distance.mul_add(F::splat(self.s, 4.0), magnitude(at.position));

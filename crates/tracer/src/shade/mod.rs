@@ -14,7 +14,9 @@ mod look;
 mod profile_tests;
 mod reflect;
 mod rules;
+mod scatter;
 
+use catoptra_core::Constant3;
 use fearless_simd::Simd;
 
 use crate::View;
@@ -26,13 +28,27 @@ use crate::stream::{LaneBounds, Queue};
 
 pub(crate) use chunk::Chunk;
 pub(crate) use lamps::LampRoom;
-pub(crate) use rules::{MirrorNormals, continues, mirror_direction};
+pub(crate) use rules::{MirrorNormals, continues, mirror_direction, survival};
+
+/// What is gathered beside direct light, and how.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Gathers {
+    /// Whether rays go on in directions chosen by chance, one from every point, as the integrator `path` has it; else mirrored
+    /// ones alone.
+    pub(crate) paths: bool,
+    /// Radiance of what meets nothing.
+    pub(crate) sky: Constant3,
+    /// What arrives from all sides, in place of what paths would find.
+    pub(crate) ambient: Constant3,
+}
 
 /// Gathers the light of packets, a chunk of them at a time.
 pub(crate) struct Shader<'a, S: Simd> {
     pub(crate) s: S,
     pub(crate) search: Searcher<'a, S>,
     pub(crate) view: &'a View,
+    /// What rays gather.
+    pub(crate) gathers: Gathers,
     /// What culling knows about the current batch.
     pub(crate) plan: &'a mut TilePlan,
     pub(crate) chunk: &'a mut Chunk<S>,

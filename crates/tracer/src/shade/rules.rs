@@ -29,6 +29,22 @@ pub(crate) fn continues<L: Lane>(
     positive & !faint
 }
 
+/// From so many bounces on a path ends by chance.
+const ROULETTE_FROM: u32 = 3;
+
+/// From so many on by chance even where nothing is lost, as between white walls.
+const ENDS_FROM: u32 = 64;
+
+/// How likely a path goes on whose light would count for so much at most; what goes on counts for that much more.
+#[inline(always)]
+pub(crate) fn survival<L: Lane>(weight: L, depth: u32) -> L {
+    match depth {
+        0..ROULETTE_FROM => weight.number(1.0),
+        ROULETTE_FROM..ENDS_FROM => weight.min(weight.number(1.0)),
+        _ => weight.min(weight.number(0.95)),
+    }
+}
+
 /// Unit normals where rays are mirrored.
 pub(crate) struct MirrorNormals<P: Precise> {
     /// The surface's own, on either side.

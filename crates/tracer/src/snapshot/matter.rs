@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use catoptra_core::glam::DVec3;
 use catoptra_core::texture::{Texture, TextureSource};
-use catoptra_core::{Environment, Finish, Material, Medium, Shape, Sides, TextureId};
+use catoptra_core::{Environment, Finish, Material, Medium, Rgb, Shape, Sides, TextureId};
 
 use super::Prim;
 use super::extraction::OwnShape;
@@ -51,7 +52,9 @@ pub(crate) struct Matter {
     pub(crate) clear: Vec<u32>,
     /// Whether there are any.
     pub(crate) is_see_through: bool,
-    /// Whether lanes alone cannot shade the scene.
+    /// Whether lanes know all of every material.
+    pub(crate) is_plain: bool,
+    /// Whether lanes alone cannot shade the scene by Whitted's rules.
     pub(crate) is_needed: bool,
 }
 
@@ -63,22 +66,33 @@ impl Matter {
         own: BTreeMap<u32, OwnShape>,
         surroundings: Vec<Environment>,
     ) -> Self {
-        let (mut rows, mut is_needed) = (Vec::new(), !surroundings.is_empty());
+        let (mut rows, mut is_plain) = (Vec::new(), true);
         for (material, finish) in materials {
             let row = MatterRow::new(material, finish);
-            is_needed |= material.needs_bsdf() || !row.is_plain();
+            is_plain &= !material.needs_bsdf() && row.is_plain();
             rows.push(row);
         }
         let is_clear = |prim: &Prim| rows[prim.material as usize].is_see_through();
         let clear: Vec<u32> =
             prims.iter().zip(0..).filter(|(prim, _)| is_clear(prim)).map(|(_, at)| at).collect();
         let is_see_through = !clear.is_empty();
-        Self { rows, textures, own, surroundings, clear, is_see_through, is_needed }
+        let is_needed = !is_plain || !surroundings.is_empty();
+        Self { rows, textures, own, surroundings, clear, is_see_through, is_plain, is_needed }
     }
 
     /// Of a shape.
     pub(crate) fn row(&self, prim: &Prim) -> &MatterRow {
         &self.rows[prim.material as usize]
+    }
+
+    /// What light from all around is wherever it comes from, before a background; `None` where it is not the same.
+    pub(crate) fn sky(&self, background: Rgb) -> Option<Rgb> {
+        let all = &self.surroundings;
+        let sum = || all.iter().fold(Rgb::BLACK, |sum, light| sum + light.radiance(DVec3::Y));
+        match all.iter().all(Environment::is_even) {
+            true if all.is_empty() => Some(background),
+            even => even.then(sum),
+        }
     }
 
     /// A shape before it was placed, where its material asks for that.

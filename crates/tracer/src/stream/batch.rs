@@ -41,6 +41,10 @@ pub(crate) trait Batch<S: Simd> {
     /// How much of the light that arrives along the packet that starts with ray `at` counts, per channel.
     fn weights(&self, s: S, at: usize) -> F3<S>;
 
+    /// Which rays of the packet that starts with ray `at` have the only direction there was, as those of the camera and
+    /// mirrored ones; others were chosen among many.
+    fn alone(&self, s: S, at: usize) -> M<S>;
+
     /// Whether the rays stand for squares of the picture; else they are lines of sight and no more.
     fn has_footprints(&self) -> bool;
 
@@ -153,6 +157,11 @@ impl<'a, S: Simd> Batch<S> for Part<'a, S> {
     }
 
     #[inline(always)]
+    fn alone(&self, s: S, _: usize) -> M<S> {
+        M::splat(s, true)
+    }
+
+    #[inline(always)]
     fn has_footprints(&self) -> bool {
         self.camera.sides.is_some()
     }
@@ -205,6 +214,11 @@ impl<S: Simd> Batch<S> for Queue {
     #[inline(always)]
     fn weights(&self, s: S, at: usize) -> F3<S> {
         Queue::weights(self, s, at)
+    }
+
+    #[inline(always)]
+    fn alone(&self, s: S, at: usize) -> M<S> {
+        Queue::alone(self, s, at)
     }
 
     #[inline(always)]

@@ -11,7 +11,7 @@ use crate::film::NOTHING;
 use crate::frame::Frame;
 use crate::kernel::{Leaving, Rays, Target};
 use crate::lanes::{
-    Column, D, D3, F, F3, M, U, compress_wide3, compress3, load_wide3, load3, narrow3, splat_wide,
+    Column, D, D3, F, F3, M, U, Word, compress_wide3, compress3, load_wide3, load3, narrow3, splat_wide,
     store_wide3, store3,
 };
 use crate::numeric::{END_ERROR, POINT_ERROR};
@@ -32,6 +32,8 @@ pub(crate) struct Queue {
     pixel: Column<u32>,
     prim: Column<u32>,
     facet: Column<u32>,
+    /// 1 where the direction was the only one there was, 0 where it was chosen among many.
+    alone: Column<u32>,
     /// Of camera rays: what a pixel to the right and down adds to the directions that theirs were made from, and the sides of
     /// the squares that they stand for, in such pixels over the lengths of those directions.
     axes: Option<[DVec3; 2]>,
@@ -47,6 +49,8 @@ pub(crate) struct QueuedRays<S: Simd> {
     pub(crate) pixel: U<S>,
     pub(crate) prim: U<S>,
     pub(crate) facet: U<S>,
+    /// Lanes whose direction was the only one there was.
+    pub(crate) alone: M<S>,
 }
 
 impl Queue {
@@ -87,6 +91,7 @@ impl Queue {
                 pixel: U::counted(s, at as u32),
                 prim: U::splat(s, NOTHING),
                 facet: U::splat(s, 0),
+                alone: M::splat(s, true),
             };
             let left = (count - at).min(F::<S>::LANES);
             self.push(M::from_bits(s, u64::MAX >> (64 - left)), &rays);
@@ -115,6 +120,8 @@ impl Queue {
         self.make_room(F::<S>::LANES);
         let (at, count) = (self.length, mask.count() as usize);
         self.length += count;
+        let (one, none) = (rays.pixel.of(1), rays.pixel.of(0));
+        let alone = U::pick(rays.alone, one, none);
         if count == F::<S>::LANES {
             store_wide3(rays.origin, &mut self.origin, at);
             store_wide3(rays.direction, &mut self.direction, at);
@@ -122,6 +129,7 @@ impl Queue {
             rays.pixel.store(&mut self.pixel[at..]);
             rays.prim.store(&mut self.prim[at..]);
             rays.facet.store(&mut self.facet[at..]);
+            alone.store(&mut self.alone[at..]);
         } else {
             compress_wide3(rays.origin, mask, &mut self.origin, at);
             compress_wide3(rays.direction, mask, &mut self.direction, at);
@@ -129,6 +137,7 @@ impl Queue {
             rays.pixel.compressed(mask).store(&mut self.pixel[at..]);
             rays.prim.compressed(mask).store(&mut self.prim[at..]);
             rays.facet.compressed(mask).store(&mut self.facet[at..]);
+            alone.compressed(mask).store(&mut self.alone[at..]);
         }
     }
 
@@ -142,7 +151,7 @@ impl Queue {
             (self.origin[axis][at], self.direction[axis][at]) = (start, along);
             self.weight[axis][at] = 1.0;
         }
-        self.pixel[at] = pixel;
+        (self.pixel[at], self.alone[at]) = (pixel, 1);
         (self.prim[at], self.facet[at]) =
             leaving.map_or((NOTHING, 0), |surface| (surface.prim, surface.facet));
     }
@@ -194,6 +203,12 @@ impl Queue {
         load3(s, &self.weight, at)
     }
 
+    /// Which of the rays from `at` on have the only direction there was.
+    #[inline(always)]
+    pub(crate) fn alone<S: Simd>(&self, s: S, at: usize) -> M<S> {
+        U::load(s, &self.alone[at..]).is(1)
+    }
+
     /// The pixels of the rays from `at` on.
     #[inline(always)]
     pub(crate) fn pixels<S: Simd>(&self, s: S, at: usize) -> U<S> {
@@ -210,7 +225,8 @@ impl Queue {
         let room = needed.next_power_of_two();
         self.origin.iter_mut().chain(&mut self.direction).for_each(|c| c.resize(room, 0.0));
         self.weight.iter_mut().for_each(|c| c.resize(room, 0.0));
-        [&mut self.pixel, &mut self.prim, &mut self.facet].into_iter().for_each(|c| c.resize(room, 0));
+        let whole = [&mut self.pixel, &mut self.prim, &mut self.facet, &mut self.alone];
+        whole.into_iter().for_each(|c| c.resize(room, 0));
     }
 }
 

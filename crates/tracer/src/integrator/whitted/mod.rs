@@ -16,9 +16,11 @@ use catoptra_core::Rgb;
 use super::matter;
 use super::walker::{CameraRay, Walker};
 use super::{Integrate, Search};
+use crate::shade::Gathers;
 use crate::{Frame, Hit, Stats, Tile};
 pub(super) use paths::shadow_ray;
 pub(crate) use receivers::Receivers;
+pub(super) use tiles::trace_lanes;
 
 /// See the file's head.
 pub(super) struct Whitted;
@@ -36,7 +38,7 @@ impl Integrate for Whitted {
         if frame.snapshot.matter().is_needed {
             matter::trace_tile::<Self>(frame, tile)
         } else {
-            tiles::trace_tile(frame, tile)
+            trace_lanes(frame, tile, Gathers::mirrored(frame.snapshot))
         }
     }
 }

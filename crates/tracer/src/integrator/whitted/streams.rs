@@ -1,6 +1,5 @@
 //! Streams of reflected rays: what the rays of one may meet, which lights reach that, and what they send on.
 
-use catoptra_core::Rgb;
 use fearless_simd::Simd;
 
 use super::tiles::TileTracer;
@@ -49,16 +48,18 @@ impl<S: Simd> TileTracer<'_, S> {
             },
         );
         let (planner, snapshot) = (self.planner, self.planner.snapshot);
-        if planner.skip.beams {
+        let paths = self.shader.gathers.paths;
+        // Rays that go every way may meet everything.
+        if planner.skip.beams && !paths {
             reachable.reachable(snapshot.columns(), beams, planner.outside);
         } else {
             reachable.all(snapshot.columns());
         }
         let nothing = reachable.is_empty() && snapshot.columns().general_unbounded.is_empty();
         let stats = &mut self.shader.search.stats;
-        if nothing && snapshot.background() == Rgb::BLACK {
+        if nothing && self.shader.gathers.is_dark() {
             stats.skipped.nothing_ahead += stream.len() as u64;
-        } else if self.plan_ahead(beams, reachable) {
+        } else if !paths && self.plan_ahead(beams, reachable) {
             self.shader.plan.plan_darkness(&planner, beams, &reachable.points);
             self.shader.search.stats.rays.reflection += stream.len() as u64;
             outlined(

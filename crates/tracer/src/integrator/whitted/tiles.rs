@@ -18,14 +18,14 @@ use crate::kernel::mesh::Visits;
 use crate::lanes::{F, Work, at_level, outlined};
 use crate::sample::Sample;
 use crate::search::{HitColumns, Searcher};
-use crate::shade::{Chunk, LampRoom, Shader};
+use crate::shade::{Chunk, Gathers, LampRoom, Shader};
 use crate::stream::{Batch, CameraPackets, CameraRays, LaneBounds, Part, Queue};
 use crate::{Frame, Instructions, Region, Size, Stats, Tile};
 
-/// Traces all pixels of a tile.
-pub(crate) fn trace_tile(frame: &Frame<'_>, tile: &mut Tile) -> Stats {
+/// Traces all pixels of a tile in lanes: by Whitted's rules, or by paths.
+pub(in crate::integrator) fn trace_lanes(frame: &Frame<'_>, tile: &mut Tile, gathers: Gathers) -> Stats {
     let level = frame.view.instructions.map_or_else(Level::new, Instructions::level);
-    ROOM.with_borrow_mut(|room| at_level(level, TraceTile { frame, tile, room }))
+    ROOM.with_borrow_mut(|room| at_level(level, TraceTile { frame, tile, gathers, room }))
 }
 
 thread_local! {
@@ -82,6 +82,7 @@ const LEVELS: usize = 3;
 struct TraceTile<'a> {
     frame: &'a Frame<'a>,
     tile: &'a mut Tile,
+    gathers: Gathers,
     room: &'a mut Room,
 }
 
@@ -90,13 +91,13 @@ impl Work for TraceTile<'_> {
 
     #[inline(always)]
     fn with<S: Simd>(self, s: S) -> Stats {
-        trace_with(s, self.frame, self.tile, self.room)
+        trace_with(s, self.frame, self.tile, self.gathers, self.room)
     }
 }
 
 /// Traces one tile with the instructions that `s` stands for.
 #[inline(always)]
-fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room) -> Stats {
+fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, gathers: Gathers, room: &mut Room) -> Stats {
     let (snapshot, view) = (frame.snapshot, frame.view);
     let Room { next, bounce, found, visible, plan, points, visits, rays, lamps, pieces, registers } = room;
     let mut own = Registers::take(s, registers.take());
@@ -107,8 +108,8 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, room: &mut Room
     plan.start(snapshot);
     let outside = frame.outside_solids;
     let search = Searcher { s, snapshot, stats: Stats::default(), visits, outside };
-    let shader =
-        Shader { s, search, view, plan, chunk, lamp_room: lamps, sample: Sample::new(view, 0), next, sent };
+    let sample = Sample::new(view, 0);
+    let shader = Shader { s, search, view, gathers, plan, chunk, lamp_room: lamps, sample, next, sent };
     let planner = Planner { snapshot, skip: view.skip, outside };
     let mut tracer = TileTracer { s, frame, planner, shader, found, seen, points };
     visible[0].all(snapshot.columns());
@@ -170,7 +171,7 @@ impl<S: Simd> TileTracer<'_, S> {
         if mine.is_empty() && columns.general_unbounded.is_empty() {
             self.fill(&Part { camera, region }, tile);
         } else if mine.tree || further.is_empty() || mine.filled {
-            if self.frame.snapshot.has_mirrors() {
+            if self.frame.snapshot.has_mirrors() && !self.shader.gathers.paths {
                 self.shader.plan.plan_darkness(&self.planner, &[frustum.beam()], &mine.points);
             }
             self.trace_camera(camera, region, mine, tile);
@@ -186,7 +187,7 @@ impl<S: Simd> TileTracer<'_, S> {
     fn fill(&mut self, part: &Part<'_, S>, tile: &mut Tile) {
         let skipped = &mut self.shader.search.stats.skipped;
         skipped.nothing_seen += part.live();
-        let light = self.frame.snapshot.background_light();
+        let light = &self.shader.gathers.sky;
         let view = self.frame.view;
         let whole = part.region.size == Size::new(tile.width, tile.height) && view.samples <= 1;
         let narrow = [light.x.narrow, light.y.narrow, light.z.narrow];
