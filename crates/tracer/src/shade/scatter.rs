@@ -23,7 +23,7 @@ impl Gathers {
     /// lamps are asked.
     pub(crate) fn paths(snapshot: &Snapshot) -> Option<Self> {
         let lobes_known = snapshot.material_rows().iter().all(|row| !row.lobes.is_glossy());
-        if !(snapshot.matter().is_plain && snapshot.lamps().tree.is_none() && lobes_known) {
+        if !(snapshot.matter().is_plain && snapshot.lamps().tree_of_paths().is_none() && lobes_known) {
             return None;
         }
         let sky = snapshot.matter().sky(snapshot.background())?;

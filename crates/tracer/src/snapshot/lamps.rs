@@ -51,6 +51,9 @@ impl FlatLamp {
 /// Up to so many lamps every point asks each of them; of more it asks some, picked at random.
 pub(crate) const MOST_LAMPS: usize = 1000;
 
+/// Points of paths ask up to so many lamps one by one, and of more some that a tree picks.
+const MOST_LAMPS_OF_PATHS: usize = 64;
+
 /// How a material shines.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shining {
@@ -68,6 +71,8 @@ pub(crate) struct Lamps {
     pub(crate) blockers: Vec<Option<Blocker>>,
     /// Picks some of them, where they are too many to ask each.
     pub(crate) tree: Option<LampTree>,
+    /// Picks some of them for paths, which ask less of each point, where the other does not.
+    tree_of_paths: Option<LampTree>,
     /// Shapes that shine but light nothing, as they have no end.
     pub(crate) endless: Vec<u32>,
     /// Square metres of each shape that lights others, one side of it.
@@ -96,13 +101,24 @@ impl Lamps {
                 *lamps.areas.entry(prim).or_default() += row.area;
             }
         }
-        if lamps.rows.len() > MOST_LAMPS {
-            let power = |row: &LampRow| (row.ball, row.radiance.rgb().luminance() * row.outline.area());
-            lamps.tree = Some(LampTree::new(&lamps.rows.iter().map(power).collect::<Vec<_>>()));
-        } else if !lamps.rows.is_empty() {
+        let count = lamps.rows.len();
+        if count > MOST_LAMPS {
+            lamps.tree = Some(lamps.new_tree());
+        } else if count > 0 {
             lamps.blockers = prims.iter().map(|prim| Blocker::of(&prim.shape)).collect();
+            lamps.tree_of_paths = (count > MOST_LAMPS_OF_PATHS).then(|| lamps.new_tree());
         }
         lamps
+    }
+
+    fn new_tree(&self) -> LampTree {
+        let power = |row: &LampRow| (row.ball, row.radiance.rgb().luminance() * row.outline.area());
+        LampTree::new(&self.rows.iter().map(power).collect::<Vec<_>>())
+    }
+
+    /// What picks the lamps that points of paths ask, if these do not ask all.
+    pub(crate) fn tree_of_paths(&self) -> Option<&LampTree> {
+        self.tree.as_ref().or(self.tree_of_paths.as_ref())
     }
 
     /// Those that every point asks: all, or none where they are so many that some are picked.

@@ -30,11 +30,14 @@ impl<S: Search> Walker<'_, S> {
             Estimate::WithPaths => RAYS_OF_PATHS,
         };
         let lamps = self.frame.snapshot.lamps();
-        let mut light = Rgb::BLACK;
-        if let Some(tree) = &lamps.tree {
+        let tree = match estimate {
+            Estimate::Alone => lamps.tree.as_ref(),
+            Estimate::WithPaths => lamps.tree_of_paths(),
+        };
+        if let Some(tree) = tree {
             self.stats.lamps.sampled += 1;
             let origin = self.frame.snapshot.origin_in_frame();
-            let mut shown = Rgb::BLACK;
+            let mut light = Rgb::BLACK;
             for found in picked(lamps, tree, &at, origin, &drawn, count) {
                 // What other lobes show of so many lamps, paths find.
                 let glossy = match estimate {
@@ -44,11 +47,12 @@ impl<S: Search> Walker<'_, S> {
                 let brought = vertex.bsdf.diffuse() * (found.ray.share / PI) + glossy;
                 if brought.max_channel() > 0.0 && found.ray.above_ground {
                     let through = self.of_ray(vertex, path, found.lamp, &found.ray, estimate);
-                    shown += brought * through * found.lamp.radiance.rgb();
+                    light += brought * through * found.lamp.radiance.rgb();
                 }
             }
-            light += shown;
+            return light;
         }
+        let mut light = Rgb::BLACK;
         for (number, lamp) in lamps.asked().iter().enumerate() {
             let seen = self.seen_of(lamp, &at);
             if seen == Gathered::Exactly(0.0) {
@@ -169,7 +173,7 @@ impl<S: Search> Walker<'_, S> {
         match path.origin {
             Origin::Alone => path.weight,
             _ if !lamps.areas.contains_key(&prim) => path.weight,
-            Origin::Reflected(pdf) if lamps.tree.is_none() => {
+            Origin::Reflected(pdf) if lamps.tree_of_paths().is_none() => {
                 let to = vertex.surface.point - path.ray.origin;
                 let chosen = self.density_of_lamp(prim, to, vertex.surface.hit.crossing.normal)
                     * f64::from(RAYS_OF_PATHS);
