@@ -175,7 +175,7 @@ fn of_many_lamps_paths_pick_some_and_lose_none() {
     let lamp = |i: u32| {
         let (x, z) = (i % 10, i / 10);
         format!(
-            "sphere-light \"l{i}\" {{ center {} {} {}; radius 0.04; radiance {} }}\n",
+            "sphere-light \"l{i}\" {{ center {} {} {}; radius 0.04; radiance {}; visible #false }}\n",
             f64::from(x) - 4.5,
             1.0 + 0.05 * f64::from(i % 7),
             f64::from(z) - 5.0,
