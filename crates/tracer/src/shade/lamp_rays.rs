@@ -98,7 +98,7 @@ impl<S: Simd> Shader<'_, S> {
         let ground = self.chunk.normal[at.slot];
         let normal = if smooth { self.chunk.smooth[at.slot] } else { ground };
         let sampler = self.block_sampler(at, tile);
-        let (paths, count) = (self.gathers.paths, self.lamp_rays());
+        let count = self.lamp_rays();
         let (first, pair) = (self.sample.index.wrapping_mul(count), pair_of_lamp(number, at.depth));
         let may_be_blocked = lamp.shadow && !self.plan.lamps[number].blockers.is_empty();
         let glossy = self.chunk.glossy[at.slot];
@@ -149,7 +149,7 @@ impl<S: Simd> Shader<'_, S> {
             }
         }
         let of_lamp = area / unblocked;
-        if paths || self.view.lamp_light == LampLight::PlainRays {
+        if self.gathers.paths || self.view.lamp_light == LampLight::PlainRays {
             return F::pick(lanes, (halves[0].brought + halves[1].brought) * of_lamp, zero);
         }
         share_seen(halves, of_lamp + of_lamp)
