@@ -28,6 +28,7 @@ pub mod part;
 pub mod placement;
 pub mod ray;
 pub mod scene;
+pub mod solid;
 pub mod texture;
 
 pub use bounds::Aabb;
@@ -49,4 +50,5 @@ pub use scene::{
     Change, ChangeKind, Content, Edit, EntityId, History, Integrator, MaterialId, Node, Placed, Role, Scene,
     SceneError, Settings, Subject, Subtree, TextureId,
 };
+pub use solid::{Member, Operation, Solid};
 pub use texture::{Image, Level, Paint, Texture, TexturePoint, TextureSource, TextureUse};

@@ -49,6 +49,14 @@ impl<N: Number> Root<N> {
         Ok(Some(Self { rational, radical: None, divisor }))
     }
 
+    /// The root of the opposite sign: of the same equation along the ray the other way.
+    #[must_use]
+    pub fn negated(&self) -> Self {
+        let radical =
+            self.radical.as_ref().map(|radical| Radical { positive: !radical.positive, ..radical.clone() });
+        Self { rational: self.rational.negative(), radical, divisor: self.divisor.clone() }
+    }
+
     /// How it compares with another root.
     ///
     /// # Errors

@@ -123,6 +123,10 @@ impl Geometry for Cuboid {
     fn is_closed(&self) -> bool {
         true
     }
+
+    fn is_solid(&self) -> bool {
+        true
+    }
 }
 
 /// The outer side of a face, in the box's own space.

@@ -27,6 +27,7 @@ pub use triangle::{Triangle, unit_normal};
 pub use triangle_mesh::TriangleMesh;
 
 use crate::exact::{Bounded, Dyadic, Located, Number, Root, Verdict, decide};
+use crate::solid::Passage;
 use crate::{Aabb, Crossing, Placement, Ray, Span};
 use glam::{DVec2, DVec3};
 
@@ -152,6 +153,26 @@ pub trait Geometry {
 
     /// Whether it encloses a volume: a ray from outside that enters it leaves it again.
     fn is_closed(&self) -> bool;
+
+    /// Whether it says where a line runs inside it, so that a [`Solid`](crate::Solid) can be made of it.
+    fn is_solid(&self) -> bool {
+        false
+    }
+
+    /// Where the line of a [valid](Ray::is_valid) ray in the shape's own space runs inside; asked only of what
+    /// [is solid](Self::is_solid). With `leaving` a ray that leaves a facet of this very shape: what lies behind its origin is
+    /// left out then.
+    ///
+    /// As it stands it is right for convex shapes.
+    ///
+    /// # Errors
+    /// When such numbers cannot decide.
+    fn passage<N: Number>(&self, own: &Ray, leaving: Option<u32>) -> Verdict<Passage<N>>
+    where
+        Self: Sized,
+    {
+        crate::solid::convex(self, own, leaving)
+    }
 }
 
 /// Where a ray meets a facet of a shape.
@@ -170,7 +191,7 @@ impl<N: Number> FacetRoot<N> {
     ///
     /// # Errors
     /// When such numbers cannot decide.
-    fn on(span: Span, root: Root<N>, facet: u32) -> Verdict<Option<Self>> {
+    pub(crate) fn on(span: Span, root: Root<N>, facet: u32) -> Verdict<Option<Self>> {
         Ok(N::locate(&root, span)?.map(|at| Self { root, at, facet }))
     }
 }
@@ -222,7 +243,10 @@ impl Shape {
     /// Normals and texture coordinates where a ray is known to meet a facet at `t`; `None` without a normal.
     #[must_use]
     pub fn crossing(&self, ray: &Ray, t: f64, facet: u32) -> Option<Crossing> {
-        let at = Located { t, error: f64::INFINITY };
+        self.crossing_at(ray, Located { t, error: f64::INFINITY }, facet)
+    }
+
+    pub(crate) fn crossing_at(&self, ray: &Ray, at: Located, facet: u32) -> Option<Crossing> {
         each_shape!(self, shape => shape.crossing(&shape.own_ray(ray), at, facet))
     }
 
@@ -268,5 +292,19 @@ impl Shape {
     #[must_use]
     pub fn is_closed(&self) -> bool {
         each_shape!(self, shape => shape.is_closed())
+    }
+
+    /// See [`Geometry::is_solid`].
+    #[must_use]
+    pub fn is_solid(&self) -> bool {
+        each_shape!(self, shape => shape.is_solid())
+    }
+
+    /// See [`Geometry::passage`]; of a ray in the space that the shape stands in.
+    ///
+    /// # Errors
+    /// When such numbers cannot decide.
+    pub fn passage<N: Number>(&self, ray: &Ray, leaving: Option<u32>) -> Verdict<Passage<N>> {
+        each_shape!(self, shape => shape.passage(&shape.own_ray(ray), leaving))
     }
 }

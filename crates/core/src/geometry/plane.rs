@@ -3,11 +3,13 @@
 use std::cmp::Ordering;
 
 use glam::{DVec2, DVec3};
+use smallvec::smallvec;
 
 use super::parametrization::level_axes;
 use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Bounded, Dyadic, Located, Number, Root, Vector, Verdict, decide};
 use crate::part::Given;
+use crate::solid::{End, Passage};
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
 /// All points `p` with `normal · (p − point) = 0`.
@@ -128,6 +130,24 @@ impl Geometry for Plane {
 
     fn is_closed(&self) -> bool {
         false
+    }
+
+    /// All that lies below it.
+    fn is_solid(&self) -> bool {
+        true
+    }
+
+    fn passage<N: Number>(&self, own: &Ray, leaving: Option<u32>) -> Verdict<Passage<N>> {
+        let up = Vector::<N>::of(self.upwards);
+        let climbs = up.dot(&Vector::of(own.direction)).sign()?;
+        if leaving.is_some() {
+            return Ok(Passage { inside: climbs.is_lt(), ..Passage::by() });
+        }
+        let Some(root) = plane_root(self.point, self.upwards, own)? else {
+            let above = up.dot(&Vector::of(own.origin).minus(&Vector::of(self.point)));
+            return Ok(Passage { inside: above.sign()?.is_lt(), ..Passage::by() });
+        };
+        Ok(Passage { inside: climbs.is_gt(), ends: smallvec![End { root, facet: 0 }] })
     }
 }
 

@@ -140,6 +140,10 @@ impl Geometry for Sphere {
     fn is_closed(&self) -> bool {
         true
     }
+
+    fn is_solid(&self) -> bool {
+        true
+    }
 }
 
 #[cfg(test)]

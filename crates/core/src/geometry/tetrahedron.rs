@@ -111,6 +111,10 @@ impl Geometry for Tetrahedron {
     fn is_closed(&self) -> bool {
         true
     }
+
+    fn is_solid(&self) -> bool {
+        true
+    }
 }
 
 /// Whether a ray runs to the outer side of the face that it leaves.
