@@ -141,6 +141,7 @@ impl<'a> Builder<'a> {
                 Part::Light(light) => Content::Light(light.clone()),
                 Part::Camera(camera) => Content::Camera(camera.clone()),
                 Part::Group => Content::Group(Vec::new()),
+                Part::Solid(operation) => Content::Solid(*operation, Vec::new()),
             };
             self.insert(i, item, content);
         }

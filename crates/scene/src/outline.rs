@@ -5,7 +5,8 @@ use std::ops::Range;
 
 use catoptra_core::scene::Settings;
 use catoptra_core::{
-    Camera, Field, Finish, InvalidPart, Kind, Light, Material, Placement, Shape, Texture, TextureId, Values,
+    Camera, Field, Finish, InvalidPart, Kind, Light, Material, Operation, Placement, Shape, Texture,
+    TextureId, Values,
 };
 
 /// A place in the text, in bytes.
@@ -21,6 +22,7 @@ pub(crate) enum Sort {
     Light(&'static Kind<Light>),
     Camera,
     Group,
+    Solid(Operation),
 }
 
 /// The word for a group of entities.
@@ -45,7 +47,7 @@ impl Sort {
             GROUP => Some(Self::Group),
             _ if word == Camera::KIND.name => Some(Self::Camera),
             _ if word == Settings::KIND.name => Some(Self::Settings),
-            _ => None,
+            _ => Operation::named(word).map(Self::Solid),
         }
     }
 
@@ -54,6 +56,7 @@ impl Sort {
         let mut words: Vec<&'static str> = Shape::KINDS.iter().map(|k| k.name).collect();
         words.extend(Light::KINDS.iter().map(|k| k.name));
         words.extend([Camera::KIND.name, GROUP]);
+        words.extend(Operation::ALL.map(Operation::word));
         if !in_group {
             words.extend(Material::KINDS.iter().map(|k| k.name));
             words.extend(Texture::KINDS.iter().map(|k| k.name));
@@ -72,6 +75,7 @@ impl Sort {
             Self::Light(kind) => kind.name,
             Self::Camera => Camera::KIND.name,
             Self::Group => GROUP,
+            Self::Solid(operation) => operation.word(),
         }
     }
 
@@ -84,7 +88,7 @@ impl Sort {
             Self::Shape(kind) => kind.fields,
             Self::Light(kind) => kind.fields,
             Self::Camera => Camera::KIND.fields,
-            Self::Group => &[],
+            Self::Group | Self::Solid(_) => &[],
         };
         let common: &[Field] = if matches!(self, Self::Material(_)) { Finish::KIND.fields } else { &[] };
         own.iter().chain(common)
@@ -107,12 +111,18 @@ impl Sort {
             Self::Light(kind) => Part::Light((kind.make)(values)?),
             Self::Camera => Part::Camera((Camera::KIND.make)(values)?),
             Self::Group => Part::Group,
+            Self::Solid(operation) => Part::Solid(operation),
         })
     }
 
     /// Whether it is an entity: it stands somewhere, can be placed and can lie in a group.
     pub(crate) fn is_entity(self) -> bool {
-        matches!(self, Self::Shape(_) | Self::Light(_) | Self::Camera | Self::Group)
+        matches!(self, Self::Shape(_) | Self::Light(_) | Self::Camera) || self.has_members()
+    }
+
+    /// Whether others can lie in it.
+    pub(crate) fn has_members(self) -> bool {
+        matches!(self, Self::Group | Self::Solid(_))
     }
 }
 
@@ -126,6 +136,7 @@ pub(crate) enum Part {
     Light(Light),
     Camera(Camera),
     Group,
+    Solid(Operation),
 }
 
 impl Part {
@@ -139,6 +150,7 @@ impl Part {
             Self::Light(light) => Sort::Light(light.kind()),
             Self::Camera(_) => Sort::Camera,
             Self::Group => Sort::Group,
+            Self::Solid(operation) => Sort::Solid(*operation),
         }
     }
 
@@ -154,7 +166,7 @@ impl Part {
             Self::Shape(shape) => shape.values(),
             Self::Light(light) => light.values(),
             Self::Camera(camera) => catoptra_core::Part::values(camera),
-            Self::Group => Values::new(),
+            Self::Group | Self::Solid(_) => Values::new(),
         }
     }
 }

@@ -47,6 +47,7 @@ impl State {
             .map(Part::Shape)
             .or_else(|| scene.light(id).map(Part::Light))
             .or_else(|| scene.camera(id).map(Part::Camera))
+            .or_else(|| scene.operation(id).map(Part::Solid))
             .unwrap_or(Part::Group);
         Some(Self {
             part,

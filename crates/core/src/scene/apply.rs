@@ -6,7 +6,7 @@ use super::{
     Change, ChangeKind, Content, Edit, EntityId, MaterialId, Node, Role, Scene, SceneError, Subject, Subtree,
     new_revision,
 };
-use crate::{Camera, Finish, Light, Placement, Shape};
+use crate::{Camera, Finish, Light, Operation, Placement, Shape};
 
 impl Scene {
     /// Does an edit, writes it into the log, and answers with the edit that takes it back: ids, names, order and
@@ -34,7 +34,11 @@ impl Scene {
         match edit {
             Edit::Insert(subtree) => self.insert(*subtree),
             Edit::Remove(id) => self.remove(id),
-            Edit::Shape(id, shape) => Ok(Edit::Shape(id, self.exchange(id, shape)?)),
+            Edit::Shape(id, shape) => {
+                self.check_part_of_solid(id, &shape)?;
+                Ok(Edit::Shape(id, self.exchange(id, shape)?))
+            }
+            Edit::Operation(id, operation) => Ok(Edit::Operation(id, self.exchange(id, operation)?)),
             Edit::Light(id, light) => Ok(Edit::Light(id, self.exchange(id, light)?)),
             Edit::Camera(id, camera) => Ok(Edit::Camera(id, self.exchange(id, camera)?)),
             Edit::Placement(id, placement) => Ok(Edit::Placement(id, self.exchange(id, placement)?)),
@@ -106,6 +110,16 @@ impl Scene {
         }
     }
 
+    /// Notes that a solid has other members, or in another order: its other members look different then.
+    fn touch_solid(&mut self, group: Option<EntityId>) {
+        if let Some(group) = group
+            && self.operation(group).is_some()
+            && let Some(entity) = self.entity(group)
+        {
+            self.touch(entity);
+        }
+    }
+
     /// Puts `value` in the place of the component of its type and gives back what was there.
     fn exchange<T: Slot>(&mut self, id: EntityId, value: T) -> Result<T, SceneError> {
         let entity = self.entity(id).ok_or(SceneError::UnknownEntity(id))?;
@@ -131,6 +145,7 @@ impl Scene {
         }
         let id = self.spawn(subtree.node, subtree.parent);
         self.list(id, subtree.parent, subtree.index);
+        self.touch_solid(subtree.parent);
         Ok(Edit::Remove(id))
     }
 
@@ -145,14 +160,22 @@ impl Scene {
             Content::Light(light) => self.world.spawn((light,)),
             Content::Camera(camera) => self.world.spawn((camera,)),
             Content::Group(members) => {
-                let members = members.into_iter().map(|member| self.spawn(member, Some(id))).collect();
-                self.world.spawn((Members(members),))
+                let members = self.spawn_all(members, id);
+                self.world.spawn((members,))
+            }
+            Content::Solid(operation, members) => {
+                let members = self.spawn_all(members, id);
+                self.world.spawn((members, operation))
             }
         };
         self.world.insert(entity, common).expect("the entity was spawned above");
         self.set_parent(entity, parent);
         self.entities.insert(id, entity);
         id
+    }
+
+    fn spawn_all(&mut self, members: Vec<Node>, group: EntityId) -> Members {
+        Members(members.into_iter().map(|member| self.spawn(member, Some(group))).collect())
     }
 
     fn set_parent(&mut self, entity: hecs::Entity, parent: Option<EntityId>) {
@@ -169,6 +192,7 @@ impl Scene {
         let node = self.node(id).ok_or(SceneError::UnknownEntity(id))?;
         let parent = self.parent(id);
         let index = Some(self.unlist(id));
+        self.touch_solid(parent);
         for (gone, _) in node.walk() {
             self.by_name.remove(&gone.name);
             if let Some(id) = gone.id
@@ -190,6 +214,8 @@ impl Scene {
         self.set_parent(entity, parent);
         self.list(id, parent, None);
         self.touch(entity);
+        self.touch_solid(old);
+        self.touch_solid(parent);
         self.record(Subject::Entity(id), ChangeKind::Parent);
         Ok(Edit::Batch(vec![Edit::Parent(id, old), Edit::Order(id, index)]))
     }
@@ -200,6 +226,7 @@ impl Scene {
         }
         let old = self.unlist(id);
         self.list(id, self.parent(id), Some(index));
+        self.touch_solid(self.parent(id));
         self.record(Subject::Entity(id), ChangeKind::Order);
         Ok(Edit::Order(id, old))
     }
@@ -256,6 +283,7 @@ slots! {
     MaterialId: Shape, Material;
     Light: Light, Light;
     Camera: Camera, Camera;
+    Operation: Group, Operation;
     Placement: Group, Placement;
     Name: Group, Name;
 }

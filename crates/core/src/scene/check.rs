@@ -3,12 +3,16 @@
 use std::collections::HashSet;
 
 use super::{Content, EntityId, MaterialId, Node, Role, Scene, SceneError, Subtree};
+use crate::Shape;
 
 impl Scene {
     /// Whether all of a subtree can be inserted where it is to go.
     pub(super) fn check_insertion(&self, subtree: &Subtree) -> Result<(), SceneError> {
         if let Some(group) = subtree.parent {
             self.check_group(group)?;
+            if self.operation(group).is_some() {
+                check_solid(&subtree.node, || self.name_or_id(group))?;
+            }
         }
         let above = self.depth_under(subtree.parent);
         let (mut names, mut ids) = (HashSet::new(), HashSet::new());
@@ -40,6 +44,9 @@ impl Scene {
         }
         match node.content {
             Content::Shape(_, material) => self.check_material(material),
+            Content::Solid(_, ref members) => {
+                members.iter().try_for_each(|member| check_solid(member, || node.name.clone()))
+            }
             Content::Light(_) | Content::Camera(_) | Content::Group(_) => Ok(()),
         }
     }
@@ -48,6 +55,11 @@ impl Scene {
     pub(super) fn check_membership(&self, id: EntityId, parent: Option<EntityId>) -> Result<(), SceneError> {
         let Some(group) = parent else { return Ok(()) };
         self.check_group(group)?;
+        if self.operation(group).is_some()
+            && let Some(node) = self.node(id)
+        {
+            check_solid(&node, || self.name_or_id(group))?;
+        }
         if self.lies_in(group, id) {
             return Err(SceneError::Cycle { group: self.name_or_id(id), into: self.name_or_id(group) });
         }
@@ -73,6 +85,16 @@ impl Scene {
         self.find_material(id).map(|_| ()).ok_or(SceneError::UnknownMaterial(id))
     }
 
+    /// Whether an entity may have another shape: one that encloses nothing is no part of a solid.
+    pub(super) fn check_part_of_solid(&self, id: EntityId, shape: &Shape) -> Result<(), SceneError> {
+        match self.parent(id).filter(|&parent| self.operation(parent).is_some()) {
+            Some(solid) if !shape.is_solid() => {
+                Err(SceneError::NotSolid { name: self.name_or_id(id), solid: self.name_or_id(solid) })
+            }
+            _ => Ok(()),
+        }
+    }
+
     fn check_group(&self, id: EntityId) -> Result<(), SceneError> {
         match self.role(id) {
             None => Err(SceneError::UnknownEntity(id)),
@@ -84,5 +106,14 @@ impl Scene {
     /// What a message calls an entity.
     pub(super) fn name_or_id(&self, id: EntityId) -> String {
         self.name(id).unwrap_or_else(|| id.to_string())
+    }
+}
+
+/// Whether a node can be a part of a solid.
+fn check_solid(node: &Node, solid: impl Fn() -> String) -> Result<(), SceneError> {
+    match &node.content {
+        Content::Shape(shape, _) if shape.is_solid() => Ok(()),
+        Content::Solid(..) => Ok(()),
+        _ => Err(SceneError::NotSolid { name: node.name.clone(), solid: solid() }),
     }
 }

@@ -16,9 +16,12 @@ impl Scene {
         } else if let Some(camera) = self.camera(id) {
             Content::Camera(camera)
         } else {
-            Content::Group(
-                self.children(Some(id)).into_iter().filter_map(|member| self.node(member)).collect(),
-            )
+            let members =
+                self.children(Some(id)).into_iter().filter_map(|member| self.node(member)).collect();
+            match self.operation(id) {
+                Some(operation) => Content::Solid(operation, members),
+                None => Content::Group(members),
+            }
         };
         Some(Node { id: Some(id), name: self.name(id)?, placement: self.placement(id)?, content })
     }

@@ -1,7 +1,7 @@
 //! What can be changed in a scene, and how is a change written down?
 
 use super::{EntityId, MaterialId, Settings, Subtree, TextureId};
-use crate::{Camera, Finish, Light, Material, Placement, Shape, Texture};
+use crate::{Camera, Finish, Light, Material, Operation, Placement, Shape, Texture};
 
 /// One change to a [`Scene`](super::Scene). [`Scene::apply`](super::Scene::apply) does it and answers with the
 /// edit that takes it back.
@@ -13,6 +13,8 @@ pub enum Edit {
     Remove(EntityId),
     /// Gives a shape entity another shape.
     Shape(EntityId, Shape),
+    /// Combines the members of a solid in another way.
+    Operation(EntityId, Operation),
     /// Gives a light entity another light.
     Light(EntityId, Light),
     /// Gives a camera entity another camera.
@@ -108,6 +110,8 @@ pub enum ChangeKind {
     Removed,
     /// The shape of a shape entity.
     Shape,
+    /// How the members of a solid are combined.
+    Operation,
     /// The light of a light entity.
     Light,
     /// The camera of a camera entity.

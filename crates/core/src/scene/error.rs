@@ -57,6 +57,14 @@ pub enum SceneError {
         /// What it is.
         is: Role,
     },
+    /// Solids are made of shapes that enclose something, and of other solids.
+    #[error("\"{name}\" encloses nothing and cannot be a part of the solid \"{solid}\"")]
+    NotSolid {
+        /// What was to become a part, or to have another shape.
+        name: String,
+        /// The solid.
+        solid: String,
+    },
     /// A group may not be a member of itself, nor of a group inside it.
     #[error("\"{group}\" cannot become a member of \"{into}\", which is {}", if group == into {"itself"} else {"inside it"})]
     Cycle {

@@ -22,6 +22,7 @@ mod node;
 mod painting;
 mod query;
 mod settings;
+mod solids;
 mod tree;
 
 use std::collections::{BTreeMap, HashMap};
@@ -36,8 +37,9 @@ pub use integrator::Integrator;
 pub use node::{Content, Node, Subtree};
 pub use query::Placed;
 pub use settings::Settings;
+pub use solids::PlacedSolid;
 
-use crate::{Camera, Light, Material, Placement, Shape, Texture};
+use crate::{Camera, Light, Material, Operation, Placement, Shape, Texture};
 use component::Name;
 use ids::Counter;
 use library::Library;
@@ -133,6 +135,12 @@ impl Scene {
     /// The material of a shape entity.
     #[must_use]
     pub fn material_of(&self, id: EntityId) -> Option<MaterialId> {
+        self.component(id)
+    }
+
+    /// How the members of a solid are combined; `None` for every other entity.
+    #[must_use]
+    pub fn operation(&self, id: EntityId) -> Option<Operation> {
         self.component(id)
     }
 

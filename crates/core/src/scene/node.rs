@@ -1,7 +1,7 @@
 //! What is inserted into a scene, and what a removal gives back: an entity with all its members.
 
 use super::{EntityId, MaterialId, Role};
-use crate::{Camera, Light, Placement, Shape};
+use crate::{Camera, Light, Operation, Placement, Shape};
 
 /// One entity with its members, outside any scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +27,8 @@ pub enum Content {
     Camera(Camera),
     /// Other entities, in order, that move with it.
     Group(Vec<Node>),
+    /// A solid made of members: shapes that [enclose something](Shape::is_solid) and other such solids. They move with it.
+    Solid(Operation, Vec<Node>),
 }
 
 /// A [`Node`] and the place in the tree of groups where it goes.
@@ -71,6 +73,12 @@ impl Node {
         Self::new(name, Content::Group(members))
     }
 
+    /// A solid made of `members`.
+    #[must_use]
+    pub fn solid(name: impl Into<String>, operation: Operation, members: Vec<Self>) -> Self {
+        Self::new(name, Content::Solid(operation, members))
+    }
+
     /// The same at another place.
     #[must_use]
     pub fn placed(self, placement: Placement) -> Self {
@@ -90,14 +98,17 @@ impl Node {
             Content::Shape(..) => Role::Shape,
             Content::Light(_) => Role::Light,
             Content::Camera(_) => Role::Camera,
-            Content::Group(_) => Role::Group,
+            Content::Group(_) | Content::Solid(..) => Role::Group,
         }
     }
 
-    /// The members of a group in order; empty for everything else.
+    /// The members of a group or a solid in order; empty for everything else.
     #[must_use]
     pub fn members(&self) -> &[Self] {
-        if let Content::Group(members) = &self.content { members } else { &[] }
+        match &self.content {
+            Content::Group(members) | Content::Solid(_, members) => members,
+            Content::Shape(..) | Content::Light(_) | Content::Camera(_) => &[],
+        }
     }
 
     /// This node, then its members and theirs, each with the number of groups of this subtree that hold it.
@@ -113,7 +124,7 @@ impl Node {
     /// Changes this node, then its members and theirs.
     pub(super) fn each_mut(&mut self, change: &mut impl FnMut(&mut Self)) {
         change(self);
-        if let Content::Group(members) = &mut self.content {
+        if let Content::Group(members) | Content::Solid(_, members) = &mut self.content {
             for member in members {
                 member.each_mut(change);
             }

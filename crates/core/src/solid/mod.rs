@@ -156,6 +156,12 @@ impl Member {
         &self.solid.shapes[self.number as usize]
     }
 
+    /// The same part of the solid, placed elsewhere.
+    #[must_use]
+    pub fn placed(&self, placement: &Placement) -> Self {
+        Self { solid: Arc::new(self.solid.placed(placement)), number: self.number }
+    }
+
     /// A box round what of the shape's surface is the solid's; `None` where that has no end.
     #[must_use]
     pub fn bounds(&self) -> Option<Aabb> {

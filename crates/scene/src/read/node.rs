@@ -166,7 +166,7 @@ impl Reader<'_> {
                 self.read_field(written, &entries, item);
             } else if item.sort.is_entity() && STEPS.iter().any(|(step, ..)| *step == word) {
                 self.read_step(child, item);
-            } else if matches!(item.sort, Sort::Group) {
+            } else if item.sort.has_members() {
                 members.push(child);
             } else if Sort::named(word).is_some_and(Sort::is_entity) {
                 let message = format!("{} cannot have members; only a group can", one(item.sort.word()));

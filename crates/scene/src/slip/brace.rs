@@ -18,7 +18,7 @@ impl Builder<'_> {
                 .and_then(|token| Sort::named(self.text[token.span.clone()].split([':', '=', '(']).next()?));
             let ends = match (begins, statement.sort(self.text), statement.open) {
                 (Some(_), Some(sort), Some(open)) => {
-                    !matches!(sort, Sort::Group) || is_left_of(self.text, at, statement.span.start, open)
+                    !sort.has_members() || is_left_of(self.text, at, statement.span.start, open)
                 }
                 _ => false,
             };

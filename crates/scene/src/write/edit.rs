@@ -38,7 +38,7 @@ fn edit_item(text: &str, item: &Item, now: &State, scene: &Scene, splices: &mut 
     }
     let mut lines = edit_fields(text, item, &now.part, scene, splices);
     let steps = placement::edit(text, item, &now.placement, splices);
-    if matches!(now.part, Part::Group) {
+    if now.part.sort().has_members() {
         put_at_start(text, item, &steps, splices);
     } else {
         lines.extend(steps);

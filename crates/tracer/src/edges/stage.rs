@@ -52,7 +52,7 @@ impl Stage {
             let row = &snapshot.material_rows()[prim.material as usize];
             let material = &snapshot.materials()[prim.material as usize];
             Subject {
-                body: Body::of(&prim.shape),
+                body: if prim.member.is_some() { Body::Other(prim.bounds()) } else { Body::of(&prim.shape) },
                 lit: row.lobes.is_lit(),
                 mirror: material.lobes(&ShadingPoint::HEAD_ON).mirror.map(|mirror| {
                     let Triple { x, y, z } = mirror.tint;

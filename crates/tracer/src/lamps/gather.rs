@@ -116,7 +116,7 @@ pub(crate) fn may_hide(snapshot: &Snapshot, lamp: &LampRow, prim: u32, at: &LitP
 
 /// Whether the ball round a shape reaches between a point and a lamp.
 fn may_stand_between(snapshot: &Snapshot, lamp: &LampRow, prim: u32, at: &LitPoint) -> bool {
-    let Some(bounds) = snapshot.prims()[prim as usize].shape.bounds() else { return true };
+    let Some(bounds) = snapshot.prims()[prim as usize].bounds() else { return true };
     let ball = Ball::round(bounds);
     let origin = snapshot.origin_in_frame();
     let here = PointBounds::at(prim, at.point - origin);

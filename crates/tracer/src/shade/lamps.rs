@@ -17,7 +17,7 @@ use crate::numeric::{CUT_MARGIN, SMALL_LAMP};
 use crate::search::{Refined, ViewCones};
 use crate::snapshot::{Ball, FlatLamp, LampRow, LampTree};
 use crate::stream::Batch;
-use crate::{LampLight, SurfaceId, Tile};
+use crate::{LampLight, Prim, SurfaceId, Tile};
 
 /// Room for light from surfaces, kept from tile to tile.
 #[derive(Default)]
@@ -174,7 +174,11 @@ impl<'a, S: Simd> Shader<'a, S> {
         for at_blocker in 0..self.plan.lamps[number].blockers.len() {
             let prim = self.plan.lamps[number].blockers[at_blocker];
             let own = self.chunk.best[slot].prim.is(prim);
-            let shape = &snapshot.prims()[prim as usize].shape;
+            let Prim { shape, member, .. } = &snapshot.prims()[prim as usize];
+            if member.is_some() {
+                answered = answered & !(seeing & self.may_hide(&outline, prim, lamp, point));
+                continue;
+            }
             if let Shape::Mesh(_) = shape {
                 let [e, f, g, h, i] = outline.planes();
                 let cones =
@@ -225,7 +229,7 @@ impl<'a, S: Simd> Shader<'a, S> {
     #[inline(always)]
     fn may_hide(&self, outline: &Outline<F<S>>, prim: u32, lamp: &LampRow, point: D3<S>) -> M<S> {
         let (s, snapshot) = (self.s, self.search.snapshot);
-        let Some(bounds) = snapshot.prims()[prim as usize].shape.bounds() else {
+        let Some(bounds) = snapshot.prims()[prim as usize].bounds() else {
             return !self.is_beside_plane(prim, lamp, point);
         };
         let ball = Ball::round(bounds);

@@ -59,10 +59,15 @@ impl Ball {
         Aabb { min: self.center - reach, max: self.center + reach }
     }
 
-    fn of(shape: &Shape) -> Option<Self> {
-        match shape {
-            Shape::Sphere(sphere) => Some(Self { center: sphere.center(), radius: sphere.radius() }),
-            shape => shape.bounds().map(Self::round),
+    /// Round what can be met of a shape, relative to an origin.
+    fn of(prim: &Prim, origin: DVec3) -> Option<Self> {
+        match (&*relative(&prim.shape, origin), &prim.member) {
+            (Shape::Sphere(sphere), None) => Some(Self { center: sphere.center(), radius: sphere.radius() }),
+            (shape, None) => shape.bounds().map(Self::round),
+            (_, Some(member)) => {
+                let round = Self::round(member.bounds()?);
+                Some(Self { center: round.center - origin, ..round })
+            }
         }
     }
 }
@@ -95,7 +100,7 @@ impl Deref for Columns {
 impl Columns {
     /// Relative to an origin.
     pub(crate) fn of(prims: &[Prim], bounded: &[u32], meshes: &[Arc<MeshTree>], origin: DVec3) -> Self {
-        let ball = |i: u32| Ball::of(&relative(&prims[i as usize].shape, origin));
+        let ball = |i: u32| Ball::of(&prims[i as usize], origin);
         let balls = bounded.iter().filter_map(|&i| ball(i)).collect();
         let mut columns = Self { bounded: bounded.to_vec(), balls, ..Self::default() };
         for (prim, id) in prims.iter().zip(0..) {
@@ -105,7 +110,7 @@ impl Columns {
                 Row::Instance(_) => prim.mesh.is_some_and(|m| meshes[m as usize].mesh().normals().is_some()),
                 row => row == Row::General,
             };
-            if row == Row::General && prim.shape.bounds().is_none() {
+            if row == Row::General && prim.bounds().is_none() {
                 columns.general_unbounded.push(id);
             }
         }
@@ -172,7 +177,7 @@ impl Columns {
     }
 
     fn add(&mut self, prim: &Prim, shape: &Shape, id: u32, meshes: &[Arc<MeshTree>]) -> Row {
-        if !is_ordinary(shape) {
+        if prim.member.is_some() || !is_ordinary(shape) {
             return Row::General;
         }
         match shape {

@@ -4,11 +4,13 @@ use std::borrow::Cow;
 use std::collections::HashSet;
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Aabb, Camera, EntityId, Finish, Light, Material, MaterialId, Placed, Rgb, Shape};
+use catoptra_core::{
+    Aabb, Camera, EntityId, Finish, Light, Material, MaterialId, Placed, Placement, Rgb, Shape,
+};
 use itertools::{EitherOrBoth, merge_join_by};
 
-use super::Snapshot;
 use super::origin::relative;
+use super::{Prim, Snapshot};
 
 /// The differences between two snapshots. Values are compared as numbers, so that 0 and −0 are one.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -195,11 +197,21 @@ impl<'a> Standing<'a> {
 
     /// In the world. Taking a shape into a frame rounds nothing, and neither does taking it back.
     fn shape(&self) -> Cow<'a, Shape> {
-        relative(&self.snapshot.prims[self.prim].shape, -self.snapshot.frame)
+        relative(&self.prim().shape, -self.snapshot.frame)
     }
 
     fn bounds(&self) -> Option<Aabb> {
-        self.shape().bounds()
+        match &self.prim().member {
+            Some(member) => {
+                let moved = Placement::IDENTITY.moved(self.snapshot.frame).unwrap_or_default();
+                member.placed(&moved).bounds()
+            }
+            None => self.shape().bounds(),
+        }
+    }
+
+    fn prim(&self) -> &'a Prim {
+        &self.snapshot.prims[self.prim]
     }
 
     /// Its material, and what that is called; the body of a light has one without a name.
@@ -218,7 +230,9 @@ impl<'a> Standing<'a> {
     /// What differs in a later snapshot, where those materials have other values.
     fn against(&self, later: &Self, changed: &HashSet<MaterialId>) -> Option<ShapeDiff> {
         let touched = |standing: &Self| standing.snapshot.touched[standing.prim];
-        let shape = touched(self) != touched(later) && self.shape() != later.shape();
+        let solid = |standing: &Self| standing.prim().member.is_some();
+        let shape =
+            touched(self) != touched(later) && (solid(self) || solid(later) || self.shape() != later.shape());
         let [(old, was), (new, is)] = [self.material(), later.material()];
         let material = match (old, new) {
             (Some(old), Some(new)) if old == new => changed.contains(&old),

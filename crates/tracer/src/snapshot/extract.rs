@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use catoptra_core::geometry::Plane;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Finish, Lamp, Light, Material, Placement, Rgb, Scene, Shape};
+use catoptra_core::{Finish, Lamp, Light, Material, Member, Placed, Placement, Rgb, Scene, Shape};
 
 use super::index::{Index, MeshTrees};
 use super::lamps::Shining;
@@ -99,14 +99,24 @@ impl Extraction {
     }
 
     fn prims(&self, frame: DVec3, trees: &mut MeshTrees<'_>) -> Vec<Prim> {
-        self.shapes
-            .iter()
-            .map(|(shape, material)| Prim {
-                shape: relative(&shape.part, frame).into_owned(),
-                material: *material,
-                mesh: trees.of(&shape.part),
-            })
-            .collect()
+        let prim = |((shape, material), body): (&(Placed<Shape>, u32), u32)| Prim {
+            shape: relative(&shape.part, frame).into_owned(),
+            material: *material,
+            mesh: trees.of(&shape.part),
+            member: None,
+            body,
+        };
+        let mut prims: Vec<Prim> = self.shapes.iter().zip(0..).map(prim).collect();
+        let to_frame = Placement::IDENTITY.moved(-frame).ok().filter(|_| frame != DVec3::ZERO);
+        for (solid, places) in &self.solids {
+            let solid = to_frame.map_or_else(|| Arc::clone(solid), |moved| Arc::new(solid.placed(&moved)));
+            for (&place, number) in places.iter().zip(0..) {
+                let prim = &mut prims[place as usize];
+                prim.member = Member::new(Arc::clone(&solid), number);
+                prim.body = places[0];
+            }
+        }
+        prims
     }
 
     fn lamps(&self, prims: &[Prim], frame: DVec3, origin: DVec3) -> Lamps {

@@ -7,8 +7,8 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::material::Emissive;
 use catoptra_core::texture::Texture;
 use catoptra_core::{
-    Camera, EntityId, Finish, Lamp, Light, Material, MaterialId, Placed, Placement, Scene, Settings, Shape,
-    TextureId,
+    Camera, EntityId, Finish, Lamp, Light, Material, MaterialId, Placed, PlacedSolid, Placement, Scene,
+    Settings, Shape, Solid, TextureId,
 };
 
 /// All that a [`Snapshot`](super::Snapshot) is made of, copied out of a scene. It needs the scene no more, so that a
@@ -21,11 +21,33 @@ pub struct Extraction {
     pub(super) shapes: Vec<(Placed<Shape>, u32)>,
     /// Shapes whose materials ask where on them a point lies, by their places in the list, as they are in their own spaces.
     pub(super) own: BTreeMap<u32, OwnShape>,
+    /// Solids made of several shapes, and these shapes by their places in the list.
+    pub(super) solids: Vec<(Arc<Solid>, Vec<u32>)>,
     /// Surface lights that are no bodies.
     pub(super) unseen: Vec<Lamp>,
     pub(super) parts: Arc<Parts>,
     /// Position of the first camera.
     pub(super) eye: Option<DVec3>,
+}
+
+/// The solids of a scene, of shapes listed by age. Whatever changes a part of one changes how all of it looks.
+fn solids(scene: &Scene, shapes: &mut [(Placed<Shape>, u32)]) -> Vec<(Arc<Solid>, Vec<u32>)> {
+    let mut solids = Vec::new();
+    for PlacedSolid { solid, members, touched } in scene.world_solids() {
+        let places: Vec<u32> = members
+            .iter()
+            .filter_map(|member| shapes.binary_search_by_key(member, |(shape, _)| shape.id).ok())
+            .map(|place| place as u32)
+            .collect();
+        for &place in &places {
+            let shape = &mut shapes[place as usize].0;
+            shape.touched = shape.touched.max(touched);
+        }
+        if places.len() == members.len() {
+            solids.push((Arc::new(solid), places));
+        }
+    }
+    solids
 }
 
 /// A shape before it is placed.
@@ -92,6 +114,7 @@ impl Extraction {
             }
         }
         shapes.sort_by_key(|(shape, _)| shape.id);
+        let solids = solids(scene, &mut shapes);
         let asks: Vec<bool> = materials
             .iter()
             .map(|(id, material)| {
@@ -113,7 +136,7 @@ impl Extraction {
             bodies,
             settings,
         };
-        Self { shapes, own, unseen, parts: Arc::new(parts), eye }
+        Self { shapes, own, solids, unseen, parts: Arc::new(parts), eye }
     }
 
     /// The materials of shapes, by their index.

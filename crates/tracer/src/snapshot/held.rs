@@ -6,7 +6,7 @@ use catoptra_core::numeric::HELD_WITHIN;
 use catoptra_core::{Geometry, Ray, Shape, Span};
 
 use super::search::RaySegment;
-use super::{Snapshot, SurfaceId};
+use super::{Prim, Snapshot, SurfaceId};
 use crate::numeric::BOUNDS_ERROR;
 
 /// Boxes are looked into at most so far beside a point, given the size of all coordinates: [`facet_holds`] counts with that of
@@ -33,7 +33,7 @@ impl Snapshot {
     }
 
     fn add_holding(&self, prim: u32, point: DVec3, held: &mut Vec<SurfaceId>) {
-        let shape = &self.prims[prim as usize].shape;
+        let Prim { shape, member: None, .. } = &self.prims[prim as usize] else { return };
         let mut add = |facet: u32| {
             if facet_holds(shape, facet, point) {
                 held.push(SurfaceId { prim, facet });

@@ -28,8 +28,8 @@ impl Index {
     /// Relative to an origin.
     pub(super) fn build(prims: &[Prim], trees: MeshTrees<'_>, origin: DVec3) -> Self {
         let (bounded, unbounded): (Vec<u32>, Vec<u32>) =
-            (0..prims.len() as u32).partition(|&i| prims[i as usize].shape.bounds().is_some());
-        let boxes = bounded.iter().filter_map(|&i| prims[i as usize].shape.bounds());
+            (0..prims.len() as u32).partition(|&i| prims[i as usize].bounds().is_some());
+        let boxes = bounded.iter().filter_map(|&i| prims[i as usize].bounds());
         let boxes: Vec<Box32> = boxes.map(|b| around(b, origin)).collect();
         let MeshTrees { meshes, pool, .. } = trees;
         let columns = Columns::of(prims, &bounded, &meshes, origin);

@@ -79,6 +79,11 @@ pub(crate) struct Lamps {
     pub(crate) areas: HashMap<u32, f64>,
 }
 
+/// The outline of a shape that may block light; none of a part of a solid.
+fn blocker_of(prim: &Prim) -> Option<Blocker> {
+    if prim.member.is_some() { None } else { Blocker::of(&prim.shape) }
+}
+
 impl Lamps {
     /// Of shapes whose materials have lights of their own, and of lights that are no bodies; `origin` is the snapshot's, in its frame.
     pub(super) fn new(
@@ -90,6 +95,10 @@ impl Lamps {
         let mut lamps = Self::default();
         for (prim, id) in prims.iter().zip(0..) {
             if let Some(shining) = shining(prim.material) {
+                if prim.member.is_some() {
+                    lamps.endless.push(id);
+                    continue;
+                }
                 lamps.add(&prim.shape, shining, Some(id), origin);
             }
         }
@@ -105,7 +114,7 @@ impl Lamps {
         if count > MOST_LAMPS {
             lamps.tree = Some(lamps.new_tree());
         } else if count > 0 {
-            lamps.blockers = prims.iter().map(|prim| Blocker::of(&prim.shape)).collect();
+            lamps.blockers = prims.iter().map(blocker_of).collect();
             lamps.tree_of_paths = (count > MOST_LAMPS_OF_PATHS).then(|| lamps.new_tree());
         }
         lamps

@@ -18,7 +18,7 @@ mod search;
 use std::sync::Arc;
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Constant3, EntityId, Light, Material, Ray, Rgb, Shape};
+use catoptra_core::{Aabb, Constant3, EntityId, Light, Material, Member, Ray, Rgb, Shape};
 
 pub(crate) use columns::{Affine, Ball, Columns, Instance};
 pub use diff::{Changed, PartDiff, Presence, ShapeDiff, SnapshotDiff};
@@ -45,6 +45,18 @@ pub struct Prim {
     pub material: u32,
     /// Index of its mesh tree in the snapshot, if it is a mesh.
     pub mesh: Option<u32>,
+    /// The solid that it is a part of, and which; only the solid's surface is met.
+    pub member: Option<Member>,
+    /// The shape that stands for the solid of which it is a part; itself where there is none.
+    pub body: u32,
+}
+
+impl Prim {
+    /// A box round what of it can be met; `None` where that has no end.
+    #[must_use]
+    pub fn bounds(&self) -> Option<Aabb> {
+        self.member.as_ref().map_or_else(|| self.shape.bounds(), Member::bounds)
+    }
 }
 
 /// A scene frozen for tracing. Never changes; share it by `Arc`.

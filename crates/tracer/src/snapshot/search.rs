@@ -5,10 +5,11 @@ use std::cmp::Ordering;
 
 use catoptra_core::exact::{Number, Root, Verdict};
 use catoptra_core::geometry::Mesh;
-use catoptra_core::{Crossing, Geometry, Ray, Shape, Span, order_of_roots};
+use catoptra_core::solid::Left;
+use catoptra_core::{Crossing, Geometry, Member, Placement, Ray, Shape, Span, order_of_roots};
 
-use super::Snapshot;
 use super::origin::{is_exact, relative};
+use super::{Prim, Snapshot};
 use crate::accel::WideTree;
 
 /// A facet of a shape. A ray that leaves from one does not meet it again at its origin.
@@ -92,11 +93,15 @@ impl Snapshot {
     /// As [`nearest_of_all`](Self::nearest_of_all).
     pub(crate) fn nearest_of_all_on(&self, segment: &RaySegment<'_>) -> Option<Hit> {
         (0..self.prims.len() as u32).fold(None, |best, prim| {
-            let crossing = self.shape(segment, prim).cross(
-                segment.ray,
-                segment.until(best).span,
-                leaving_facet(prim, segment.leaving),
-            );
+            let within = segment.until(best);
+            let crossing = match self.member(&within, prim) {
+                Some(member) => member.cross(within.ray, within.span, self.left(prim, within.leaving)),
+                None => self.shape(&within, prim).cross(
+                    within.ray,
+                    within.span,
+                    leaving_facet(prim, within.leaving),
+                ),
+            };
             let hit =
                 crossing.map(|crossing| Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing });
             self.closer(segment, best, hit)
@@ -113,6 +118,24 @@ impl Snapshot {
     fn shape(&self, segment: &RaySegment<'_>, prim: u32) -> Cow<'_, Shape> {
         let shape = &self.prims[prim as usize].shape;
         if segment.in_world { relative(shape, -self.frame) } else { Cow::Borrowed(shape) }
+    }
+
+    /// A part of a solid in the space that a segment's ray is given in; `None` for other shapes.
+    fn member(&self, segment: &RaySegment<'_>, prim: u32) -> Option<Cow<'_, Member>> {
+        let member = self.prims[prim as usize].member.as_ref()?;
+        let moved = Placement::IDENTITY.moved(self.frame).ok().filter(|_| segment.in_world);
+        Some(moved.map_or(Cow::Borrowed(member), |moved| Cow::Owned(member.placed(&moved))))
+    }
+
+    /// The surface of its solid that a ray leaves, as parts of the solid name it.
+    fn left(&self, prim: u32, leaving: Option<SurfaceId>) -> Option<Left> {
+        let surface = leaving?;
+        let left = &self.prims[surface.prim as usize];
+        let same = left.body == self.prims[prim as usize].body;
+        left.member
+            .as_ref()
+            .filter(|_| same)
+            .map(|member| Left { member: member.number(), facet: surface.facet })
     }
 
     /// The nearer of two hits of one ray; the lower shape where they tie.
@@ -144,6 +167,9 @@ impl Snapshot {
     }
 
     fn root<N: Number>(&self, segment: &RaySegment<'_>, surface: SurfaceId) -> Verdict<Option<Root<N>>> {
+        if let Some(member) = self.member(segment, surface.prim) {
+            return member.root(segment.ray, segment.span, self.left(surface.prim, segment.leaving));
+        }
         let leaving = leaving_facet(surface.prim, segment.leaving);
         self.shape(segment, surface.prim).root(surface.facet, segment.ray, segment.span, leaving)
     }
@@ -157,10 +183,12 @@ impl Snapshot {
         span: Span,
         leaving: Option<SurfaceId>,
     ) -> Option<Hit> {
+        let Prim { shape, member: None, .. } = &self.prims[prim as usize] else {
+            return self.cross(prim, &RaySegment::new(ray, span, leaving));
+        };
         let Some(facet) = facet else {
             return self.cross(prim, &RaySegment::new(ray, span, leaving));
         };
-        let shape = &self.prims[prim as usize].shape;
         let crossing = shape.cross_part(facet, ray, span, leaving_facet(prim, leaving))?;
         Some(Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing })
     }
@@ -175,6 +203,10 @@ impl Snapshot {
 
     /// Where a ray crosses one shape; meshes by their tree.
     pub(super) fn cross(&self, prim: u32, segment: &RaySegment<'_>) -> Option<Hit> {
+        if let Some(member) = self.member(segment, prim) {
+            let crossing = member.cross(segment.ray, segment.span, self.left(prim, segment.leaving))?;
+            return Some(Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing });
+        }
         let leaving = leaving_facet(prim, segment.leaving);
         let crossing = match (&*self.shape(segment, prim), self.prims[prim as usize].mesh) {
             (Shape::Mesh(mesh), Some(tree)) => {

@@ -7,8 +7,9 @@
 
 use catoptra_core::{Medium, Ray, Rgb, Span};
 use smallvec::SmallVec;
+use std::collections::BTreeMap;
 
-use crate::{Frame, Snapshot};
+use crate::{Frame, Hit, Snapshot};
 
 /// The shapes of clear matter that a path is inside of, by their numbers.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -26,11 +27,20 @@ impl Media {
         if !snapshot.matter().is_see_through {
             return media;
         }
+        let mut met: BTreeMap<u32, Hit> = BTreeMap::new();
         for (prim, number) in snapshot.prims().iter().zip(0..) {
-            let solid = snapshot.matter().medium_in(prim).is_some();
-            let met = solid.then(|| snapshot.cross_part(number, None, ray, Span::AHEAD, None)).flatten();
-            if met.is_some_and(|hit| hit.crossing.normal.dot(ray.direction) > 0.0) {
-                media.enter(number);
+            if medium(snapshot, prim.body).is_none() {
+                continue;
+            }
+            let Some(hit) = snapshot.cross_part(number, None, ray, Span::AHEAD, None) else { continue };
+            let nearest = met.entry(prim.body).or_insert(hit);
+            if hit.crossing.t < nearest.crossing.t {
+                *nearest = hit;
+            }
+        }
+        for (body, hit) in met {
+            if hit.crossing.normal.dot(ray.direction) > 0.0 {
+                media.enter(body);
             }
         }
         media

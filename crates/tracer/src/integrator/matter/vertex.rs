@@ -112,7 +112,9 @@ impl<'a, S: Search> Walker<'a, S> {
         };
         let surface = self.surface_at(hit, path.ray);
         path.absorb(path.media.left_after(snapshot, surface.shading.distance));
-        let (prim, front) = (hit.surface.prim, surface.shading.front);
+        // A solid of several shapes is filled by what its first one is made of.
+        let body = snapshot.prims()[hit.surface.prim as usize].body;
+        let (prim, front) = (body, surface.shading.front);
         let mut behind = path.media.clone();
         if snapshot.matter().medium_in(&snapshot.prims()[prim as usize]).is_some() {
             let inside = if front {
