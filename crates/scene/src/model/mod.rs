@@ -9,9 +9,13 @@
 mod error;
 mod folder;
 mod merged;
+mod mesh;
 mod model;
+mod names;
 mod obj;
 mod ply;
+mod text;
+mod warnings;
 
 use std::path::Path;
 
