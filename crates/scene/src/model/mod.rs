@@ -6,6 +6,7 @@
 //!
 //! A new format is one file or folder here and one line in [`FORMATS`].
 
+mod colors;
 mod error;
 mod folder;
 mod merged;
@@ -13,6 +14,7 @@ mod mesh;
 mod model;
 mod names;
 mod obj;
+mod paint;
 mod ply;
 mod text;
 mod warnings;
@@ -43,8 +45,8 @@ pub const FORMATS: &[Format] = &[
     Format {
         name: "PLY",
         endings: &["ply"],
-        doc: "normals, texture coordinates",
-        read: |bytes, _| ply::read(bytes).and_then(model_of),
+        doc: "normals, texture coordinates, colours, pictures",
+        read: ply::read,
     },
     Format {
         name: "OBJ",
@@ -64,9 +66,13 @@ pub fn endings() -> impl Iterator<Item = &'static str> {
 /// # Errors
 /// A file that cannot be read, has an ending that no [format](FORMATS) has, or is no valid model.
 pub fn read(path: &Path) -> Result<Model, ModelError> {
+    read_in(path, &Folder::of(path))
+}
+
+fn read_in(path: &Path, folder: &Folder) -> Result<Model, ModelError> {
     let format = format_of(path).map_err(|fault| ModelError::new(path, fault))?;
     let bytes = std::fs::read(path).map_err(|e| ModelError::unreadable(path, &e))?;
-    (format.read)(&bytes, &Folder::of(path)).map_err(|fault| ModelError::new(path, fault))
+    (format.read)(&bytes, folder).map_err(|fault| ModelError::new(path, fault))
 }
 
 /// Reads a model from the bytes of a file whose name tells the format.
@@ -85,7 +91,8 @@ pub fn read_bytes(bytes: &[u8], name: &Path, folder: &Folder) -> Result<Model, M
 /// # Errors
 /// As for [`read`], and a model without triangles.
 pub fn read_mesh(path: &Path) -> Result<TriangleMesh, ModelError> {
-    merged::mesh_of(read(path)?).map_err(|fault| ModelError::new(path, fault))
+    let model = read_in(path, &Folder::of(path).for_shapes_alone())?;
+    merged::mesh_of(model).map_err(|fault| ModelError::new(path, fault))
 }
 
 /// Reads all triangles of a model as one mesh from the bytes of a file whose name tells the format.
@@ -93,7 +100,7 @@ pub fn read_mesh(path: &Path) -> Result<TriangleMesh, ModelError> {
 /// # Errors
 /// As for [`read_mesh`]; `name` stands for the file in messages.
 pub fn read_mesh_bytes(bytes: &[u8], name: &Path) -> Result<TriangleMesh, ModelError> {
-    let model = read_bytes(bytes, name, &Folder::none())?;
+    let model = read_bytes(bytes, name, &Folder::none().for_shapes_alone())?;
     merged::mesh_of(model).map_err(|fault| ModelError::new(name, fault))
 }
 

@@ -5,13 +5,18 @@ use std::collections::HashMap;
 /// Longer names are cut, in characters.
 const LONGEST: usize = 120;
 
-/// A name as text, whatever its encoding: UTF-8, or else Latin-1, without white space at its ends.
-pub(super) fn text_of(name: &[u8]) -> String {
-    let name = name.trim_ascii();
-    match std::str::from_utf8(name) {
-        Ok(text) => text.chars().take(LONGEST).collect(),
-        Err(_) => name.iter().take(LONGEST).map(|&byte| char::from(byte)).collect(),
+/// Bytes as text, whatever their encoding: UTF-8, or else Latin-1. Without white space at the ends.
+pub(super) fn text_of(bytes: &[u8]) -> String {
+    let bytes = bytes.trim_ascii();
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
     }
+}
+
+/// The same, cut where it is too long for a name.
+pub(super) fn name_of(bytes: &[u8]) -> String {
+    text_of(bytes).chars().take(LONGEST).collect()
 }
 
 /// Names that are taken.
@@ -46,7 +51,7 @@ mod tests {
     fn names_are_text_in_any_encoding() {
         assert_eq!(text_of("grün".as_bytes()), "grün");
         assert_eq!(text_of(b" gr\xfcn\r"), "grün");
-        assert_eq!(text_of(&[0xfc; 1000]).chars().count(), LONGEST);
+        assert_eq!(name_of(&[0xfc; 1000]).chars().count(), LONGEST);
     }
 
     #[test]

@@ -120,7 +120,7 @@ pub(super) fn number(word: &[u8]) -> Result<f64, String> {
     if digits.starts_with(b"nan(") || digits.starts_with(b"1.#") {
         return Ok(if digits.starts_with(b"1.#inf") { f64::INFINITY } else { f64::NAN });
     }
-    let shown = super::names::text_of(word);
+    let shown = super::names::name_of(word);
     let comma = shown.replacen(',', ".", 1).parse::<f64>().is_ok();
     Err(if comma {
         format!("\"{shown}\" is no number: write a point for the comma")

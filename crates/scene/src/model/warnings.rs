@@ -27,6 +27,13 @@ impl Warnings {
         }
     }
 
+    /// Adds others behind these.
+    pub(super) fn append(&mut self, others: Self) {
+        for warning in others.into_list() {
+            self.add(warning.place, warning.message);
+        }
+    }
+
     /// All of them, in the order in which they came.
     pub(super) fn into_list(mut self) -> Vec<Warning> {
         if let Some((place, count)) = self.unnamed {

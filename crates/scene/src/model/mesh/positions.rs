@@ -65,7 +65,8 @@ impl Positions {
 
 /// Whether coordinates can be those of a corner.
 pub(in crate::model) fn is_place(point: DVec3) -> bool {
-    point.abs().max_element() <= LARGEST
+    // Also false for NaN, which the largest of several numbers may hide.
+    point.abs().cmple(DVec3::splat(LARGEST)).all()
 }
 
 #[cfg(test)]
@@ -83,6 +84,16 @@ mod tests {
             assert!((kept - DVec3::from(*corner)).length() < 1e-6);
         }
         assert_ne!(origin, DVec3::ZERO);
+    }
+
+    #[test]
+    fn what_is_no_number_is_no_place() {
+        for bad in [f64::NAN, f64::INFINITY, -1e39] {
+            for point in [[bad, 0.0, 0.0], [0.0, bad, 0.0], [0.0, 0.0, bad]] {
+                assert!(!is_place(point.into()), "{point:?}");
+            }
+        }
+        assert!(is_place(DVec3::new(-1e38, 0.0, 5.0)));
     }
 
     #[test]
