@@ -56,12 +56,8 @@ impl Mesh {
 impl Part for Mesh {
     const NAME: &'static str = "mesh";
     const DOC: &'static str = "A triangle mesh read from a file.";
-    const FIELDS: &'static [Field] = &[Field::required(
-        "file",
-        FieldKind::Mesh,
-        "",
-        "Model file, relative to the scene's folder.",
-    )];
+    const FIELDS: &'static [Field] =
+        &[Field::required("file", FieldKind::Mesh, "", "Model file, relative to the scene's folder.")];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         Ok(Self::new(given.mesh("file")?))

@@ -62,8 +62,11 @@ impl Merged {
         let count = mesh.positions().len();
         // Faces without normals among others with them stand apart from their neighbours.
         let apart = self.normals.is_some() && mesh.normals().is_none();
-        let corners: Vec<u32> =
-            if apart { mesh.triangles().iter().flatten().copied().collect() } else { (0..count as u32).collect() };
+        let corners: Vec<u32> = if apart {
+            mesh.triangles().iter().flatten().copied().collect()
+        } else {
+            (0..count as u32).collect()
+        };
         let narrow = |v: DVec3| v.as_vec3().to_array();
         let wide = |v: [f32; 3]| DVec3::from(v.map(f64::from));
         let place = |corner: &u32| {
@@ -72,16 +75,20 @@ impl Merged {
         };
         self.positions.extend(corners.iter().map(place));
         if apart {
-            self.triangles.extend((start..).step_by(3).take(mesh.triangles().len()).map(|i| [i, i + 1, i + 2]));
+            self.triangles
+                .extend((start..).step_by(3).take(mesh.triangles().len()).map(|i| [i, i + 1, i + 2]));
         } else {
-            self.triangles.extend(mesh.triangles().iter().map(|triangle| triangle.map(|corner| corner + start)));
+            self.triangles
+                .extend(mesh.triangles().iter().map(|triangle| triangle.map(|corner| corner + start)));
         }
         let turned = |normal: DVec3| narrow(placement.direction(normal));
         match (&mut self.normals, mesh.normals()) {
             (Some(normals), Some(own)) => normals.extend(own.iter().map(|&normal| turned(wide(normal)))),
-            (Some(normals), None) => normals.extend((0..mesh.triangles().len() as u32).flat_map(|triangle| {
-                [turned(unit_normal(&mesh.corners(triangle)).unwrap_or(DVec3::ZERO)); 3]
-            })),
+            (Some(normals), None) => {
+                normals.extend((0..mesh.triangles().len() as u32).flat_map(|triangle| {
+                    [turned(unit_normal(&mesh.corners(triangle)).unwrap_or(DVec3::ZERO)); 3]
+                }))
+            }
             _ => {}
         }
         extend(&mut self.uvs, &corners, mesh.uvs(), [0.0; 2]);
@@ -144,7 +151,8 @@ mod tests {
 
     #[test]
     fn what_some_lack_is_filled_in() {
-        let uvs = TriangleMesh::new(CORNERS.to_vec(), vec![[0, 1, 2]], None, Some(vec![[0.5; 2]; 4])).unwrap();
+        let uvs =
+            TriangleMesh::new(CORNERS.to_vec(), vec![[0, 1, 2]], None, Some(vec![[0.5; 2]; 4])).unwrap();
         let colors = square(None).with_colors(vec![[0.25; 3]; 4]).unwrap();
         let far = Placement::IDENTITY.moved(DVec3::X * 5.0).unwrap();
         let merged = mesh_of(model(vec![(uvs, Placement::IDENTITY), (colors, far)])).unwrap();

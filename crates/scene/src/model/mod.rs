@@ -51,8 +51,8 @@ pub const FORMATS: &[Format] = &[
     Format {
         name: "OBJ",
         endings: &["obj"],
-        doc: "normals, texture coordinates",
-        read: |bytes, _| obj::read(bytes).and_then(model_of),
+        doc: "objects and groups, normals, texture coordinates, colours, materials from MTL files",
+        read: obj::read,
     },
 ];
 
@@ -111,29 +111,4 @@ fn format_of(path: &Path) -> Result<&'static Format, Fault> {
         let known = known.join(", ");
         Fault::new(Place::File, format!("is no model file: its name must end in one of {known}"))
     })
-}
-
-/// What a file of one mesh holds, before the mesh is made.
-#[derive(Default)]
-struct Polygons {
-    positions: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
-    normals: Option<Vec<[f32; 3]>>,
-    uvs: Option<Vec<[f32; 2]>>,
-}
-
-/// The model of one mesh.
-fn model_of(found: Polygons) -> Result<Model, Fault> {
-    let mesh = TriangleMesh::new(found.positions, found.triangles, found.normals, found.uvs)
-        .map_err(|e| Fault::new(Place::File, e.to_string()))?;
-    Model::of_mesh(mesh).map_err(|e| Fault::new(Place::File, e.to_string()))
-}
-
-/// Narrows to `f32`, refusing what is not finite there.
-fn finite<const N: usize>(values: [f64; N], place: Place, what: &str) -> Result<[f32; N], Fault> {
-    let narrow = values.map(|v| v as f32);
-    match narrow.iter().position(|v| !v.is_finite()) {
-        None => Ok(narrow),
-        Some(i) => Err(Fault::new(place, format!("{what} must be finite numbers, not {}", values[i]))),
-    }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use catoptra_core::material::Matte;
 use catoptra_core::texture::{ImageTexture, TextureUse, VertexColorTexture};
 use catoptra_core::{
-    Finish, Image, ImageSource, InvalidPart, Material, MaterialId, Rgb, Texture, TextureId, Value, Values,
+    Finish, Image, ImageSource, InvalidPart, Material, Rgb, Texture, TextureId, Value, Values,
 };
 
 use super::{Model, ModelMaterial};
@@ -35,14 +35,13 @@ pub(super) fn image_texture(path: &str, image: Arc<Image>, values: Values) -> Re
     catoptra_core::part::make::<ImageTexture>(&values.with("file", Value::Image(source))).map(Texture::from)
 }
 
-/// Adds what shapes without a material wear: a `matte` of four fifths, or white where a texture covers it.
+/// What shapes without a material wear: a `matte` of four fifths, or white where a texture covers it.
 ///
 /// # Errors
 /// None but what a constant could have.
-pub(super) fn add_plain(model: &mut Model, texture: Option<TextureUse>) -> Result<MaterialId, InvalidPart> {
-    let Some(by) = texture else { return ModelMaterial::grey().map(|grey| model.add_material(grey)) };
+pub(super) fn plain(texture: Option<TextureUse>) -> Result<ModelMaterial, InvalidPart> {
+    let Some(by) = texture else { return ModelMaterial::grey() };
     let white = Material::from(Matte::new(Rgb::WHITE)?);
     let material = white.with("color", Value::Color(Rgb::WHITE).textured(by))?;
-    let name = if model.materials.is_empty() { "painted".to_owned() } else { format!("painted {}", model.materials.len() + 1) };
-    Ok(model.add_material(ModelMaterial { name, material, finish: Finish::default() }))
+    Ok(ModelMaterial { name: "painted".to_owned(), material, finish: Finish::default() })
 }

@@ -161,8 +161,14 @@ mod tests {
 
     #[test]
     fn marks_of_encodings_are_passed_over() {
-        let wide = |unit: fn(u16) -> [u8; 2]| "\u{feff}v 1 ü".encode_utf16().flat_map(unit).collect::<Vec<u8>>();
-        for bytes in [&b"v 1 \xc3\xbc"[..], b"\xef\xbb\xbfv 1 \xc3\xbc", &wide(u16::to_le_bytes), &wide(u16::to_be_bytes)] {
+        let wide =
+            |unit: fn(u16) -> [u8; 2]| "\u{feff}v 1 ü".encode_utf16().flat_map(unit).collect::<Vec<u8>>();
+        for bytes in [
+            &b"v 1 \xc3\xbc"[..],
+            b"\xef\xbb\xbfv 1 \xc3\xbc",
+            &wide(u16::to_le_bytes),
+            &wide(u16::to_be_bytes),
+        ] {
             assert_eq!(&*decoded(bytes), "v 1 ü".as_bytes());
         }
     }

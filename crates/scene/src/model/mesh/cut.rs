@@ -43,7 +43,9 @@ impl Cutter {
         let up = normal.cross(right);
         self.flat.clear();
         let from = outline[0];
-        self.flat.extend(outline.iter().map(|&point| DVec2::new((point - from).dot(right), (point - from).dot(up))));
+        self.flat.extend(
+            outline.iter().map(|&point| DVec2::new((point - from).dot(right), (point - from).dot(up))),
+        );
         self.other.clear();
         if self.ears.cut(&self.flat, &mut self.other) {
             out.truncate(start);
@@ -76,9 +78,8 @@ pub(in crate::model) fn normal_of(outline: &[DVec3]) -> DVec3 {
         let size = v.abs().max_element();
         if size > 0.0 && size.is_finite() { (v / size).normalize() } else { DVec3::ZERO }
     };
-    let largest = || {
-        pieces().fold(DVec3::ZERO, |a, b| if b.length_squared() > a.length_squared() { b } else { a })
-    };
+    let largest =
+        || pieces().fold(DVec3::ZERO, |a, b| if b.length_squared() > a.length_squared() { b } else { a });
     if sum == DVec3::ZERO { unit(largest()) } else { unit(sum) }
 }
 

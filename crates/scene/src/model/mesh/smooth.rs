@@ -33,8 +33,12 @@ impl Smoothing {
         }
     }
 
-    /// Which of the [`normals`](Self::normals) a corner has in a group.
-    pub(in crate::model) fn row(&mut self, corner: u32, group: u32) -> u32 {
+    /// Which of the [`normals`](Self::normals) a corner has in a group, if a face of the group has it.
+    pub(in crate::model) fn find(&self, corner: u32, group: u32) -> Option<u32> {
+        self.rows.get(&[corner, group]).copied()
+    }
+
+    fn row(&mut self, corner: u32, group: u32) -> u32 {
         let next = self.sums.len() as u32;
         let row = *self.rows.entry([corner, group]).or_insert(next);
         if row == next {
@@ -62,11 +66,11 @@ mod tests {
         smoothing.add(&[0, 5, 1], &[DVec3::ZERO, y + z, y], 1);
         smoothing.add(&[0, 3, 4], &[DVec3::ZERO, x * 9.0, z], 1);
         smoothing.add(&[0, 3, 4], &[DVec3::ZERO, x, z], 2);
-        let row = smoothing.row(0, 1) as usize;
+        let row = smoothing.find(0, 1).unwrap() as usize;
         let normals: Vec<[f32; 3]> = smoothing.normals().collect();
         let normal = DVec3::from(normals[row].map(f64::from));
         assert!((normal - DVec3::splat(-1.0 / 3.0_f64.sqrt())).length() < 1e-6, "{normal}");
-        let alone = smoothing.row(3, 2) as usize;
+        let alone = smoothing.find(3, 2).unwrap() as usize;
         assert_eq!(normals[alone], [0.0, -1.0, 0.0]);
     }
 

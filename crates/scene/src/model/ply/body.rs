@@ -51,15 +51,16 @@ pub(super) trait Body {
     /// How many items the list that comes next has.
     fn items(&mut self, count: Sort, item: Sort) -> Result<usize, Fault> {
         let items = self.scalar(count)?;
-        if !(items >= 0.0 && items.fract() == 0.0) {
+        // Casts saturate, so only whole numbers of at least 0 come back as they were.
+        let whole = items as usize;
+        if whole as f64 != items {
             return Err(Fault::new(self.place(), format!("a list cannot have {items} items")));
         }
-        if items > self.room_for(item) as f64 {
-            let message =
-                format!("a list announces {items} items, more than the rest of the file can hold");
+        if whole > self.room_for(item) {
+            let message = format!("a list announces {items} items, more than the rest of the file can hold");
             return Err(Fault::new(self.place(), message));
         }
-        Ok(items as usize)
+        Ok(whole)
     }
 
     /// Passes over a property, list or not.

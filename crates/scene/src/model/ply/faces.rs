@@ -158,7 +158,8 @@ pub(super) fn cut<'a>(
 }
 
 fn check_range(corners: &[f64], count: usize, place: Place) -> Result<(), Fault> {
-    let is_vertex = |&corner: &f64| corner >= 0.0 && corner < count as f64 && corner.fract() == 0.0;
+    // Casts saturate, so only whole numbers of the range come back as they were.
+    let is_vertex = |&corner: &f64| f64::from(corner as u32) == corner && (corner as usize) < count;
     match corners.iter().find(|corner| !is_vertex(corner)) {
         None => Ok(()),
         Some(bad) => {
@@ -203,7 +204,9 @@ impl Whole {
         let before = self.corners.len();
         if plan.uvs.is_some() {
             self.uvs.resize(before, [f32::NAN; 2]);
-            let uv = |i: usize| row.uvs.get(2 * i..2 * i + 2).map_or([f32::NAN; 2], |uv| [uv[0] as f32, uv[1] as f32]);
+            let uv = |i: usize| {
+                row.uvs.get(2 * i..2 * i + 2).map_or([f32::NAN; 2], |uv| [uv[0] as f32, uv[1] as f32])
+            };
             self.uvs.extend((0..corners.len()).map(uv));
         }
         if plan.colors.is_some() {

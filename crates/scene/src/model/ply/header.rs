@@ -98,14 +98,6 @@ pub(super) struct Element {
     pub(super) line: usize,
 }
 
-impl Element {
-    /// Bytes of a row, where all rows are equally long.
-    pub(super) fn row_bytes(&self) -> Option<usize> {
-        let is_fixed = self.properties.iter().all(|property| property.list.is_none());
-        is_fixed.then(|| self.properties.iter().map(|property| property.sort.bytes()).sum())
-    }
-}
-
 /// What the header says.
 #[derive(Debug)]
 pub(super) struct Header {
@@ -163,7 +155,8 @@ pub(super) fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<Header, Faul
             ["element", ..] => return wrong(format!("\"{text}\" must be \"element NAME COUNT\"")),
             _ => {
                 let text = name_of(text.as_bytes());
-                warnings.add(Place::Line(line), format!("\"{text}\" is no line of a PLY header: passed over"));
+                warnings
+                    .add(Place::Line(line), format!("\"{text}\" is no line of a PLY header: passed over"));
             }
         }
     }

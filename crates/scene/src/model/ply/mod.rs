@@ -24,9 +24,7 @@ pub(super) fn read(bytes: &[u8], folder: &Folder) -> Result<Model, Fault> {
     let body = &bytes[header.body..];
     let (found, faces) = match header.encoding {
         Encoding::Ascii => read_ascii(&header, body, &mut warnings)?,
-        Encoding::Little => {
-            read_body(&header, &mut Binary::<false>::new(body, header.body), &mut warnings)?
-        }
+        Encoding::Little => read_body(&header, &mut Binary::<false>::new(body, header.body), &mut warnings)?,
         Encoding::Big => read_body(&header, &mut Binary::<true>::new(body, header.body), &mut warnings)?,
     };
     parts::model_of(&header, found, faces, folder, warnings)
@@ -54,7 +52,11 @@ fn read_ascii(header: &Header, bytes: &[u8], warnings: &mut Warnings) -> Result<
     }
 }
 
-fn read_body<B: Body>(header: &Header, body: &mut B, warnings: &mut Warnings) -> Result<(Found, Faces), Fault> {
+fn read_body<B: Body>(
+    header: &Header,
+    body: &mut B,
+    warnings: &mut Warnings,
+) -> Result<(Found, Faces), Fault> {
     let count = header.elements.iter().find(|e| e.name == "vertex").map_or(0, |e| e.count);
     let (mut found, mut faces) = (None, Faces::default());
     for element in &header.elements {
@@ -74,6 +76,7 @@ fn read_body<B: Body>(header: &Header, body: &mut B, warnings: &mut Warnings) ->
             }
         }
     }
-    let found = found.ok_or_else(|| Fault::new(Place::Line(header.lines), "the vertices have no properties"))?;
+    let found =
+        found.ok_or_else(|| Fault::new(Place::Line(header.lines), "the vertices have no properties"))?;
     Ok((found, faces))
 }

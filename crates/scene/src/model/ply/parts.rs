@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::scene::Node;
-use catoptra_core::{InvalidPart, MaterialId, MeshSource, TriangleMesh, Values};
 use catoptra_core::texture::TextureUse;
+use catoptra_core::{InvalidPart, MeshSource, TriangleMesh, Values};
 
 use super::faces::{Faces, Whole, cut};
 use super::header::Header;
@@ -14,8 +14,9 @@ use super::vertices::Found;
 use crate::model::colors::linear;
 use crate::model::error::{Fault, Place};
 use crate::model::mesh::{Corner, Cutter, NONE, Tables, weld};
+use crate::model::names::Names;
 use crate::model::warnings::Warnings;
-use crate::model::{Folder, Model, paint};
+use crate::model::{Folder, Model, ModelMaterial, paint};
 
 pub(super) fn model_of(
     header: &Header,
@@ -37,6 +38,7 @@ pub(super) fn model_of(
         vec![(0, mesh)]
     };
     let mut model = Model::default();
+    let (mut shapes, mut names) = (Names::default(), Names::default());
     for (picture, mesh) in meshes {
         let texture = match header.pictures.get(picture as usize) {
             Some(name) if mesh.uvs().is_some() && folder.wants_materials() => {
@@ -46,8 +48,9 @@ pub(super) fn model_of(
         };
         let colors = mesh.colors().is_some();
         let texture = texture.or_else(|| colors.then(|| paint::vertex_colors(&mut model)).flatten());
-        let material: MaterialId = paint::add_plain(&mut model, texture).map_err(refused)?;
-        let name = if model.nodes.is_empty() { "mesh".to_owned() } else { format!("mesh {}", model.nodes.len() + 1) };
+        let plain = paint::plain(texture).map_err(refused)?;
+        let material = model.add_material(ModelMaterial { name: names.unique(&plain.name), ..plain });
+        let name = shapes.unique("mesh");
         let source = MeshSource { path: String::new(), mesh: Arc::new(mesh) };
         model.nodes.push(Node::shape(name, Mesh::new(source), material));
     }
@@ -57,7 +60,8 @@ pub(super) fn model_of(
 
 fn picture_of(model: &mut Model, name: &str, folder: &Folder, warnings: &mut Warnings) -> Option<TextureUse> {
     let image = folder.find(name).and_then(|path| crate::image::load(&path).map_err(|e| e.to_string()));
-    let texture = image.and_then(|image| paint::image_texture(name, image, Values::new()).map_err(|e| e.to_string()));
+    let texture =
+        image.and_then(|image| paint::image_texture(name, image, Values::new()).map_err(|e| e.to_string()));
     match texture {
         Ok(texture) => paint::add_texture(model, name.to_owned(), texture).map(TextureUse::of),
         Err(cause) => {

@@ -47,9 +47,10 @@ impl Found {
         }
         let place = |corner| self.nowhere.binary_search_by_key(corner, |(vertex, _)| *vertex).ok();
         match corners.iter().find_map(place) {
-            Some(row) => {
-                Err(Fault::new(self.nowhere[row].1, "coordinates must be finite numbers where a face uses them"))
-            }
+            Some(row) => Err(Fault::new(
+                self.nowhere[row].1,
+                "coordinates must be finite numbers where a face uses them",
+            )),
             None => Ok(()),
         }
     }
