@@ -16,6 +16,7 @@ mod names;
 mod obj;
 mod paint;
 mod ply;
+mod stl;
 mod text;
 mod warnings;
 
@@ -54,6 +55,7 @@ pub const FORMATS: &[Format] = &[
         doc: "objects and groups, normals, texture coordinates, colours, materials from MTL files",
         read: obj::read,
     },
+    Format { name: "STL", endings: &["stl"], doc: "solids, colours of VisCAM and Magics", read: stl::read },
 ];
 
 /// Endings of all files that [`read`] understands.
