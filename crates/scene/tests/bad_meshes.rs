@@ -79,11 +79,6 @@ fn bad_plys() -> Vec<Case> {
         Case("no vertices", header(&format!("element face 1\n{LIST}")), "no element vertex"),
         Case("no face element", header(&format!("element vertex 3\n{XYZ}")), "no element face"),
         Case(
-            "faces first",
-            header(&format!("element face 1\n{LIST}element vertex 3\n{XYZ}")),
-            "before the vertices",
-        ),
-        Case(
             "no z",
             header(&format!("element vertex 3\nproperty float x\nproperty float y\nelement face 1\n{LIST}")),
             ":3: the vertices lack",
@@ -107,7 +102,7 @@ fn bad_plys() -> Vec<Case> {
         ),
         Case(
             "a twice named property",
-            header("element vertex 3\nproperty float x\nproperty float x\n"),
+            header(&format!("element vertex 3\nproperty float x\n{XYZ}element face 1\n{LIST}")),
             ":5: property x is announced twice",
         ),
         Case(
@@ -126,12 +121,6 @@ fn bad_plys() -> Vec<Case> {
             ":3: element vertex needs a count",
         ),
         Case("a property of nothing", header("property float x\n"), ":3: a property stands before"),
-        Case("a foreign line", header("material red\n"), ":3: \"material red\" is no line"),
-        Case(
-            "an element without properties",
-            header(&format!("element vertex 3\n{XYZ}element face 1\n{LIST}element x 999999999999\n")),
-            ":9: element x has no properties",
-        ),
         Case(
             "a huge count",
             header(&format!("element vertex 1000000000\n{XYZ}element face 1\n{LIST}")),
@@ -141,7 +130,7 @@ fn bad_plys() -> Vec<Case> {
         Case(
             "not a number",
             triangle("0 0 0\n1 0 nan\n0 1 0\n3 0 1 2\n"),
-            ":11: coordinates must be finite numbers, not NaN",
+            ":11: coordinates must be finite numbers",
         ),
         Case(
             "an infinite number",
@@ -149,11 +138,6 @@ fn bad_plys() -> Vec<Case> {
             ":11: coordinates must be finite",
         ),
         Case("too few numbers", triangle("0 0 0\n1 0\n0 1 0\n3 0 1 2\n"), ":11: the row has too few numbers"),
-        Case(
-            "too many numbers",
-            triangle("0 0 0\n1 0 0 7\n0 1 0\n3 0 1 2\n"),
-            ":11: the row has more numbers",
-        ),
         Case(
             "an index out of range",
             triangle("0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
@@ -165,8 +149,8 @@ fn bad_plys() -> Vec<Case> {
             ":13: a face refers to vertex -1",
         ),
         Case("half an index", triangle("0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n"), ":13: 1.5 is no whole number"),
-        Case("two corners", triangle("0 0 0\n1 0 0\n0 1 0\n2 0 1\n"), ":13: a face has 2 corners"),
         Case("a long list", triangle("0 0 0\n1 0 0\n0 1 0\n250 0 1 2\n"), ":13: a list announces 250 items"),
+        Case("no corners at all", triangle("0 0 0\n1 0 0\n0 1 0\n0\n"), ": holds no faces"),
         Case("rows that end", triangle("0 0 0\n1 0 0\n\n\n0 1 0\n\n"), ":16: the file ends before"),
         Case(
             "no faces",
@@ -209,14 +193,33 @@ fn bad_objs() -> Vec<Case> {
     vec![
         Case("an empty file", obj(""), ": the file is empty"),
         Case("no faces", obj(three), ": holds no faces"),
-        Case("a foreign line", obj("ply\nformat ascii 1.0\n"), ":1: \"ply\" is no keyword"),
+        Case(
+            "a foreign file",
+            obj("ply\nformat ascii 1.0\n"),
+            ": holds no faces: \"ply\" in line 1 is no word",
+        ),
+        Case(
+            "curves alone",
+            obj(&format!("{three}cstype bspline\nend\n")),
+            "free-form curves and surfaces are not drawn",
+        ),
         Case("no number", obj("v 0 0 0\nv 1 x 0\n"), ":2: \"x\" is no number"),
-        Case("not a number", obj("v 0 nan 0\n"), ":1: coordinates must be finite numbers, not NaN"),
+        Case("a decimal comma", obj("v 0 0 0\nv 1,5 0 0\n"), ":2: \"1,5\" is no number: write a point"),
+        Case(
+            "not a number",
+            obj(&format!("v 9 9 9\n\n{three}v 0 nan 0\nf 2 3 5\n")),
+            ":6: coordinates must be finite numbers",
+        ),
+        Case(
+            "beyond all numbers",
+            obj(&format!("{three}v 0 1e39 0\nf 2 3 4\n")),
+            ":4: coordinates must be finite",
+        ),
         Case("too few numbers", obj("v 0 0\n"), ":1: the line has 2 numbers where 3 are needed"),
         Case(
             "an index out of range",
             obj(&format!("{three}f 1 2 4\n")),
-            ":4: a face refers to vertex 4, but only 3 stand above it",
+            ":4: a face refers to vertex 4, but there are 3",
         ),
         Case("index 0", obj(&format!("{three}f 0 1 2\n")), ":4: a face refers to vertex 0"),
         Case("a far negative index", obj(&format!("{three}f -4 1 2\n")), ":4: a face refers to vertex -4"),
@@ -230,19 +233,14 @@ fn bad_objs() -> Vec<Case> {
             obj(&format!("{three}f 1 2 -9223372036854775808\n")),
             ":4: a face refers to vertex -9223372036854775808",
         ),
-        Case(
-            "a missing normal",
-            obj(&format!("{three}f 1//1 2//1 3//1\n")),
-            ":4: a face refers to normal 1, but only 0",
-        ),
         Case("a word as index", obj(&format!("{three}f 1 2 c\n")), ":4: \"c\" is no index of a vertex"),
         Case(
             "a corner of four",
             obj(&format!("{three}vt 0 0\nvn 0 0 1\nf 1/1/1/1 2 3\n")),
             ":6: the corner \"1/1/1/1\" has more",
         ),
-        Case("two corners", obj(&format!("{three}f 1 2\n")), ":4: a face has 2 corners"),
-        Case("bytes that are no text", b"v 0 0 0\nv \xff 0 0\n".to_vec(), ":2: the line is not UTF-8"),
+        Case("two corners", obj(&format!("{three}f 1 2\n")), ": holds no faces"),
+        Case("bytes that are no text", b"v 0 0 0\nv \xff 0 0\n".to_vec(), ":2: \"ÿ\" is no number"),
     ]
 }
 
@@ -306,9 +304,9 @@ fn corners_with_other_normals_become_vertices_of_their_own() {
     assert_eq!(mesh.triangles(), [[0, 1, 2], [3, 4, 5]]);
     assert_eq!(mesh.normals().map(|n| n[3]), Some([1.0, 0.0, 0.0]));
     assert_eq!(mesh.uvs(), None);
-    // One corner without a normal, and there are none.
-    let mesh = good(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3", "a.obj");
-    assert_eq!((mesh.normals(), mesh.positions().len()), (None, 3));
+    // A corner without a normal has that of its face.
+    let mesh = good(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0.6 0.8\nf 1//1 2//1 3", "a.obj");
+    assert_eq!(mesh.normals(), Some(&[[0.0, 0.6, 0.8], [0.0, 0.6, 0.8], [0.0, 0.0, 1.0]][..]));
 }
 
 #[test]

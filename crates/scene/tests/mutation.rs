@@ -154,10 +154,65 @@ fn meshes() -> Vec<(&'static str, Vec<u8>)> {
         }
         all.push(("a.ply", bytes));
     }
-    let obj = "# small\no a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\ng b\n\
-               f 1/1/1 2/2/1 3/1/1\nf -4//-1 -2//-1 -1//1\nf 1 2 3 4\n";
+    let obj = "# small\no a\nv 0 0 0\nv 1 0 0\nv 1 1 0 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 1\nvn 0 0 1\ng b\ns 1\n\
+               f 1/1/1 2/2/1 3/1/1\nf -4//-1 -2//-1 -1//1\nusemtl c\nf 1 2 \\\n3 4\n";
     all.push(("a.obj", obj.as_bytes().to_vec()));
+    all.push(("a.ply", rich_ply()));
+    all.push(("a.stl", b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n\
+        endsolid a\nsolid\nfacet\nvertex 0 0 0 vertex 1 0 0 vertex 1 1 0 vertex .5 .1 0\nendloop\n".to_vec()));
+    all.push(("a.stl", binary_stl()));
     all
+}
+
+/// Colours, texture coordinates of faces, strips, and the faces first.
+fn rich_ply() -> Vec<u8> {
+    let header = "ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement face 2\n\
+                  property list uchar int vertex_indices\nproperty list uchar float texcoord\nproperty int texnumber\n\
+                  element vertex 4\nproperty double x\nproperty float y\nproperty float z\nproperty uchar red\n\
+                  property uchar green\nproperty uchar blue\nelement tristrips 1\n\
+                  property list int int vertex_indices\nend_header\n";
+    let rows = "3 0 1 2 6 0 0 1 0 1 1 0\n4 0 1 2 3 0 1\n0 0 0 1 2 3\n1 0 0 4 5 6\n.5 .1 0 7 8 9\n0 1 0 255 0 9\n7 0 1 2 3 -1 3 2\n";
+    format!("{header}{rows}").into_bytes()
+}
+
+fn binary_stl() -> Vec<u8> {
+    let mut bytes = b"solid COLOR=\x10\x20\x30\xff".to_vec();
+    bytes.resize(80, 0);
+    bytes.extend(3_u32.to_le_bytes());
+    for facet in 0..3_u8 {
+        for v in 0..12 {
+            bytes.extend(f32::from((v * 7 + facet) % 5).to_le_bytes());
+        }
+        bytes.extend([facet * 90; 2]);
+    }
+    bytes
+}
+
+#[test]
+fn no_damaged_material_panics() {
+    let folder = tempfile::tempdir().unwrap();
+    let put = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).unwrap();
+    put(
+        "a.obj",
+        b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 1 3 2\n",
+    );
+    catoptra_scene::image::write_png(&folder.path().join("a.png"), 2, 1, &[9, 8, 7, 6, 5, 4]).unwrap();
+    let original = b"newmtl a\nKd 0.5 0.5 0.5\nKs 0.25 0.5 1\nNs 96.5\nNi 1.45\nd 0.75\nillum 7\nTf 1 .9 .8\n\
+        map_Kd -s 2 2 1 -o 0.5 a.png\nmap_Bump -bm 0.5 a.png\nmap_d -imfchan m a.png\nnewmtl b\nKe 2 2 2\nTr 0.5\nPr 0.25\n\
+        Pm 1\nPs 0.5\nPc 1\nPcr 0.1\naniso 0.5\nanisor 0.25\nmap_Pr -mm 0 1 a.png\n";
+    let mut random = Random(4);
+    let mut told = 0;
+    for _ in 0..3000 {
+        put("a.mtl", &damaged(original, &mut random));
+        // Whatever a library holds, the triangles are there.
+        let model = catoptra_scene::model::read(&folder.path().join("a.obj")).unwrap();
+        assert_eq!((model.nodes.len(), model.materials.len()), (2, 2));
+        told += usize::from(!model.warnings.is_empty());
+    }
+    assert!(
+        (500..2900).contains(&told),
+        "{told} of 3000 were told of something: the damage is not of the right size"
+    );
 }
 
 #[test]

@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::parametrization::in_triangle;
+use super::parametrization::{BARYCENTRIC, in_triangle};
 use super::triangle::{meet_triangle, unit_normal, weights};
 use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Located, Number, Verdict};
 use crate::part::Given;
 use crate::{
-    Aabb, Crossing, Field, FieldKind, InvalidPart, MeshSource, Part, Placement, Ray, Span, TriangleMesh,
+    Aabb, Crossing, Field, FieldKind, InvalidPart, MeshSource, Part, Placement, Ray, Rgb, Span, TriangleMesh,
     Value, Values,
 };
 
@@ -57,7 +57,7 @@ impl Part for Mesh {
     const NAME: &'static str = "mesh";
     const DOC: &'static str = "A triangle mesh read from a file.";
     const FIELDS: &'static [Field] =
-        &[Field::required("file", FieldKind::Mesh, "", "PLY or OBJ file, relative to the scene's folder.")];
+        &[Field::required("file", FieldKind::Mesh, "", "Model file, relative to the scene's folder.")];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
         Ok(Self::new(given.mesh("file")?))
@@ -124,6 +124,14 @@ impl Geometry for Mesh {
         let found = in_triangle(&mesh.corners(triangle), mesh.corner_uvs(triangle), own);
         let [along_u, along_v] = [found.along_u, found.along_v].map(|v| self.to_world.vector(v));
         Parametrization { along_u, along_v, ..found }
+    }
+
+    fn color_at(&self, point: DVec3, triangle: u32) -> Option<Rgb> {
+        let mesh = &self.source.mesh;
+        mesh.colors()?;
+        let own = self.to_object.point(point);
+        let of_corners = in_triangle(&mesh.corners(triangle), BARYCENTRIC, own).uv;
+        mesh.color_at(triangle, [1.0 - of_corners.x - of_corners.y, of_corners.x, of_corners.y])
     }
 
     fn is_closed(&self) -> bool {

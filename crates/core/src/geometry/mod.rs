@@ -28,7 +28,7 @@ pub use triangle_mesh::TriangleMesh;
 
 use crate::exact::{Bounded, Dyadic, Located, Number, Root, Verdict, decide};
 use crate::solid::Passage;
-use crate::{Aabb, Crossing, Placement, Ray, Span};
+use crate::{Aabb, Crossing, Placement, Ray, Rgb, Span};
 use glam::{DVec2, DVec3};
 
 /// What the tracer and the editor ask of a shape.
@@ -149,6 +149,12 @@ pub trait Geometry {
     fn uv_and_tangent(&self, point: DVec3, facet: u32) -> (DVec2, DVec3) {
         let found = self.parametrization(point, facet);
         (found.uv, found.along_u)
+    }
+
+    /// The colour that a facet has of its own at a point, linear Rec. 709, as the corners of a mesh may have; `None` where
+    /// there is none. Point and space as for [`parametrization`](Self::parametrization).
+    fn color_at(&self, _point: DVec3, _facet: u32) -> Option<Rgb> {
+        None
     }
 
     /// Whether it encloses a volume: a ray from outside that enters it leaves it again.
@@ -274,6 +280,12 @@ impl Shape {
     #[must_use]
     pub fn uv_and_tangent(&self, point: DVec3, facet: u32) -> (DVec2, DVec3) {
         each_shape!(self, shape => shape.uv_and_tangent(point, facet))
+    }
+
+    /// See [`Geometry::color_at`].
+    #[must_use]
+    pub fn color_at(&self, point: DVec3, facet: u32) -> Option<Rgb> {
+        each_shape!(self, shape => shape.color_at(point, facet))
     }
 
     /// See [`Geometry::bounds`].

@@ -3,11 +3,13 @@
 use glam::{DVec2, DVec3};
 
 use super::parametrization::BARYCENTRIC;
-use crate::{Aabb, InvalidPart};
+use crate::{Aabb, InvalidPart, Rgb};
 
-/// Triangles over shared corners, with optional normals and texture coordinates per corner.
+/// Triangles over shared corners, with optional normals, texture coordinates and colours per corner.
 ///
-/// Triangles without area are kept (ids stay those of the file) and are never hit.
+/// Triangles without area are kept (ids stay those of the file) and are never hit. The outer side is that from which corners
+/// run anticlockwise; where there are normals it is theirs: a triangle that is wound against the sum of its three is kept
+/// with two corners swapped, as files of mirrored things have them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TriangleMesh {
     positions: Vec<[f32; 3]>,
@@ -46,6 +48,10 @@ impl TriangleMesh {
             check_finite("uvs", uvs, positions.len())?;
         }
         let bounds = Aabb::of(positions.iter().map(|&p| widen(p)));
+        let triangles = match &normals {
+            Some(normals) => wound_by(normals, &positions, triangles),
+            None => triangles,
+        };
         Ok(Self { positions, triangles, normals, uvs, colors: None, offset: DVec3::ZERO, bounds })
     }
 
@@ -82,7 +88,7 @@ impl TriangleMesh {
         &self.positions
     }
 
-    /// Corner numbers of every triangle.
+    /// Corner numbers of every triangle, anticlockwise as seen from outside.
     #[must_use]
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
@@ -151,6 +157,30 @@ impl TriangleMesh {
         let uv = |k: usize| DVec2::from(uvs[corners[k] as usize].map(f64::from));
         (0..3).map(|k| uv(k) * weights[k]).sum()
     }
+
+    /// The colour at a point given by corner weights, no channel below 0; `None` without colours.
+    ///
+    /// # Panics
+    /// A triangle number out of range.
+    #[must_use]
+    pub fn color_at(&self, triangle: u32, weights: [f64; 3]) -> Option<Rgb> {
+        let colors = self.colors.as_ref()?;
+        let corners = self.triangles[triangle as usize];
+        let sum: DVec3 = (0..3).map(|k| widen(colors[corners[k] as usize]) * weights[k]).sum();
+        Some(Rgb::new(sum.x, sum.y, sum.z).map(|v| v.max(0.0)))
+    }
+}
+
+/// Triangles with two corners swapped where they are wound against the sum of their corners' normals.
+fn wound_by(normals: &[[f32; 3]], positions: &[[f32; 3]], mut triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
+    for triangle in &mut triangles {
+        let [a, b, c] = triangle.map(|i| widen(positions[i as usize]));
+        let outwards: DVec3 = triangle.iter().map(|&i| widen(normals[i as usize])).sum();
+        if (b - a).cross(c - a).dot(outwards) < 0.0 {
+            triangle.swap(1, 2);
+        }
+    }
+    triangles
 }
 
 fn widen(p: [f32; 3]) -> DVec3 {
@@ -187,5 +217,30 @@ mod tests {
         assert_eq!(refused(&[[f32::NAN, 0.0, 0.0], CORNERS[1], CORNERS[2]], &[[0, 1, 2]]), "positions");
         let short = TriangleMesh::new(CORNERS.to_vec(), vec![[0, 1, 2]], Some(vec![[0.0; 3]]), None);
         assert_eq!(short.unwrap_err().field(), "normals");
+    }
+
+    #[test]
+    fn triangles_wound_against_their_normals_are_turned_round() {
+        let wound = |triangle: [u32; 3], normals: [f32; 3]| {
+            let normals = normals.map(|z| [0.3, -0.2, z]).to_vec();
+            let mesh = TriangleMesh::new(CORNERS.to_vec(), vec![triangle], Some(normals), None).unwrap();
+            mesh.triangles()[0]
+        };
+        assert_eq!(wound([0, 1, 2], [1.0; 3]), [0, 1, 2]);
+        assert_eq!(wound([0, 2, 1], [1.0; 3]), [0, 1, 2]);
+        assert_eq!(wound([0, 1, 2], [-1.0; 3]), [0, 2, 1]);
+        // The sum of the three decides, and where it does not, the winding stays.
+        assert_eq!(wound([0, 1, 2], [-1.0, 0.6, 0.6]), [0, 1, 2]);
+        assert_eq!(wound([0, 1, 2], [1.0, -0.6, -0.6]), [0, 2, 1]);
+        assert_eq!(wound([0, 2, 1], [0.0; 3]), [0, 2, 1]);
+    }
+
+    #[test]
+    fn colours_are_interpolated_and_never_negative() {
+        let mesh = TriangleMesh::new(CORNERS.to_vec(), vec![[0, 1, 2]], None, None).unwrap();
+        assert_eq!(mesh.color_at(0, [1.0, 0.0, 0.0]), None);
+        let mesh = mesh.with_colors(vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]).unwrap();
+        assert_eq!(mesh.color_at(0, [0.5, 0.25, 0.25]), Some(Rgb::new(0.5, 0.25, 0.25)));
+        assert_eq!(mesh.color_at(0, [1.5, -0.25, -0.25]), Some(Rgb::new(1.5, 0.0, 0.0)));
     }
 }

@@ -14,6 +14,7 @@ mod noise;
 mod paint;
 mod point;
 mod transform;
+mod vertex_color;
 
 pub use brick::BrickTexture;
 pub use checker::CheckerTexture;
@@ -24,6 +25,7 @@ pub use noise::NoiseTexture;
 pub use paint::{Level, Paint, TextureSource, TextureUse};
 pub use point::{Channel, Texel, TexturePoint};
 pub use transform::Mapping;
+pub use vertex_color::VertexColorTexture;
 
 pub(crate) use paint::HalfGrey;
 pub(crate) use transform::{facing, longitude_and_latitude};
@@ -50,6 +52,8 @@ crate::part::parts! {
         BrickTexture,
         /// Veins.
         MarbleTexture,
+        /// Colours of a mesh's corners.
+        VertexColorTexture,
     }
 }
 

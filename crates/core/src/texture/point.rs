@@ -13,6 +13,8 @@ pub struct TexturePoint {
     pub position: DVec3,
     /// Unit normal in the shape's own space; only box mapping asks for it.
     pub normal: DVec3,
+    /// What the shape itself has of colour there, linear Rec. 709; `None` where it has none.
+    pub color: Option<Rgb>,
     /// How far `uv` moves over one pixel to the right and one down. `None` asks for the point alone.
     pub footprint: Option<[DVec2; 2]>,
     /// How far `position` moves over one pixel to the right and one down: what `footprint` is to `uv`, for what is mapped by

@@ -6,19 +6,32 @@ use std::path::{Component, Path, PathBuf};
 #[derive(Debug, Clone, Default)]
 pub struct Folder {
     path: Option<PathBuf>,
+    is_bare: bool,
 }
 
 impl Folder {
     /// The folder that a file lies in.
     #[must_use]
     pub fn of(file: &Path) -> Self {
-        Self { path: Some(file.parent().unwrap_or(Path::new("")).to_owned()) }
+        Self { path: Some(file.parent().unwrap_or(Path::new("")).to_owned()), is_bare: false }
     }
 
     /// No folder: nothing is found in it. For files that came as bytes.
     #[must_use]
     pub fn none() -> Self {
         Self::default()
+    }
+
+    /// The same for someone who wants shapes alone, for whom materials and pictures need not be read.
+    #[must_use]
+    pub fn for_shapes_alone(self) -> Self {
+        Self { is_bare: true, ..self }
+    }
+
+    /// Whether materials and pictures are wanted.
+    #[must_use]
+    pub fn wants_materials(&self) -> bool {
+        !self.is_bare
     }
 
     /// Where a file lies that is named relative to the folder. Backslashes, as Windows writes them, are as good as slashes.
@@ -34,11 +47,86 @@ impl Folder {
         Ok(if is_plain { folder.join(name) } else { name })
     }
 
+    /// Where a file lies that may have been named on another machine: as it is named, or else in other case, or else by its
+    /// last name alone in the folder itself.
+    ///
+    /// # Errors
+    /// There is no such file.
+    pub fn find(&self, name: &str) -> Result<PathBuf, String> {
+        let place = self.place(name)?;
+        if place.is_file() {
+            return Ok(place);
+        }
+        let folder = self.path.clone().unwrap_or_default();
+        let name_parts = name.split(['/', '\\']).filter(|part| !part.is_empty());
+        let last = name_parts.clone().next_back().into_iter().collect();
+        let found = in_any_case(&folder, name_parts.collect()).or_else(|| in_any_case(&folder, last));
+        found.ok_or_else(|| format!("{name} is not there"))
+    }
+
     /// The bytes of a file that is named relative to the folder.
     ///
     /// # Errors
-    /// There is no folder, or the file cannot be read.
+    /// There is no folder, or the file cannot be read or is none: a folder, a pipe, a device.
     pub fn read(&self, name: &str) -> Result<Vec<u8>, String> {
-        std::fs::read(self.place(name)?).map_err(|cause| format!("{name} cannot be read: {cause}"))
+        let place = self.place(name)?;
+        if place.exists() && !place.is_file() {
+            return Err(format!("{name} is no file"));
+        }
+        std::fs::read(place).map_err(|cause| format!("{name} cannot be read: {cause}"))
+    }
+}
+
+/// A file below a folder, by names whose case need not be right.
+fn in_any_case(folder: &Path, names: Vec<&str>) -> Option<PathBuf> {
+    let mut place = folder.to_owned();
+    for name in names {
+        let next = place.join(name);
+        place = if matches!(name, "." | "..") || next.exists() {
+            next
+        } else {
+            let here = if place.as_os_str().is_empty() { Path::new(".") } else { &place };
+            let entries = std::fs::read_dir(here).ok()?;
+            let alike = |entry: &std::fs::DirEntry| {
+                entry.file_name().to_string_lossy().to_lowercase() == name.to_lowercase()
+            };
+            entries.filter_map(Result::ok).find(alike)?.path()
+        };
+    }
+    place.is_file().then_some(place)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_named_on_other_machines_are_found() {
+        let outer = tempfile::tempdir().unwrap();
+        let inner = outer.path().join("Maps");
+        std::fs::create_dir(&inner).unwrap();
+        std::fs::write(inner.join("Wood.PNG"), "a").unwrap();
+        std::fs::write(outer.path().join("stone.png"), "b").unwrap();
+        let folder = Folder::of(&outer.path().join("a.obj"));
+        let wood = Ok(inner.join("Wood.PNG"));
+        for name in ["Maps/Wood.PNG", "maps\\wood.png", "./MAPS/wood.png"] {
+            assert_eq!(folder.find(name), wood, "{name}");
+        }
+        let stone = Ok(outer.path().join("stone.png"));
+        for name in ["stone.png", "C:\\Users\\someone\\Stone.png", "/home/someone/stone.png"] {
+            assert_eq!(folder.find(name), stone, "{name}");
+        }
+        for name in ["wood.png", "", "maps", "."] {
+            assert!(folder.find(name).is_err(), "{name}");
+        }
+        assert!(Folder::none().find("stone.png").is_err());
+    }
+
+    #[test]
+    fn what_is_no_file_is_not_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = Folder::of(&folder.path().join("a.obj"));
+        assert_eq!(folder.read("."), Err(". is no file".to_owned()));
+        assert!(folder.read("a.mtl").is_err_and(|message| message.contains("cannot be read")));
     }
 }

@@ -6,12 +6,19 @@
 //!
 //! A new format is one file or folder here and one line in [`FORMATS`].
 
+mod colors;
 mod contents;
 mod error;
 mod folder;
 mod merged;
+mod mesh;
+mod names;
 mod obj;
+mod paint;
 mod ply;
+mod stl;
+mod text;
+mod warnings;
 
 use std::path::Path;
 
@@ -39,15 +46,16 @@ pub const FORMATS: &[Format] = &[
     Format {
         name: "PLY",
         endings: &["ply"],
-        doc: "normals, texture coordinates",
-        read: |bytes, _| ply::read(bytes).and_then(model_of),
+        doc: "normals, texture coordinates, colours, pictures",
+        read: ply::read,
     },
     Format {
         name: "OBJ",
         endings: &["obj"],
-        doc: "normals, texture coordinates",
-        read: |bytes, _| obj::read(bytes).and_then(model_of),
+        doc: "objects and groups, normals, texture coordinates, colours, materials from MTL files",
+        read: obj::read,
     },
+    Format { name: "STL", endings: &["stl"], doc: "solids, colours of VisCAM and Magics", read: stl::read },
 ];
 
 /// Endings of all files that [`read`] understands.
@@ -60,9 +68,13 @@ pub fn endings() -> impl Iterator<Item = &'static str> {
 /// # Errors
 /// A file that cannot be read, has an ending that no [format](FORMATS) has, or is no valid model.
 pub fn read(path: &Path) -> Result<Model, ModelError> {
+    read_in(path, &Folder::of(path))
+}
+
+fn read_in(path: &Path, folder: &Folder) -> Result<Model, ModelError> {
     let format = format_of(path).map_err(|fault| ModelError::new(path, fault))?;
     let bytes = std::fs::read(path).map_err(|e| ModelError::unreadable(path, &e))?;
-    (format.read)(&bytes, &Folder::of(path)).map_err(|fault| ModelError::new(path, fault))
+    (format.read)(&bytes, folder).map_err(|fault| ModelError::new(path, fault))
 }
 
 /// Reads a model from the bytes of a file whose name tells the format.
@@ -81,7 +93,8 @@ pub fn read_bytes(bytes: &[u8], name: &Path, folder: &Folder) -> Result<Model, M
 /// # Errors
 /// As for [`read`], and a model without triangles.
 pub fn read_mesh(path: &Path) -> Result<TriangleMesh, ModelError> {
-    merged::mesh_of(&read(path)?).map_err(|fault| ModelError::new(path, fault))
+    let model = read_in(path, &Folder::of(path).for_shapes_alone())?;
+    merged::mesh_of(&model).map_err(|fault| ModelError::new(path, fault))
 }
 
 /// Reads all triangles of a model as one mesh from the bytes of a file whose name tells the format.
@@ -89,7 +102,7 @@ pub fn read_mesh(path: &Path) -> Result<TriangleMesh, ModelError> {
 /// # Errors
 /// As for [`read_mesh`]; `name` stands for the file in messages.
 pub fn read_mesh_bytes(bytes: &[u8], name: &Path) -> Result<TriangleMesh, ModelError> {
-    let model = read_bytes(bytes, name, &Folder::none())?;
+    let model = read_bytes(bytes, name, &Folder::none().for_shapes_alone())?;
     merged::mesh_of(&model).map_err(|fault| ModelError::new(name, fault))
 }
 
@@ -100,29 +113,4 @@ fn format_of(path: &Path) -> Result<&'static Format, Fault> {
         let known = known.join(", ");
         Fault::new(Place::File, format!("is no model file: its name must end in one of {known}"))
     })
-}
-
-/// What a file of one mesh holds, before the mesh is made.
-#[derive(Default)]
-struct Polygons {
-    positions: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
-    normals: Option<Vec<[f32; 3]>>,
-    uvs: Option<Vec<[f32; 2]>>,
-}
-
-/// The model of one mesh.
-fn model_of(found: Polygons) -> Result<Model, Fault> {
-    let mesh = TriangleMesh::new(found.positions, found.triangles, found.normals, found.uvs)
-        .map_err(|e| Fault::new(Place::File, e.to_string()))?;
-    Model::of_mesh(mesh).map_err(|e| Fault::new(Place::File, e.to_string()))
-}
-
-/// Narrows to `f32`, refusing what is not finite there.
-fn finite<const N: usize>(values: [f64; N], place: Place, what: &str) -> Result<[f32; N], Fault> {
-    let narrow = values.map(|v| v as f32);
-    match narrow.iter().position(|v| !v.is_finite()) {
-        None => Ok(narrow),
-        Some(i) => Err(Fault::new(place, format!("{what} must be finite numbers, not {}", values[i]))),
-    }
 }

@@ -58,8 +58,15 @@ fn nothing_that_is_no_number_comes_out() {
                 let spreads = [None, Some([position; 2]), Some([DVec3::X * b, DVec3::ZERO])];
                 for (footprint, spread) in footprints.into_iter().zip(spreads) {
                     for stochastic in [None, Some([0.3, 0.9]), Some([a, b])] {
-                        let at =
-                            TexturePoint { uv, position, normal: position, footprint, spread, stochastic };
+                        let at = TexturePoint {
+                            uv,
+                            position,
+                            normal: position,
+                            color: None,
+                            footprint,
+                            spread,
+                            stochastic,
+                        };
                         let texel = texture.texel(&at);
                         let is_color = texel.color.all(|v| (0.0..=1.0).contains(&v)) && texel.alpha == 1.0;
                         assert!(is_color, "{} {mapping}: {texel:?} at {at:?}", kind.name);

@@ -1,6 +1,8 @@
 //! What a PLY header announces: how numbers are written, which elements follow, with which properties.
 
 use crate::model::error::{Fault, Place};
+use crate::model::names::{name_of, text_of};
+use crate::model::warnings::Warnings;
 
 /// How the body writes numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,9 +21,14 @@ pub(super) enum Sort {
     U16,
     I32,
     U32,
+    I64,
+    U64,
     F32,
     F64,
 }
+
+/// Names of number types, for messages.
+const SORTS: &str = "char, uchar, short, ushort, int, uint, int64, uint64, float, double";
 
 impl Sort {
     fn named(word: &str) -> Option<Self> {
@@ -32,6 +39,8 @@ impl Sort {
             "ushort" | "uint16" => Self::U16,
             "int" | "int32" => Self::I32,
             "uint" | "uint32" => Self::U32,
+            "long" | "int64" => Self::I64,
+            "ulong" | "uint64" => Self::U64,
             "float" | "float32" => Self::F32,
             "double" | "float64" => Self::F64,
             _ => return None,
@@ -44,8 +53,13 @@ impl Sort {
             Self::I8 | Self::U8 => 1,
             Self::I16 | Self::U16 => 2,
             Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::F64 => 8,
+            Self::I64 | Self::U64 | Self::F64 => 8,
         }
+    }
+
+    /// Whether every number of it is one of `f32`.
+    pub(super) fn is_narrow(self) -> bool {
+        matches!(self, Self::I8 | Self::U8 | Self::I16 | Self::U16 | Self::F32)
     }
 
     /// Whole numbers have a range, the others none.
@@ -57,6 +71,8 @@ impl Sort {
             Self::U16 => Some((0.0, 65_535.0)),
             Self::I32 => Some((f64::from(i32::MIN), f64::from(i32::MAX))),
             Self::U32 => Some((0.0, f64::from(u32::MAX))),
+            Self::I64 => Some((i64::MIN as f64, i64::MAX as f64)),
+            Self::U64 => Some((0.0, u64::MAX as f64)),
             Self::F32 | Self::F64 => None,
         }
     }
@@ -68,6 +84,8 @@ pub(super) struct Property {
     pub(super) name: String,
     pub(super) sort: Sort,
     pub(super) list: Option<Sort>,
+    /// Line of the header that announces it.
+    pub(super) line: usize,
 }
 
 /// A table of the file.
@@ -85,6 +103,8 @@ pub(super) struct Element {
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
+    /// Pictures that comments name, as MeshLab writes them.
+    pub(super) pictures: Vec<String>,
     /// Byte at which the body begins.
     pub(super) body: usize,
     /// Lines of the header.
@@ -94,12 +114,17 @@ pub(super) struct Header {
 /// A header longer than this is none.
 const LONGEST_HEADER: usize = 1 << 16;
 
-pub(super) fn read(bytes: &[u8]) -> Result<Header, Fault> {
-    let mut lines = bytes[..bytes.len().min(LONGEST_HEADER)].split_inclusive(|&b| b == b'\n');
-    let mut body = 0;
-    let mut line = 0;
+pub(super) fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<Header, Fault> {
+    let start = &bytes[..bytes.len().min(LONGEST_HEADER)];
+    // Lines end with LF, with CR LF or, in old files, with CR alone.
+    let end = match start.iter().position(|&byte| byte == b'\n' || byte == b'\r') {
+        Some(at) if start[at] == b'\r' && start.get(at + 1) != Some(&b'\n') => b'\r',
+        _ => b'\n',
+    };
+    let mut lines = start.split_inclusive(|&byte| byte == end);
+    let (mut body, mut line) = (0, 0);
     let mut encoding = None;
-    let mut elements: Vec<Element> = Vec::new();
+    let (mut elements, mut pictures): (Vec<Element>, _) = (Vec::new(), Vec::new());
     loop {
         line += 1;
         let Some(raw) = lines.next() else {
@@ -109,7 +134,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Header, Fault> {
         if body == LONGEST_HEADER && bytes.len() > LONGEST_HEADER {
             return Err(Fault::new(Place::Line(line), ended(bytes)));
         }
-        let text = String::from_utf8_lossy(raw);
+        let text = text_of(raw.strip_prefix(b"\xef\xbb\xbf").unwrap_or(raw));
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
         let wrong = |message: String| Err(Fault::new(Place::Line(line), message));
         match words.as_slice() {
@@ -117,22 +142,34 @@ pub(super) fn read(bytes: &[u8]) -> Result<Header, Fault> {
             _ if line == 1 => return wrong("is no PLY file: the first line must be \"ply\"".into()),
             ["end_header"] => break,
             ["format", name, "1.0"] => encoding = Some(encoding_named(name, line)?),
-            ["format", ..] => return wrong(format!("\"{}\" must be \"format NAME 1.0\"", text.trim())),
+            ["format", ..] => return wrong(format!("\"{text}\" must be \"format NAME 1.0\"")),
+            ["comment", "TextureFile", ..] => {
+                pictures.extend(text.split_once("TextureFile").map(|(_, name)| name.trim().to_owned()));
+            }
             ["comment" | "obj_info", ..] | [] => {}
             ["element", name, count] => elements.push(element(name, count, line, &elements)?),
             ["property", rest @ ..] => match elements.last_mut() {
-                Some(element) => element.properties.push(property(rest, line, &element.properties)?),
+                Some(element) => element.properties.push(property(rest, line)?),
                 None => return wrong("a property stands before the first element".into()),
             },
-            _ => return wrong(format!("\"{}\" is no line of a PLY header", text.trim())),
+            ["element", ..] => return wrong(format!("\"{text}\" must be \"element NAME COUNT\"")),
+            _ => {
+                let text = name_of(text.as_bytes());
+                warnings
+                    .add(Place::Line(line), format!("\"{text}\" is no line of a PLY header: passed over"));
+            }
         }
     }
     let Some(encoding) = encoding else {
         return Err(Fault::new(Place::Line(line), "the header lacks its \"format\" line"));
     };
-    let header = Header { encoding, elements, body, lines: line };
-    check_order(&header)?;
-    Ok(header)
+    let has = |name: &str| elements.iter().any(|element| element.name == name);
+    let missing = match (has("vertex"), has("face") || has("tristrips")) {
+        (true, true) => return Ok(Header { encoding, elements, pictures, body, lines: line }),
+        (false, _) => "the header announces no element vertex",
+        _ => "the header announces no element face or tristrips, and points alone are not drawn",
+    };
+    Err(Fault::new(Place::Line(line), missing))
 }
 
 fn ended(bytes: &[u8]) -> &'static str {
@@ -169,12 +206,12 @@ fn element(name: &str, count: &str, line: usize, before: &[Element]) -> Result<E
     Ok(Element { name: name.to_owned(), count, properties: Vec::new(), line })
 }
 
-fn property(words: &[&str], line: usize, before: &[Property]) -> Result<Property, Fault> {
+fn property(words: &[&str], line: usize) -> Result<Property, Fault> {
     let sort = |word: &str| {
-        Sort::named(word)
-            .ok_or_else(|| Fault::new(Place::Line(line), format!("unknown number type \"{word}\"")))
+        let unknown = || format!("unknown number type \"{word}\": it must be one of {SORTS}");
+        Sort::named(word).ok_or_else(|| Fault::new(Place::Line(line), unknown()))
     };
-    let property = match words {
+    match words {
         ["list", count, item, name] => {
             let count = sort(count)?;
             if count.range().is_none() {
@@ -183,30 +220,9 @@ fn property(words: &[&str], line: usize, before: &[Property]) -> Result<Property
                     "the count of a list must be of a whole number type",
                 ));
             }
-            Property { name: (*name).to_owned(), sort: sort(item)?, list: Some(count) }
+            Ok(Property { name: (*name).to_owned(), sort: sort(item)?, list: Some(count), line })
         }
-        [item, name] => Property { name: (*name).to_owned(), sort: sort(item)?, list: None },
-        _ => return Err(Fault::new(Place::Line(line), "a property needs a type and a name")),
-    };
-    if before.iter().any(|p| p.name == property.name) {
-        return Err(Fault::new(Place::Line(line), format!("property {} is announced twice", property.name)));
-    }
-    Ok(property)
-}
-
-/// Faces are checked against the vertices while they are read, so the vertices come first.
-fn check_order(header: &Header) -> Result<(), Fault> {
-    let place = |name: &str| header.elements.iter().position(|e| e.name == name);
-    let line = Place::Line(header.lines);
-    match (place("vertex"), place("face")) {
-        (None, _) => Err(Fault::new(line, "the header announces no element vertex")),
-        (_, None) => Err(Fault::new(line, "the header announces no element face")),
-        (Some(vertex), Some(face)) if face < vertex => {
-            Err(Fault::new(line, "the faces stand before the vertices"))
-        }
-        _ => match header.elements.iter().find(|e| e.count > 0 && e.properties.is_empty()) {
-            Some(e) => Err(Fault::new(Place::Line(e.line), format!("element {} has no properties", e.name))),
-            None => Ok(()),
-        },
+        [item, name] => Ok(Property { name: (*name).to_owned(), sort: sort(item)?, list: None, line }),
+        _ => Err(Fault::new(Place::Line(line), "a property needs a type and a name")),
     }
 }

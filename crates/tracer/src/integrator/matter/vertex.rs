@@ -168,6 +168,7 @@ impl<'a, S: Search> Walker<'a, S> {
             uv: place.uv,
             position,
             normal: own.to_own.direction(surface.normal),
+            color: own.shape.color_at(position, surface.hit.surface.facet),
             footprint: Some(place.footprint(spread)),
             spread: Some(spread),
             stochastic,
