@@ -8,6 +8,7 @@
 
 mod error;
 mod folder;
+mod gltf;
 mod merged;
 mod model;
 mod obj;
@@ -47,6 +48,12 @@ pub const FORMATS: &[Format] = &[
         endings: &["obj"],
         doc: "normals, texture coordinates",
         read: |bytes, _| obj::read(bytes).and_then(model_of),
+    },
+    Format {
+        name: "glTF",
+        endings: &["gltf", "glb"],
+        doc: "normals, texture coordinates, colours, materials, textures, groups, lights, cameras",
+        read: gltf::read,
     },
 ];
 
