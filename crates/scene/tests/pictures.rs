@@ -234,6 +234,7 @@ fn no_damaged_picture_panics() {
         exr(&[("R", [1.0, 0.25]), ("G", [0.5, 0.0]), ("B", [0.25, 0.0]), ("A", [1.0, 0.5])]),
         exr(&[("Y", [3.0, 4.0])]),
         hdr("\n-Y 1 +X 8", &[2, 2, 0, 8, 136, 128, 136, 0, 136, 0, 136, 129]),
+        webp([8, 8], image_webp::ColorType::Rgb8, &noise),
     ];
     originals.extend(JPEGS.map(<[u8]>::to_vec));
     let (mut state, mut read) = (1, 0);

@@ -11,6 +11,16 @@ use crate::model::gltf::json::{self, Document, Whole, entry};
 use crate::model::gltf::refusal::{Refusal, Within};
 use crate::model::gltf::warnings::Warnings;
 
+/// The number of a node's light.
+pub(crate) fn of_node(given: &json::Node) -> Option<Whole> {
+    Some(given.extensions.as_deref()?.light.as_ref()?.light)
+}
+
+/// All lights of a file.
+pub(crate) fn all(document: &Document) -> &[json::Light] {
+    document.extensions.lights.as_ref().map_or(&[][..], |found| &found.lights)
+}
+
 /// The light of that number, at the origin and shining along `direction`, and its name.
 ///
 /// # Errors
@@ -21,8 +31,7 @@ pub(crate) fn light<'d>(
     direction: DVec3,
     warnings: &Warnings,
 ) -> Result<(Option<&'d str>, Light), Refusal> {
-    let lights = document.extensions.lights.as_ref().map_or(&[][..], |found| &found.lights);
-    let given = entry(lights, index, "KHR_lights_punctual.lights")?;
+    let given = entry(all(document), index, "KHR_lights_punctual.lights")?;
     let made = of(given, direction, warnings).within(|| format!("KHR_lights_punctual.lights[{index}]"))?;
     Ok((given.name.as_deref(), made))
 }

@@ -7,19 +7,19 @@ mod cameras;
 mod frame;
 mod instances;
 mod lights;
+mod parts;
 mod skeleton;
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use catoptra_core::geometry::Mesh;
-use catoptra_core::glam::{DAffine3, DVec3};
-use catoptra_core::{MeshSource, Node, TriangleMesh};
+use catoptra_core::Node;
+use catoptra_core::glam::{DAffine3, DMat3};
 
 pub(super) use frame::Rest;
 
-use super::geometry::{Meshes, Pose, Which, is_skinned, joints, topology};
-use super::json::{self, Mesh as MeshJson, Whole, entry};
+use super::geometry::Meshes;
+use super::json::{self, Whole};
 use super::limits::{MOST_GROUPS, MOST_NODES};
 use super::look::Looks;
 use super::names::Names;
@@ -80,25 +80,30 @@ impl<'a, 's> Tree<'a, 's> {
         let path = || format!("nodes[{index}]");
         let local = Local::of(given).within(path)?;
         let Some(frame) = Frame::within(outer, &local).within(path)? else {
-            if local.linear.matrix() != catoptra_core::glam::DMat3::ZERO {
+            if local.linear.matrix() != DMat3::ZERO {
                 self.source.warnings.add("nodes whose matrix flattens them are left out");
             }
             return Ok(Vec::new());
         };
-        let name = self.names.unique(given.name.as_deref(), "node");
+        let (of_content, kind) = self.naming(given);
+        let own = given.name.as_deref().filter(|name| !name.trim().is_empty());
+        let name = self.names.unique(own.or(of_content), kind);
         let mut parts = self.shapes(index, &name, frame.rest)?;
         parts.extend(self.others(given, &name, frame.rest).within(path)?);
         let is_alone = parts.len() == 1 && given.children.is_empty();
+        for part in &mut parts {
+            let own = if is_alone { name.clone() } else { self.names.unique(Some(&part.name), "part") };
+            part.name = own;
+        }
         for child in &given.children {
             parts.extend(self.node(child.index(), frame.rest, depth + 1)?);
         }
         if is_alone || depth >= MOST_GROUPS {
-            let rename = |part: Node| if is_alone { Node { name: name.clone(), ..part } } else { part };
             let place = |part: Node| {
                 let placement = part.placement.then(&frame.placement);
                 part.placed(placement)
             };
-            return Ok(parts.into_iter().map(rename).map(place).collect());
+            return Ok(parts.into_iter().map(place).collect());
         }
         if parts.is_empty() {
             return Ok(parts);
@@ -107,105 +112,22 @@ impl<'a, 's> Tree<'a, 's> {
         Ok(vec![Node::group(name, parts).placed(frame.placement)])
     }
 
-    /// The mesh of a node.
-    fn shapes(&mut self, node: usize, owner: &str, rest: Rest) -> Result<Vec<Node>, Refusal> {
-        let given = &self.source.document.nodes[node];
-        let path = || format!("nodes[{node}]");
-        let Some(index) = given.mesh else { return Ok(Vec::new()) };
-        let mesh = entry(&self.source.document.meshes, index, "meshes").within(path)?;
-        let mesh = (index.index(), mesh);
-        let mut pose = Pose { weights: &given.weights, skin: None, rest };
-        if let Some(skin) = given.skin.filter(|_| self.can_be_skinned(mesh.1)) {
-            let joints = self.joints_of(skin).referred().within(path)?;
-            pose = Pose { skin: Some((skin.0, &joints)), rest: Rest::NONE, ..pose };
-            let shapes = self.primitives(mesh, &pose, owner)?;
-            self.free.extend(shapes);
-            return Ok(Vec::new());
-        }
-        let instances = given.extensions.as_deref().and_then(|found| found.instances.as_ref());
-        let Some(instances) = instances else { return self.primitives(mesh, &pose, owner) };
-        let locals = instances::locals(instances, self.source)
-            .within(|| "EXT_mesh_gpu_instancing".to_owned())
-            .within(path)?;
-        let mut shapes = Vec::new();
-        for local in &locals {
-            let Some(frame) = Frame::within(rest, local).within(path)? else { continue };
-            let pose = Pose { rest: frame.rest, ..pose };
-            for shape in self.primitives(mesh, &pose, owner)? {
-                let placement = shape.placement.then(&frame.placement);
-                shapes.push(shape.placed(placement));
-            }
-        }
-        Ok(shapes)
-    }
-
-    fn can_be_skinned(&self, mesh: &MeshJson) -> bool {
-        let can = mesh.primitives.iter().all(|primitive| is_skinned(&primitive.attributes));
-        if !can {
-            self.source.warnings.add("a mesh with a skin names no joints: it stands where its node does");
-        }
-        can
-    }
-
-    fn joints_of(&mut self, index: Whole) -> Result<Arc<[DAffine3]>, Refusal> {
-        if let Some(known) = self.joints.get(&index) {
-            return Ok(Arc::clone(known));
-        }
+    /// What a node would be called: by its own name or by that of what it shows, or else by its kind.
+    fn naming(&self, given: &json::Node) -> (Option<&'a str>, &'static str) {
         let document = self.source.document;
-        let skin = entry(&document.skins, index, "skins")?;
-        let globals = match &mut self.globals {
-            Some(globals) => globals,
-            unknown => unknown.insert(self.skeleton.globals(&document.nodes)?),
-        };
-        let joints = joints(skin, globals, self.source).within(|| format!("skins[{index}]"))?;
-        let joints: Arc<[DAffine3]> = joints.into();
-        self.joints.insert(index, Arc::clone(&joints));
-        Ok(joints)
-    }
-
-    /// A shape for each primitive that has triangles.
-    fn primitives(
-        &mut self,
-        (number, mesh): (usize, &MeshJson),
-        pose: &Pose<'_>,
-        owner: &str,
-    ) -> Result<Vec<Node>, Refusal> {
-        let mut shapes = Vec::new();
-        for (i, primitive) in mesh.primitives.iter().enumerate() {
-            let path = || format!("meshes[{number}].primitives[{i}]");
-            let has_colors = primitive.attributes.contains_key("COLOR_0");
-            let topology = topology(primitive, &self.source.warnings).within(path)?;
-            let Some(topology) = topology else { continue };
-            let look = self.looks.of(primitive.material, has_colors)?;
-            let (mesh, uv_set) = ((number, mesh), look.uv_set);
-            let which = Which { mesh, primitive: (i, primitive), topology, uv_set };
-            let Some(mesh) = self.meshes.get(which, pose, self.source).within(path)? else { continue };
-            self.one_more()?;
-            let name = self.names.unique(Some(owner), "mesh");
-            shapes.push(Node::shape(name, shape_of(mesh), look.material));
+        let own = |name: &'a Option<String>| name.as_deref().filter(|name| !name.trim().is_empty());
+        let mesh = given.mesh.and_then(|mesh| document.meshes.get(mesh.index()));
+        let camera = given.camera.and_then(|camera| document.cameras.get(camera.index()));
+        let light = lights::of_node(given).and_then(|light| lights::all(document).get(light.index()));
+        if let Some(mesh) = mesh {
+            (own(&mesh.name), "mesh")
+        } else if let Some(light) = light {
+            (own(&light.name), "light")
+        } else if let Some(camera) = camera {
+            (own(&camera.name), "camera")
+        } else {
+            (None, "group")
         }
-        Ok(shapes)
-    }
-
-    /// The light and the camera of a node.
-    fn others(&mut self, given: &json::Node, owner: &str, rest: Rest) -> Result<Vec<Node>, Refusal> {
-        let source = self.source;
-        let mut parts = Vec::new();
-        let light = given.extensions.as_deref().and_then(|found| found.light.as_ref());
-        if let Some(light) = light {
-            let direction = (rest.matrix() * -DVec3::Z).normalize_or(-DVec3::Z);
-            let (name, light) = lights::light(source.document, light.light, direction, &source.warnings)?;
-            parts.push(Node::light(self.names.unique(name.or(Some(owner)), "light"), light));
-            self.one_more()?;
-        }
-        if let Some(index) = given.camera
-            && let Some((name, camera)) =
-                cameras::camera(source.document, index, rest.matrix(), &source.warnings)?
-        {
-            parts.push(Node::camera(self.names.unique(name.or(Some(owner)), "camera"), camera));
-            self.one_more()?;
-        }
-        Ok(parts)
     }
 
     /// Counts a node that is made.
@@ -218,8 +140,4 @@ impl<'a, 's> Tree<'a, 's> {
         }
         Ok(())
     }
-}
-
-fn shape_of(mesh: Arc<TriangleMesh>) -> Mesh {
-    Mesh::new(MeshSource { path: String::new(), mesh })
 }
