@@ -4,7 +4,7 @@ use std::path::Path;
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::scene::Content;
-use catoptra_core::{Node, Placement, Shape, TriangleMesh};
+use catoptra_core::{Edit, Node, Placement, Scene, Shape, TriangleMesh};
 use catoptra_scene::model::{Folder, Model, ModelError, read_bytes};
 use serde_json::{Value, json};
 
@@ -213,4 +213,19 @@ pub(crate) fn only(model: &Model) -> &TriangleMesh {
 /// The words of all warnings.
 pub(crate) fn warnings(model: &Model) -> Vec<&str> {
     model.warnings.iter().map(|warning| &*warning.message).collect()
+}
+
+/// Holds a model to what a scene takes.
+pub(crate) fn fits(model: &Model) {
+    let mut scene = Scene::new();
+    for (name, texture) in &model.textures {
+        scene.add_texture(name, texture.clone()).unwrap();
+    }
+    for worn in &model.materials {
+        let id = scene.add_material(&worn.name, worn.material.clone()).unwrap();
+        scene.apply(Edit::Finish(id, worn.finish)).unwrap();
+    }
+    for node in &model.nodes {
+        scene.apply(Edit::Insert(Box::new(node.clone().into()))).unwrap();
+    }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use catoptra_scene::model::{Folder, Model, read_bytes};
 use serde_json::json;
 
-use crate::builder::{Builder, base64, shapes};
+use crate::builder::{Builder, base64, fits, shapes};
 use crate::textures::png;
 
 /// A file with something of everything.
@@ -119,6 +119,7 @@ const TELLING: &[&[u8]] = &[
 ];
 
 fn check(model: &Model) {
+    fits(model);
     for shape in shapes(model) {
         let count = shape.mesh.positions().len();
         assert!(shape.mesh.triangles().as_flattened().iter().all(|&i| (i as usize) < count));

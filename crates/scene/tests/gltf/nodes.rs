@@ -5,11 +5,10 @@ use std::sync::Arc;
 
 use catoptra_core::glam::{DAffine3, DMat3, DQuat, DVec3};
 use catoptra_core::scene::{Content, Role};
-use catoptra_core::{Edit, Node, Scene, Shape, TriangleMesh};
-use catoptra_scene::model::Model;
+use catoptra_core::{Node, Shape, TriangleMesh};
 use serde_json::json;
 
-use crate::builder::{Builder, CORNERS, shapes, warnings};
+use crate::builder::{Builder, CORNERS, fits, shapes, warnings};
 
 /// SplitMix64 (Steele, Lea, Flood 2014), as numbers in −1..1.
 struct Random(u64);
@@ -129,21 +128,6 @@ fn a_group_stands_for_a_node_that_shows_more_than_one_thing() {
     assert_eq!((&*single.name, single.role(), single.placement.scale()), ("chair", Role::Shape, 2.0));
     assert_eq!((&*pair.name, pair.role(), pair.members().len()), ("chair 2", Role::Group, 2));
     fits(&model);
-}
-
-/// Whether a scene takes a model.
-fn fits(model: &Model) {
-    let mut scene = Scene::new();
-    for (name, texture) in &model.textures {
-        scene.add_texture(name, texture.clone()).unwrap();
-    }
-    for worn in &model.materials {
-        let id = scene.add_material(&worn.name, worn.material.clone()).unwrap();
-        scene.apply(Edit::Finish(id, worn.finish)).unwrap();
-    }
-    for node in &model.nodes {
-        scene.apply(Edit::Insert(Box::new(node.clone().into()))).unwrap();
-    }
 }
 
 #[test]
