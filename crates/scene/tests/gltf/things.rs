@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use catoptra_core::glam::{DQuat, DVec3};
 use catoptra_core::scene::Content;
-use catoptra_core::{Camera, Light, Rgb, Triple, Value};
+use catoptra_core::{Camera, Extent, Light, Rgb, Triple, Value};
 use catoptra_scene::model::Model;
 use serde_json::{Value as Json, json};
 
@@ -88,6 +88,28 @@ fn cameras_look_along_minus_z_with_y_upwards() {
     assert_eq!((&*model.nodes[0].name, found.fov(), found.eye()), ("eye", 0.8, DVec3::new(1.0, 2.0, 3.0)));
     assert!((found.forward() + DVec3::X).length() < 1e-12 && (found.up() - DVec3::Y).length() < 1e-12);
     assert!((camera(&model, 1).forward() - DVec3::Z).length() < 1e-12);
+}
+
+#[test]
+fn orthographic_cameras_see_twice_their_magnification_whatever_they_stand_in() {
+    let mut file = Builder::new();
+    let parallel = json!({ "xmag": 9.0, "ymag": 1.5, "znear": 0.0, "zfar": 10.0 });
+    file.push("cameras", json!({ "type": "orthographic", "orthographic": parallel, "name": "plan" }));
+    file.push("nodes", json!({ "scale": [4.0, 4.0, 4.0], "children": [1, 2] }));
+    file.push("nodes", json!({ "camera": 0, "scale": [0.5, 0.5, 0.5], "translation": [0.0, 0.0, 2.0] }));
+    file.push("nodes", json!({}));
+    let model = file.read();
+    let group = &model.nodes[0];
+    let node = &group.members()[0];
+    let Content::Camera(camera) = &node.content else { panic!("{node:?}") };
+    let placed = camera.placed(&node.placement.then(&group.placement)).unwrap();
+    assert_eq!((&*node.name, placed.extent(), placed.eye()), ("plan", Extent::Height(3.0), DVec3::Z * 8.0));
+    file.json["cameras"][0]["orthographic"]["ymag"] = json!(0.0);
+    assert!(
+        file.refusal().contains("nodes[1].cameras[0].orthographic.ymag: height must be"),
+        "{}",
+        file.refusal()
+    );
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! Where are the bytes that accessors and pictures lie in?
 
-use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::Read;
@@ -112,8 +111,8 @@ impl Reader<'_> {
     }
 
     /// As much of a file as is announced.
-    fn file(&mut self, name: &Cow<'_, str>, wanted: u64) -> Result<Rc<Vec<u8>>, String> {
-        if let Some(known) = self.files.get(&**name)
+    fn file(&mut self, name: &str, wanted: u64) -> Result<Rc<Vec<u8>>, String> {
+        if let Some(known) = self.files.get(name)
             && known.len() as u64 >= wanted
         {
             return Ok(Rc::clone(known));
@@ -133,7 +132,7 @@ impl Reader<'_> {
         file.take(wanted).read_to_end(&mut bytes).map_err(fail)?;
         self.left -= bytes.len() as u64;
         let bytes = Rc::new(bytes);
-        self.files.insert(name.clone().into_owned(), Rc::clone(&bytes));
+        self.files.insert(name.to_owned(), Rc::clone(&bytes));
         Ok(bytes)
     }
 }

@@ -2,29 +2,32 @@
 
 use std::f64::consts::PI;
 
-use catoptra_core::Camera;
-use catoptra_core::glam::{DMat3, DVec3};
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Camera, Extent};
 
+use super::Outer;
 use crate::model::gltf::json::{self, Document, Whole, entry};
 use crate::model::gltf::refusal::{Refusal, Within};
 use crate::model::gltf::warnings::Warnings;
 
-/// The camera of that number, at the origin, and its name; `None` for a projection that cannot be shown.
+/// The camera of that number, at the origin, and its name; `None` for one of no projection. What stands within `outer` will be
+/// scaled by its scale, which sizes of cameras do not know of.
 ///
 /// # Errors
-/// None is there, or its angle of view is none.
+/// None is there, or its extent is none.
 pub(crate) fn camera<'d>(
     document: &'d Document,
     index: Whole,
-    rest: DMat3,
+    outer: Outer,
     warnings: &Warnings,
 ) -> Result<Option<(Option<&'d str>, Camera)>, Refusal> {
     let given = entry(&document.cameras, index, "cameras")?;
-    let made = of(given, rest, warnings).within(|| format!("cameras[{index}]"))?;
+    let made = of(given, outer, warnings).within(|| format!("cameras[{index}]"))?;
     Ok(made.map(|camera| (given.name.as_deref(), camera)))
 }
 
-fn of(given: &json::Camera, rest: DMat3, warnings: &Warnings) -> Result<Option<Camera>, Refusal> {
+fn of(given: &json::Camera, outer: Outer, warnings: &Warnings) -> Result<Option<Camera>, Refusal> {
+    let rest = outer.rest.matrix();
     let (forward, up) = (rest * -DVec3::Z, rest * DVec3::Y);
     if let Some(perspective) = &given.perspective {
         let fov = perspective.yfov;
@@ -34,10 +37,12 @@ fn of(given: &json::Camera, rest: DMat3, warnings: &Warnings) -> Result<Option<C
         }
         return Ok(Some(Camera::looking(DVec3::ZERO, forward, up, fov)?));
     }
-    warnings.add(if given.orthographic.is_some() {
-        "orthographic cameras are left out"
-    } else {
-        "a camera of neither projection is left out"
-    });
-    Ok(None)
+    let Some(orthographic) = &given.orthographic else {
+        warnings.add("a camera of neither projection is left out");
+        return Ok(None);
+    };
+    // Half of what is seen; some programs write it below 0.
+    let height = 2.0 * orthographic.ymag.abs() / outer.scale;
+    let camera = Camera::looking(DVec3::ZERO, forward, up, PI / 2.0)?.with_extent(Extent::Height(height));
+    camera.map(Some).map_err(Refusal::new).within(|| "orthographic.ymag".to_owned())
 }

@@ -44,6 +44,26 @@ pub(super) struct Tree<'a, 's> {
     free: Vec<Node>,
 }
 
+/// What a node stands in.
+#[derive(Debug, Clone, Copy)]
+struct Outer {
+    /// What is left of the matrices round it beside their placements.
+    rest: Rest,
+    /// How much those scale.
+    scale: f64,
+    /// In how many nodes it lies.
+    depth: usize,
+}
+
+impl Outer {
+    const WORLD: Self = Self { rest: Rest::NONE, scale: 1.0, depth: 0 };
+
+    /// What stands in a node that itself stands so.
+    fn holding(self, frame: &Frame) -> Self {
+        Self { rest: frame.rest, scale: self.scale * frame.placement.scale(), depth: self.depth + 1 }
+    }
+}
+
 impl<'a, 's> Tree<'a, 's> {
     pub(super) fn new(source: &'s Source<'a>, looks: Looks<'a, 's>) -> Result<Self, Refusal> {
         let skeleton = Skeleton::of(&source.document.nodes)?;
@@ -64,14 +84,14 @@ impl<'a, 's> Tree<'a, 's> {
     pub(super) fn build(mut self) -> Result<(Vec<Node>, Looks<'a, 's>), Refusal> {
         let mut nodes = Vec::new();
         for index in self.skeleton.shown(self.source.document)? {
-            nodes.extend(self.node(index, Rest::NONE, 0)?);
+            nodes.extend(self.node(index, Outer::WORLD)?);
         }
         nodes.append(&mut self.free);
         Ok((nodes, self.looks))
     }
 
-    /// What a node becomes, within a group at that depth.
-    fn node(&mut self, index: usize, outer: Rest, depth: usize) -> Result<Vec<Node>, Refusal> {
+    /// What a node becomes.
+    fn node(&mut self, index: usize, outer: Outer) -> Result<Vec<Node>, Refusal> {
         let given = &self.source.document.nodes[index];
         let extensions = given.extensions.as_deref();
         if extensions.and_then(|found| found.visibility.as_ref()).is_some_and(|found| !found.visible) {
@@ -79,7 +99,7 @@ impl<'a, 's> Tree<'a, 's> {
         }
         let path = || format!("nodes[{index}]");
         let local = Local::of(given).within(path)?;
-        let Some(frame) = Frame::within(outer, &local).within(path)? else {
+        let Some(frame) = Frame::within(outer.rest, &local).within(path)? else {
             if local.linear.matrix() != DMat3::ZERO {
                 self.source.warnings.add("nodes whose matrix flattens them are left out");
             }
@@ -88,17 +108,18 @@ impl<'a, 's> Tree<'a, 's> {
         let (of_content, kind) = self.naming(given);
         let own = given.name.as_deref().filter(|name| !name.trim().is_empty());
         let name = self.names.unique(own.or(of_content), kind);
-        let mut parts = self.shapes(index, &name, frame.rest)?;
-        parts.extend(self.others(given, &name, frame.rest).within(path)?);
+        let inner = outer.holding(&frame);
+        let mut parts = self.shapes(index, &name, inner.rest)?;
+        parts.extend(self.others(given, &name, inner).within(path)?);
         let is_alone = parts.len() == 1 && given.children.is_empty();
         for part in &mut parts {
             let own = if is_alone { name.clone() } else { self.names.unique(Some(&part.name), "part") };
             part.name = own;
         }
         for child in &given.children {
-            parts.extend(self.node(child.index(), frame.rest, depth + 1)?);
+            parts.extend(self.node(child.index(), inner)?);
         }
-        if is_alone || depth >= MOST_GROUPS {
+        if is_alone || outer.depth >= MOST_GROUPS {
             let place = |part: Node| {
                 let placement = part.placement.then(&frame.placement);
                 part.placed(placement)

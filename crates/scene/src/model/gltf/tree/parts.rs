@@ -9,7 +9,7 @@ use catoptra_core::glam::{DAffine3, DVec3};
 use catoptra_core::{MeshSource, Node, TriangleMesh};
 
 use super::frame::{Frame, Rest};
-use super::{Tree, cameras, instances, lights};
+use super::{Outer, Tree, cameras, instances, lights};
 use crate::model::gltf::geometry::{Pose, Which, is_skinned, joints, topology};
 use crate::model::gltf::json::{self, Mesh as MeshJson, Whole, entry};
 use crate::model::gltf::refusal::{Refusal, Within};
@@ -103,19 +103,18 @@ impl Tree<'_, '_> {
         &mut self,
         given: &json::Node,
         owner: &str,
-        rest: Rest,
+        outer: Outer,
     ) -> Result<Vec<Node>, Refusal> {
         let source = self.source;
         let mut parts = Vec::new();
         if let Some(light) = lights::of_node(given) {
-            let direction = (rest.matrix() * -DVec3::Z).normalize_or(-DVec3::Z);
+            let direction = (outer.rest.matrix() * -DVec3::Z).normalize_or(-DVec3::Z);
             let (name, light) = lights::light(source.document, light, direction, &source.warnings)?;
             parts.push(Node::light(name.unwrap_or(owner), light));
             self.one_more()?;
         }
         if let Some(index) = given.camera
-            && let Some((name, camera)) =
-                cameras::camera(source.document, index, rest.matrix(), &source.warnings)?
+            && let Some((name, camera)) = cameras::camera(source.document, index, outer, &source.warnings)?
         {
             parts.push(Node::camera(name.unwrap_or(owner), camera));
             self.one_more()?;
