@@ -32,7 +32,7 @@ pub mod solid;
 pub mod texture;
 
 pub use bounds::Aabb;
-pub use camera::{Aim, Camera, Lens, Raster};
+pub use camera::{Aim, Camera, Extent, Lens, Raster, RayStart, Window};
 pub use color::{Rgb, srgb_decoded, srgb_encoded};
 pub use error::InvalidPart;
 pub use geometry::{Geometry, Shape, TriangleMesh};

@@ -4,12 +4,16 @@
 //! sides of the picture with a margin. What lies behind the eye is therefore cut off and never mirrored, and no
 //! number that reaches the painter is infinite or far outside the picture.
 
-use catoptra_core::Camera;
 use catoptra_core::glam::DVec3;
+use catoptra_core::{Camera, Extent};
 
 /// Nearest depth drawn, in metres along the camera's forward axis. Far below anything one can aim at, far above the
 /// rounding of coordinates within ten thousand kilometres of the eye.
 const NEAR: f64 = 1e-3;
+
+/// Parallel lines of sight meet so far behind an orthographic camera, in heights of what it sees: things a thousand heights away
+/// are off by a tenth of a pixel in five hundred, and rounding by far less.
+const FAR: f64 = 5e6;
 
 /// How far outside the picture lines still run, in pixels, so that their ends and casings never show at its border.
 const MARGIN: f64 = 64.0;
@@ -27,6 +31,8 @@ pub struct Projection {
     width: f64,
     height: f64,
     focal: f64,
+    /// Metres from the eye to where rays start.
+    ahead: f64,
 }
 
 /// A point of the world as it stands in the picture.
@@ -36,7 +42,7 @@ pub struct Projected {
     pub x: f64,
     /// Pixels from the top border; may lie outside the picture.
     pub y: f64,
-    /// Metres from the eye, along the ray through that pixel; positive.
+    /// Metres from where the ray through that pixel starts; positive.
     pub distance: f64,
 }
 
@@ -69,20 +75,30 @@ impl Projection {
     /// The projection of `camera` onto a picture of `width` x `height` pixels.
     pub fn new(camera: &Camera, width: u32, height: u32) -> Self {
         let (width, height) = (f64::from(width), f64::from(height));
+        let (ahead, focal) = match camera.extent() {
+            Extent::Angle(fov) => (0.0, 0.5 * height / (0.5 * fov).tan()),
+            Extent::Height(metres) => (FAR * metres, FAR * height),
+        };
         Self {
-            eye: camera.eye(),
+            eye: camera.eye() - camera.forward() * ahead,
             right: camera.right(),
             up: camera.up(),
             forward: camera.forward(),
             width,
             height,
-            focal: 0.5 * height / (0.5 * camera.fov()).tan(),
+            focal,
+            ahead,
         }
     }
 
-    /// The eye, in world metres.
+    /// Where all lines of sight meet, in world metres: the eye, or a point far behind an orthographic camera.
     pub fn eye(&self) -> DVec3 {
         self.eye
+    }
+
+    /// Where the camera stands.
+    pub fn stand(&self) -> DVec3 {
+        self.eye + self.forward * self.ahead
     }
 
     /// Width of the picture in pixels.
@@ -99,7 +115,7 @@ impl Projection {
     pub fn project(&self, point: DVec3) -> Option<Projected> {
         let seen = self.camera_space(point);
         let spot = self.spot(seen)?;
-        Some(Projected { x: spot.x, y: spot.y, distance: seen.length() })
+        Some(Projected { x: spot.x, y: spot.y, distance: seen.length() - self.ahead })
     }
 
     /// Direction of the ray through a pixel, in world space, with a forward component of 1 (not unit length).
@@ -157,10 +173,12 @@ impl Projection {
         seen.into_iter().filter_map(|corner| self.spot_within(corner)).collect()
     }
 
-    /// Metres from the eye per metre of depth, on the ray through a pixel: 1 in the centre, more towards the corners.
-    pub(crate) fn slant(&self, x: f64, y: f64) -> f64 {
-        let (across, upward) = self.slopes(x, y);
-        (1.0 + across * across + upward * upward).sqrt()
+    /// Metres from where the ray through a spot starts to the point of the world that stands there.
+    pub(crate) fn distance(&self, spot: Spot) -> f64 {
+        let (across, upward) = self.slopes(spot.x, spot.y);
+        // Metres from the eye per metre of depth: 1 in the centre, more towards the corners.
+        let slant = (1.0 + across * across + upward * upward).sqrt();
+        slant / spot.inverse_depth - self.ahead
     }
 
     fn slopes(&self, x: f64, y: f64) -> (f64, f64) {
@@ -174,7 +192,7 @@ impl Projection {
 
     fn spot(&self, seen: DVec3) -> Option<Spot> {
         // A corner cut at the near plane may be rounded to just before it, hence half of NEAR here.
-        if !(seen.z >= 0.5 * NEAR && self.width > 0.0 && self.height > 0.0) {
+        if !(seen.z >= self.ahead + 0.5 * NEAR && self.width > 0.0 && self.height > 0.0) {
             return None;
         }
         let spot = Spot {
@@ -199,7 +217,7 @@ impl Projection {
         let wide = (0.5 * self.width + MARGIN) / self.focal;
         let high = (0.5 * self.height + MARGIN) / self.focal;
         match side {
-            0 => seen.z - NEAR,
+            0 => seen.z - self.ahead - NEAR,
             1 => wide * seen.z + seen.x,
             2 => wide * seen.z - seen.x,
             3 => high * seen.z + seen.y,
@@ -261,6 +279,26 @@ mod tests {
             let met = ray.origin + ray.direction.normalize() * seen.distance;
             assert!(met.distance(point) < 1e-9 * (1.0 + seen.distance), "{point} became {met}");
         }
+    }
+
+    #[test]
+    fn an_orthographic_picture_is_that_of_parallel_rays() {
+        let camera = tilted().with_extent(Extent::Height(4.0)).unwrap();
+        let view = Projection::new(&camera, 640, 360);
+        assert!(view.stand().distance(camera.eye()) < 1e-8);
+        for number in 0..200 {
+            let depth = 0.01 + f64::from(number) * 0.7;
+            let (x, y) = (f64::from(number * 37 % 640), f64::from(number * 91 % 360));
+            let ray = camera.ray(x, y, 640, 360);
+            let seen = view.project(ray.at(depth)).unwrap();
+            assert!((seen.x - x).hypot(seen.y - y) < 0.01, "{x} {y} at {depth}: {seen:?}");
+            assert!((seen.distance - depth).abs() < 1e-5, "{seen:?}");
+            assert!((view.metres_per_pixel(ray.at(depth)).unwrap() * 360.0 - 4.0).abs() < 1e-3);
+        }
+        assert!(view.project(camera.eye() - camera.forward() * 0.01).is_none(), "what is behind is not seen");
+        let ends = [camera.eye() - camera.forward(), camera.eye() + camera.forward() * 5.0];
+        let [from, to] = view.segment(ends[0], ends[1] + camera.right()).unwrap();
+        assert!((view.distance(to) - 5.0).abs() < 1e-5 && view.distance(from).abs() < 2.0 * NEAR);
     }
 
     #[test]

@@ -44,8 +44,7 @@ impl Sight<'_> {
     }
 
     fn hides_spot(&self, spot: Spot) -> bool {
-        self.depth.is_some()
-            && self.covers(spot.x, spot.y, self.view.slant(spot.x, spot.y) / spot.inverse_depth)
+        self.depth.is_some() && self.covers(spot.x, spot.y, self.view.distance(spot))
     }
 
     fn covers(&self, x: f64, y: f64, distance: f64) -> bool {

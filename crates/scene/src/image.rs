@@ -1,10 +1,11 @@
-//! How pictures go out to PNG files and come in from them, and from JPEG, OpenEXR and Radiance files.
+//! How pictures go out to PNG files and come in from them, and from JPEG, WebP, OpenEXR and Radiance files.
 
 mod jpeg;
 mod load;
 mod openexr;
 mod png_texture;
 mod radiance;
+mod webp;
 
 use std::fs::File;
 use std::io::{self, BufReader, Write};

@@ -146,6 +146,22 @@ fn with_size(mut bytes: Vec<u8>, width: u32, height: u32) -> Vec<u8> {
     bytes
 }
 
+fn webp(size: [u32; 2], color: image_webp::ColorType, bytes: &[u8]) -> Vec<u8> {
+    let mut out = Vec::new();
+    image_webp::WebPEncoder::new(&mut out).encode(bytes, size[0], size[1], color).unwrap();
+    out
+}
+
+#[test]
+fn webps_show_what_they_hold() {
+    let image =
+        read(&webp([2, 1], image_webp::ColorType::Rgba8, &[255, 0, 0, 128, 0, 0, 255, 255]), "a.webp");
+    assert_eq!((image.width(), image.height(), image.channels()), (2, 1, 4));
+    assert_eq!((rgb(&image, 0, 0), rgb(&image, 1, 0)), ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]));
+    assert!((image.pixel(0, 0).alpha - 128.0 / 255.0).abs() < 1e-6);
+    assert_eq!(read(&webp([1, 3], image_webp::ColorType::Rgb8, &[9; 9]), "a.png").channels(), 3);
+}
+
 #[test]
 fn pictures_that_are_none_are_refused_with_a_reason() {
     use png::{BitDepth, ColorType};
@@ -155,7 +171,7 @@ fn pictures_that_are_none_are_refused_with_a_reason() {
     let infinite = exr(&[("Y", [f32::INFINITY, 0.0])]);
     let cases: Vec<(Vec<u8>, &str)> = vec![
         (Vec::new(), "a.png: is empty"),
-        (b"hello".to_vec(), "a.png: is no picture: it must be a PNG, JPEG, EXR or HDR file"),
+        (b"hello".to_vec(), "a.png: is no picture: it must be a PNG, JPEG, WebP, EXR or HDR file"),
         (b"GIF89a......".to_vec(), "a.png: is a GIF picture: it must be"),
         (with_size(small(), 0, 2), "a.png: "),
         (with_size(small(), 16384, 16384), "a.png: is cut short: "),
@@ -188,6 +204,11 @@ fn pictures_that_are_none_are_refused_with_a_reason() {
         (b"#?RGBE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n1234".to_vec(), "a.png: holds 32-bit_rle_xyze"),
         (b"#?RGBE\nEXPOSURE=0\n\n-Y 1 +X 1\n1234".to_vec(), "a.png: has the exposure 0"),
         (b"#?RGBE".to_vec(), "a.png: is cut short or broken in its header"),
+        (b"RIFF\x04\0\0\0WEBP".to_vec(), "a.png: cannot be read: "),
+        (
+            cut(webp([4, 4], image_webp::ColorType::Rgb8, &(0..48).collect::<Vec<u8>>())),
+            "a.png: cannot be read: ",
+        ),
     ];
     for (bytes, reason) in cases {
         let told = refusal(&bytes);
@@ -213,6 +234,7 @@ fn no_damaged_picture_panics() {
         exr(&[("R", [1.0, 0.25]), ("G", [0.5, 0.0]), ("B", [0.25, 0.0]), ("A", [1.0, 0.5])]),
         exr(&[("Y", [3.0, 4.0])]),
         hdr("\n-Y 1 +X 8", &[2, 2, 0, 8, 136, 128, 136, 0, 136, 0, 136, 129]),
+        webp([8, 8], image_webp::ColorType::Rgb8, &noise),
     ];
     originals.extend(JPEGS.map(<[u8]>::to_vec));
     let (mut state, mut read) = (1, 0);

@@ -1,7 +1,7 @@
 //! A frame: a snapshot, and the view of it that is traced.
 
-use catoptra_core::Raster;
 use catoptra_core::glam::DVec3;
+use catoptra_core::{Raster, RayStart};
 
 use crate::edges::EdgeList;
 use crate::{Snapshot, View};
@@ -36,14 +36,17 @@ impl<'a> Frame<'a> {
     pub(crate) fn without_eye(snapshot: &'a Snapshot, view: &'a View) -> Self {
         let raster = view.camera.raster(view.size.width, view.size.height);
         let eye = raster.eye - snapshot.origin();
-        // One sample is seen from the middle of the lens.
-        let lens = raster.lens.filter(|_| view.samples > 1);
-        let raster = Raster { eye: raster.eye - snapshot.frame(), lens, ..raster };
+        let start = match raster.start {
+            // One sample is seen from the middle of the lens.
+            RayStart::Lens(_) if view.samples <= 1 => RayStart::Eye,
+            start => start,
+        };
+        let raster = Raster { eye: raster.eye - snapshot.frame(), start, ..raster };
         Self { snapshot, view, raster, eye, outside_solids: false, edges: None }
     }
 
     /// Whether all rays of the view start at the eye.
     pub(crate) fn is_pinhole(&self) -> bool {
-        self.raster.lens.is_none()
+        self.raster.start == RayStart::Eye
     }
 }

@@ -49,7 +49,7 @@ impl Part for ImageTexture {
             "file",
             FieldKind::Image,
             "",
-            "PNG, JPEG, EXR or HDR file, relative to the scene's folder.",
+            "PNG, JPEG, WebP, EXR or HDR file, relative to the scene's folder.",
         ),
         Field::required("wrap", FieldKind::Choice(WRAP_WORDS), "", "What lies beyond the picture.")
             .or(|| Value::Word("repeat".to_owned())),

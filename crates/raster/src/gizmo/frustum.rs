@@ -51,7 +51,7 @@ fn cameras<'a>(stage: &'a Stage<'_>) -> impl Iterator<Item = (EntityId, Camera)>
     let ids = stage.scene.entities_of(Role::Camera);
     ids.filter_map(|id| {
         let camera = stage.scene.world_camera(id)?;
-        let apart = camera.eye().distance(stage.view.eye());
+        let apart = camera.eye().distance(stage.view.stand());
         (apart > OWN).then_some((id, camera))
     })
 }

@@ -38,13 +38,13 @@ struct Level {
 }
 
 fn draw(stage: &Stage<'_>, canvas: &mut Canvas<'_>) {
-    let height = stage.view.eye().y.abs().clamp(HEIGHTS.0, HEIGHTS.1);
+    let height = stage.view.stand().y.abs().clamp(HEIGHTS.0, HEIGHTS.1);
     let finest = (height / FINEST).log10().floor() as i32;
     let ahead = stage.view.direction(0.5 * stage.view.width(), 0.5 * stage.view.height());
     for step in 0..LEVELS {
         let spacing = 10_f64.powi(finest + step);
         let reach = spacing * f64::from(LINES);
-        let middle = (stage.view.eye() + ahead * (0.4 * reach)).with_y(0.0);
+        let middle = (stage.view.stand() + ahead * (0.4 * reach)).with_y(0.0);
         lines(canvas, &Level { spacing, reach, middle, gaps: step + 1 < LEVELS });
     }
 }

@@ -1,5 +1,5 @@
-//! How pictures come in for textures and for what surrounds a scene: PNG, JPEG, OpenEXR and Radiance, told apart by what the
-//! file holds and not by its name.
+//! How pictures come in for textures and for what surrounds a scene: PNG, JPEG, WebP, OpenEXR and Radiance, told apart by
+//! what the file holds and not by its name.
 //!
 //! A size is checked against the limits and against the length of the file before memory is taken for it, so that a few bytes
 //! cannot ask for gigabytes.
@@ -14,7 +14,7 @@ use std::time::SystemTime;
 use catoptra_core::Image;
 use catoptra_core::texture::MOST_PIXELS;
 
-use super::{ImageError, jpeg, openexr, png_texture, radiance};
+use super::{ImageError, jpeg, openexr, png_texture, radiance, webp};
 
 /// Where a picture is read from.
 pub(super) trait Input: BufRead + Seek {}
@@ -84,7 +84,6 @@ const FOREIGN: &[(&[u8], &str)] = &[
     (b"BM", "BMP"),
     (b"II*\0", "TIFF"),
     (b"MM\0*", "TIFF"),
-    (b"RIFF", "WebP"),
     (b"DDS ", "DDS"),
     (b"8BPS", "Photoshop"),
     (b"\xabKTX", "KTX"),
@@ -104,11 +103,12 @@ fn read(mut input: impl Input, length: u64) -> Result<Image, Fault> {
         [0x89, b'P', b'N', b'G', ..] => png_texture::read(input, length),
         [0xff, 0xd8, 0xff, ..] => jpeg::read(input, length),
         [0x76, 0x2f, 0x31, 0x01, ..] => openexr::read(input, length),
+        [b'R', b'I', b'F', b'F', ..] => webp::read(input, length),
         [b'#', b'?', ..] => radiance::read(input, length),
         start => {
             let foreign = FOREIGN.iter().find(|(magic, _)| start.starts_with(magic));
             let is = foreign.map_or_else(|| "no picture".to_owned(), |(_, name)| format!("a {name} picture"));
-            Err(format!("is {is}: it must be a PNG, JPEG, EXR or HDR file"))
+            Err(format!("is {is}: it must be a PNG, JPEG, WebP, EXR or HDR file"))
         }
     }
 }

@@ -11,7 +11,7 @@ use super::{Fault, Model, Place};
 
 /// Shapes where the model places them, as one mesh round the offset of the first. Where some have normals, texture coordinates
 /// or colours, the others have those of their faces, 0 0, and white.
-pub(super) fn mesh_of(model: &Model) -> Result<TriangleMesh, Fault> {
+pub(super) fn mesh_of(model: Model) -> Result<TriangleMesh, Fault> {
     let mut meshes = Vec::new();
     for node in &model.nodes {
         gather(node, &Placement::IDENTITY, &mut meshes);

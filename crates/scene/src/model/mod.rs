@@ -10,6 +10,7 @@ mod colors;
 mod contents;
 mod error;
 mod folder;
+mod gltf;
 mod merged;
 mod mesh;
 mod names;
@@ -56,6 +57,12 @@ pub const FORMATS: &[Format] = &[
         read: obj::read,
     },
     Format { name: "STL", endings: &["stl"], doc: "solids, colours of VisCAM and Magics", read: stl::read },
+    Format {
+        name: "glTF",
+        endings: &["gltf", "glb"],
+        doc: "normals, texture coordinates, colours, materials, textures, groups, lights, cameras",
+        read: gltf::read,
+    },
 ];
 
 /// Endings of all files that [`read`] understands.
@@ -94,7 +101,7 @@ pub fn read_bytes(bytes: &[u8], name: &Path, folder: &Folder) -> Result<Model, M
 /// As for [`read`], and a model without triangles.
 pub fn read_mesh(path: &Path) -> Result<TriangleMesh, ModelError> {
     let model = read_in(path, &Folder::of(path).for_shapes_alone())?;
-    merged::mesh_of(&model).map_err(|fault| ModelError::new(path, fault))
+    merged::mesh_of(model).map_err(|fault| ModelError::new(path, fault))
 }
 
 /// Reads all triangles of a model as one mesh from the bytes of a file whose name tells the format.
@@ -103,7 +110,7 @@ pub fn read_mesh(path: &Path) -> Result<TriangleMesh, ModelError> {
 /// As for [`read_mesh`]; `name` stands for the file in messages.
 pub fn read_mesh_bytes(bytes: &[u8], name: &Path) -> Result<TriangleMesh, ModelError> {
     let model = read_bytes(bytes, name, &Folder::none().for_shapes_alone())?;
-    merged::mesh_of(&model).map_err(|fault| ModelError::new(name, fault))
+    merged::mesh_of(model).map_err(|fault| ModelError::new(name, fault))
 }
 
 fn format_of(path: &Path) -> Result<&'static Format, Fault> {

@@ -53,7 +53,8 @@ impl EdgeList {
     /// Those that a view asks for, of what its rays see in the snapshot's frame.
     pub(crate) fn for_view(snapshot: &Snapshot, view: &View, raster: &Raster) -> Option<Self> {
         // Areas are those of a box filter, seen from one eye, and shown once all samples are there.
-        let plain = view.filter == Filter::Box && view.camera.lens_radius() == 0.0 && view.range.is_none();
+        let from_eye = view.camera.lens_radius() == 0.0 && !view.camera.is_orthographic();
+        let plain = view.filter == Filter::Box && from_eye && view.range.is_none();
         let asked = view.edges == Edges::Exact && view.integrator == Integrator::Whitted && plain;
         asked.then(|| Self { seed: view.seed, ..Self::new(snapshot, raster) })
     }

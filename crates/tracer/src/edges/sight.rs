@@ -170,7 +170,7 @@ mod tests {
             corner: DVec3::new(-0.5, 0.4, -1.0),
             across: DVec3::new(0.01, 0.0, 0.0004),
             down: DVec3::new(0.0002, -0.01, 0.0),
-            lens: None,
+            start: catoptra_core::RayStart::Eye,
         })
     }
 

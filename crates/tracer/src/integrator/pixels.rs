@@ -1,7 +1,7 @@
 //! How do samples become pixels? Every pixel of a tile, one path after another, by the rules of any integrator.
 
-use catoptra_core::Ray;
 use catoptra_core::lobe::point_of_disk;
+use catoptra_core::{Ray, RayStart};
 
 use super::walker::{CameraRay, Walker};
 use super::{Integrate, IntegratorVisitor, Search, visit};
@@ -86,9 +86,11 @@ fn trace_pixel<I: Integrate, S: Search>(walker: &mut Walker<'_, S>, tile: &mut T
 
 /// The camera's ray through a place of the picture, from a point of the lens that the sample chooses.
 fn camera_ray(frame: &Frame<'_>, [x, y]: [f64; 2], sample: &Sample, sampler: Sampler<u32>) -> Ray {
-    if frame.is_pinhole() {
-        return frame.raster.ray(x, y);
+    match frame.raster.start {
+        RayStart::Eye | RayStart::Window(_) => frame.raster.ray(x, y),
+        RayStart::Lens(_) => {
+            let on_lens = point_of_disk(sampler.pair(sample.index, pairs::LENS).map(share));
+            frame.raster.ray_from(x, y, on_lens)
+        }
     }
-    let on_lens = point_of_disk(sampler.pair(sample.index, pairs::LENS).map(share));
-    frame.raster.ray_from(x, y, on_lens)
 }

@@ -7,7 +7,7 @@
 use catoptra_core::glam::DVec3;
 use catoptra_core::lobe::point_of_disk;
 use catoptra_core::material::Footprint;
-use catoptra_core::{Raster, Ray, Span};
+use catoptra_core::{Raster, Ray, RayStart, Span};
 use fearless_simd::Simd;
 
 use crate::film::{BLOCK, BLOCK_PIXELS};
@@ -86,7 +86,7 @@ pub(crate) struct CameraPackets<'a, S: Simd> {
     /// Columns and rows of the lanes of each part of a block, in pixels from the block's corner.
     within: [(D<S>, D<S>); BLOCK_PIXELS / 4],
     raster: Raster,
-    lens: Option<LensLanes<S>>,
+    start: StartLanes<S>,
     sample: Sample,
     /// Whether places are kept in columns.
     own: bool,
@@ -100,12 +100,24 @@ pub(crate) struct CameraPackets<'a, S: Simd> {
     pub(crate) sides: Option<[DVec3; 2]>,
 }
 
-/// The lens in registers.
+/// Where rays start, in registers.
+enum StartLanes<S: Simd> {
+    Eye,
+    Lens(LensLanes<S>),
+    Window(WindowLanes<S>),
+}
+
 struct LensLanes<S: Simd> {
     right: D3<S>,
     up: D3<S>,
     /// −1 over the distance at which things are sharp.
     inverse_focus: D<S>,
+}
+
+struct WindowLanes<S: Simd> {
+    corner: D3<S>,
+    across: D3<S>,
+    down: D3<S>,
 }
 
 impl<'a, S: Simd> CameraPackets<'a, S> {
@@ -143,13 +155,18 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
         if masked {
             rays.mark_active::<S>(tile, sample.number);
         }
-        let lens = match &raster.lens {
-            Some(lens) => Some(LensLanes {
+        let start = match &raster.start {
+            RayStart::Eye => StartLanes::Eye,
+            RayStart::Lens(lens) => StartLanes::Lens(LensLanes {
                 right: splat_wide(s, lens.right),
                 up: splat_wide(s, lens.up),
                 inverse_focus: D::splat(s, -lens.inverse_focus),
             }),
-            None => None,
+            RayStart::Window(window) => StartLanes::Window(WindowLanes {
+                corner: splat_wide(s, window.corner),
+                across: splat_wide(s, window.across),
+                down: splat_wide(s, window.down),
+            }),
         };
         let eye = splat_wide(s, frame.eye);
         let drift = drift(frame.snapshot.origin_in_frame());
@@ -164,7 +181,7 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
             down: splat_wide(s, raster.down),
             within,
             raster: *raster,
-            lens,
+            start,
             sample: *sample,
             own,
             masked,
@@ -252,7 +269,7 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
         let [right_column, down_column] = &mut self.rays.place;
         right.store(&mut right_column[at..]);
         down.store(&mut down_column[at..]);
-        if self.lens.is_some() {
+        if matches!(self.start, StartLanes::Lens(_)) {
             let [first, second] = sampler.pair(index, pairs::LENS);
             let [right, up] = point_of_disk([share_of_one(first), share_of_one(second)]);
             let [right_column, up_column] = &mut self.rays.on_lens;
@@ -281,14 +298,31 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
     /// Directions of the packet at an index of the tile's columns: those of [`Raster::ray`], bit for bit.
     #[inline(always)]
     pub(crate) fn directions(&self, s: S, at: usize) -> D3<S> {
-        let (x, y, part) = self.corner_of(at);
-        let (mut columns, mut rows) = self.within[part];
-        if self.own {
-            let [right, down] = &self.rays.place;
-            columns = columns + F::load(s, &right[at..]).widen();
-            rows = rows + F::load(s, &down[at..]).widen();
-        }
+        let (x, y, _) = self.corner_of(at);
+        let (columns, rows) = self.within_block(s, at);
         self.across_row(s, columns, x, self.through_row(s, rows, y))
+    }
+
+    /// Columns and rows of the samples of the packet at an index of the tile's columns, in pixels from its block's corner.
+    #[inline(always)]
+    fn within_block(&self, s: S, at: usize) -> (D<S>, D<S>) {
+        let (_, _, part) = self.corner_of(at);
+        let (columns, rows) = self.within[part];
+        if !self.own {
+            return (columns, rows);
+        }
+        let [right, down] = &self.rays.place;
+        (columns + F::load(s, &right[at..]).widen(), rows + F::load(s, &down[at..]).widen())
+    }
+
+    /// From the eye to where the pixels of the packet at an index of the tile's columns have their places.
+    #[inline(always)]
+    fn through_window(&self, s: S, at: usize, window: &WindowLanes<S>) -> D3<S> {
+        let (x, y, _) = self.corner_of(at);
+        let (columns, rows) = self.within_block(s, at);
+        let along = |first: u32, within: D<S>| within + D::splat(s, f64::from(first));
+        let row = window.down.scale_add(along(self.y + y, rows), window.corner);
+        window.across.scale_add(along(self.x + x, columns), row)
     }
 
     /// From the eye to where the rays of the packet at an index of the tile's columns start on the lens.
@@ -304,12 +338,13 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
     #[inline(always)]
     fn precise_rays(&self, s: S, at: usize) -> (D3<S>, D3<S>) {
         let direction = self.directions(s, at);
-        match &self.lens {
-            None => (self.eye, direction),
-            Some(lens) => {
+        match &self.start {
+            StartLanes::Eye => (self.eye, direction),
+            StartLanes::Lens(lens) => {
                 let aside = self.aside(s, at, lens);
                 (self.eye + aside, aside.scale_add(lens.inverse_focus, direction))
             }
+            StartLanes::Window(window) => (self.eye + self.through_window(s, at, window), direction),
         }
     }
 
@@ -347,12 +382,14 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
     #[inline(always)]
     pub(crate) fn packet_at(&self, s: S, at: usize) -> Packet<'_, S, Self> {
         let direction = load3(s, &self.rays.direction, at);
-        let (origin, reach) = match &self.lens {
-            None => (self.eye32, self.reach),
-            Some(lens) => {
-                let origin = narrow3(self.eye + self.aside(s, at, lens));
-                (origin, magnitude(origin) + F::splat(s, self.drift))
-            }
+        let elsewhere = |aside: D3<S>| {
+            let origin = narrow3(self.eye + aside);
+            (origin, magnitude(origin) + F::splat(s, self.drift))
+        };
+        let (origin, reach) = match &self.start {
+            StartLanes::Eye => (self.eye32, self.reach),
+            StartLanes::Lens(lens) => elsewhere(self.aside(s, at, lens)),
+            StartLanes::Window(window) => elsewhere(self.through_window(s, at, window)),
         };
         Packet {
             precise: self,
@@ -393,9 +430,9 @@ impl<S: Simd> PreciseRays<S> for CameraPackets<'_, S> {
         };
         let (right, down) =
             (along(self.x + x, within % BLOCK, share[0]), along(self.y + y, within / BLOCK, share[1]));
-        match self.lens {
-            None => self.raster.ray(right, down),
-            Some(_) => self.raster.ray_from(right, down, of(&self.rays.on_lens)),
+        match self.start {
+            StartLanes::Eye | StartLanes::Window(_) => self.raster.ray(right, down),
+            StartLanes::Lens(_) => self.raster.ray_from(right, down, of(&self.rays.on_lens)),
         }
     }
 

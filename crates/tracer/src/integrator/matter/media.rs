@@ -5,7 +5,7 @@
 //! not there. Entering twice is entering once and leaving what was not entered does nothing, so that no order of crossings, and
 //! none that rounding has lost, can unsettle the list.
 
-use catoptra_core::{Medium, Ray, Rgb, Span};
+use catoptra_core::{Medium, Ray, RayStart, Rgb, Span};
 use smallvec::SmallVec;
 use std::collections::BTreeMap;
 
@@ -16,6 +16,14 @@ use crate::{Frame, Hit, Snapshot};
 pub(crate) struct Media(SmallVec<[u32; 4]>);
 
 impl Media {
+    /// Those that the camera's rays begin in: all at the eye, or, of parallel rays, this one.
+    pub(crate) fn round_camera(frame: &Frame<'_>, ray: &Ray) -> Self {
+        match frame.raster.start {
+            RayStart::Eye | RayStart::Lens(_) => Self::round_eye(frame),
+            RayStart::Window(_) => Self::round(frame.snapshot, ray),
+        }
+    }
+
     /// Those that the eye of a view lies in.
     pub(crate) fn round_eye(frame: &Frame<'_>) -> Self {
         Self::round(frame.snapshot, &Ray::new(frame.raster.eye, frame.raster.corner))

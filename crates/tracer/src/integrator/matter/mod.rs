@@ -113,7 +113,7 @@ impl<S: Search> Walker<'_, S> {
     pub(super) fn follow_paths<B: Bounce>(&mut self, camera: &CameraRay) -> (Rgb, Option<Hit>) {
         let numbers = Numbers { sampler: camera.sampler, sample: camera.sample };
         let side = camera.side.unwrap_or_else(|| self.frame.view.side_of_sample());
-        let media = Media::round_eye(self.frame);
+        let media = Media::round_camera(self.frame, &camera.ray);
         self.stats.rays.primary += 1;
         self.follow_ray::<B>(PathRay::from_camera(self.frame, camera.ray, side, &media), &numbers)
     }

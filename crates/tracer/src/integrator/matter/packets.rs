@@ -5,7 +5,7 @@
 
 use std::cell::RefCell;
 
-use catoptra_core::{Ray, Rgb, Span};
+use catoptra_core::{Ray, RayStart, Rgb, Span};
 use fearless_simd::{Level, Simd};
 
 use super::{Bounce, Media, Numbers, PathRay};
@@ -86,11 +86,13 @@ fn trace_sample<B: Bounce>(
     room.light.clear();
     room.light.resize(tile.depth.len(), Rgb::BLACK);
     walker.stats += at_level(level, FindFirst { frame, sample, tile, room });
-    let media = Media::round_eye(frame);
+    let at_eye = Media::round_eye(frame);
+    let is_parallel = matches!(frame.raster.start, RayStart::Window(_));
     let side = frame.view.side_of_sample();
     for at in 0..room.hits.len() {
         let found = room.hits[at];
-        let path = PathRay::from_camera(frame, found.ray, side, &media);
+        let at_start = is_parallel.then(|| Media::round_camera(frame, &found.ray));
+        let path = PathRay::from_camera(frame, found.ray, side, at_start.as_ref().unwrap_or(&at_eye));
         let hit = found.hit(walker, &path);
         if sample.kept {
             let pixel = found.pixel as usize;

@@ -1,13 +1,15 @@
 //! Over which part of a surface is what a ray shows to be averaged?
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Raster, Ray};
+use catoptra_core::{Raster, Ray, RayStart};
 
 /// How far the rays beside a ray lie from it: those of the pixels to the right and below.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Spread {
     /// A camera ray: what the pixels beside add to its direction.
     Pixel([DVec3; 2]),
+    /// A camera ray among parallel ones: how far from its start those of the pixels beside start, metres.
+    Parallel([DVec3; 2]),
     /// After a bounce, a cone (Akenine-Möller and others, "Texture level of detail strategies for real-time ray tracing", Ray
     /// Tracing Gems, 2019): metres across at its start, and what each metre of the way adds.
     Cone { width: f64, growth: f64 },
@@ -16,7 +18,12 @@ pub(crate) enum Spread {
 impl Spread {
     /// Of a camera ray that stands for a square of the picture of that side, in pixels.
     pub(super) fn of_pixel(raster: &Raster, side: f64) -> Self {
-        Self::Pixel([raster.across * side, raster.down * side])
+        match raster.start {
+            RayStart::Eye | RayStart::Lens(_) => {
+                Self::Pixel([raster.across, raster.down].map(|way| way * side))
+            }
+            RayStart::Window(window) => Self::Parallel([window.across, window.down].map(|way| way * side)),
+        }
     }
 
     /// How far the points beside lie from where a ray meets a surface that is as good as flat, metres.
@@ -27,6 +34,7 @@ impl Spread {
                 let beside = ray.direction + side;
                 beside * (t * along / beside.dot(normal)) - ray.direction * t
             }),
+            Self::Parallel(sides) => sides.map(|side| side - ray.direction * (side.dot(normal) / along)),
             Self::Cone { width, growth } => {
                 let unit = ray.direction.normalize_or_zero();
                 let across = width + growth * t * ray.direction.length();
@@ -45,6 +53,7 @@ impl Spread {
         let length = ray.direction.length();
         let (width, growth) = match *self {
             Self::Pixel(sides) => (0.0, sides[0].length().max(sides[1].length()) / length),
+            Self::Parallel(sides) => (sides[0].length().max(sides[1].length()), 0.0),
             Self::Cone { width, growth } => (width, growth),
         };
         Self::Cone { width: width + growth * t * length, growth: growth + wider }

@@ -1,22 +1,26 @@
-//! Where a picture is taken from: a perspective camera, with a pinhole or a thin lens.
+//! Where a picture is taken from: a perspective camera, with a pinhole or a thin lens, or an orthographic one.
 //!
 //! A thin lens lets light in over a disk; of what lies in its plane of focus each point is seen in one place of the picture
 //! from all over the disk (Cook, Porter and Carpenter, "Distributed ray tracing", SIGGRAPH 1984).
 
+mod raster;
+
 use std::f64::consts::PI;
+
+pub use raster::{Lens, Raster, RayStart, Window};
 
 use glam::DVec3;
 
 use crate::part::{Given, LARGEST, degrees};
 use crate::{Field, FieldKind, InvalidPart, Kind, Part, Placement, Ray, Value, Values};
 
-/// Perspective camera: every ray starts at the eye, or on a lens round it.
+/// A camera: every ray starts at the eye, on a lens round it or, for parallel rays, on the plane through it across the view.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
     eye: DVec3,
     aim: Aim,
     up_hint: DVec3,
-    fov: f64,
+    extent: Extent,
     lens_radius: f64,
     /// As it was given.
     focus: Option<f64>,
@@ -34,6 +38,19 @@ pub enum Aim {
     Direction(DVec3),
 }
 
+/// How much a camera sees from the lower to the upper edge of a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Extent {
+    /// Perspective: an angle, radians.
+    Angle(f64),
+    /// Orthographic: metres, as far away as it may be.
+    Height(f64),
+}
+
+const PROJECTION: &str = "projection";
+const PROJECTIONS: &[&str] = &["perspective", "orthographic"];
+const FOV: &str = "fov";
+const HEIGHT: &str = "height";
 const LENS_RADIUS: &str = "lens-radius";
 const FOCUS: &str = "focus";
 
@@ -42,7 +59,8 @@ impl Default for Camera {
     fn default() -> Self {
         let (eye, forward, right, up) = (DVec3::ZERO, -DVec3::Z, DVec3::X, DVec3::Y);
         let aim = Aim::Direction(forward);
-        Self { eye, aim, up_hint: up, fov: PI / 2.0, lens_radius: 0.0, focus: None, forward, right, up }
+        let extent = Extent::Angle(PI / 2.0);
+        Self { eye, aim, up_hint: up, extent, lens_radius: 0.0, focus: None, forward, right, up }
     }
 }
 
@@ -87,12 +105,29 @@ impl Camera {
             return Err(InvalidPart::new("up", "must not be zero or along the view", up)
                 .with_hint("leave up away, or write one across the view, such as up 0 1 0"));
         };
-        if !(fov > 0.0 && fov < PI) {
-            return Err(InvalidPart::new("fov", "must lie between 0 and 180 degrees", degrees(fov)));
-        }
         let up_hint = up;
         let up = right.cross(forward);
-        Ok(Self { eye, aim, up_hint, fov, lens_radius: 0.0, focus: None, forward, right, up })
+        // Replaced at once by what is given.
+        let extent = Extent::Angle(PI / 2.0);
+        let camera = Self { eye, aim, up_hint, extent, lens_radius: 0.0, focus: None, forward, right, up };
+        camera.with_extent(Extent::Angle(fov))
+    }
+
+    /// The same, seeing so much. What is orthographic has no lens.
+    ///
+    /// # Errors
+    /// A field of view outside 0..π, a height that is not greater than 0 or not finite, or one beside a lens.
+    pub fn with_extent(self, extent: Extent) -> Result<Self, InvalidPart> {
+        match extent {
+            Extent::Angle(fov) if !(fov > 0.0 && fov < PI) => {
+                Err(InvalidPart::new(FOV, "must lie between 0 and 180 degrees", degrees(fov)))
+            }
+            Extent::Height(height) if !(height > 0.0 && height <= LARGEST) => {
+                Err(InvalidPart::new(HEIGHT, "must be a finite number greater than 0", height))
+            }
+            Extent::Height(_) if self.lens_radius > 0.0 => Err(lens_beside_parallel(self.lens_radius)),
+            extent => Ok(Self { extent, ..self }),
+        }
     }
 
     /// The same with a lens of that radius in metres (0 for a pinhole), sharp at `focus` metres along the view; without
@@ -100,13 +135,16 @@ impl Camera {
     ///
     /// # Errors
     /// A radius that is negative or not finite, a focus that is not greater than 0 or not finite, a lens without focus or
-    /// target.
+    /// target, or of a camera that is orthographic.
     pub fn with_lens(self, radius: f64, focus: Option<f64>) -> Result<Self, InvalidPart> {
         if !(0.0..=LARGEST).contains(&radius) {
             return Err(InvalidPart::new(LENS_RADIUS, "must be a finite number of at least 0", radius));
         }
         if let Some(focus) = focus.filter(|focus| !(*focus > 0.0 && *focus <= LARGEST)) {
             return Err(InvalidPart::new(FOCUS, "must be a finite number greater than 0", focus));
+        }
+        if radius > 0.0 && self.is_orthographic() {
+            return Err(lens_beside_parallel(radius));
         }
         let camera = Self { lens_radius: radius, focus, ..self };
         if radius > 0.0 && camera.focus().is_none() {
@@ -156,10 +194,26 @@ impl Camera {
         self.up_hint
     }
 
-    /// Vertical field of view, radians.
+    /// How much it sees from the lower to the upper edge of a picture.
+    #[must_use]
+    pub fn extent(&self) -> Extent {
+        self.extent
+    }
+
+    /// Whether its rays are parallel.
+    #[must_use]
+    pub fn is_orthographic(&self) -> bool {
+        matches!(self.extent, Extent::Height(_))
+    }
+
+    /// Vertical field of view, radians; of an orthographic camera that of a perspective one which sees as much where that is
+    /// sharp, or as far away as its height if that is not known.
     #[must_use]
     pub fn fov(&self) -> f64 {
-        self.fov
+        match self.extent {
+            Extent::Angle(fov) => fov,
+            Extent::Height(height) => 2.0 * (height / 2.0 / self.focus().unwrap_or(height)).atan(),
+        }
     }
 
     /// Distance to the target; `None` where only a direction was given.
@@ -200,25 +254,40 @@ impl Camera {
             Aim::Direction(direction) => Aim::Direction(placement.direction(direction)),
         };
         let up = upwards(self.forward, self.up_hint);
-        let camera = Self::new(placement.point(self.eye), aim, placement.direction(up), self.fov)?;
         let scale = placement.scale();
+        let extent = match self.extent {
+            Extent::Angle(fov) => Extent::Angle(fov),
+            Extent::Height(height) => Extent::Height(height * scale),
+        };
+        let camera = Self::new(placement.point(self.eye), aim, placement.direction(up), PI / 2.0)?;
+        let camera = camera.with_extent(extent)?;
         camera.with_lens(self.lens_radius * scale, self.focus.map(|focus| focus * scale))
     }
 
-    /// How ray directions follow from pixels, in a picture of `width` x `height` pixels:
+    /// How rays follow from pixels, in a picture of `width` x `height` pixels: directions are
     /// `corner + x * across + y * down`, with x and y in pixels from the top left corner.
     #[must_use]
     pub fn raster(&self, width: u32, height: u32) -> Raster {
-        let pixel = 2.0 * (self.fov / 2.0).tan() / f64::from(height);
+        let of_picture = match self.extent {
+            Extent::Angle(fov) => 2.0 * (fov / 2.0).tan(),
+            Extent::Height(metres) => metres,
+        };
+        let pixel = of_picture / f64::from(height);
         let across = self.right * pixel;
         let down = self.up * -pixel;
+        let to_corner = across * (f64::from(width) / 2.0) + down * (f64::from(height) / 2.0);
+        if self.is_orthographic() {
+            let start = RayStart::Window(Window { corner: -to_corner, across, down });
+            let still = DVec3::ZERO;
+            return Raster { eye: self.eye, corner: self.forward, across: still, down: still, start };
+        }
         let corner = self.forward - across * (f64::from(width) / 2.0) - down * (f64::from(height) / 2.0);
         let lens = self.focus().filter(|_| self.lens_radius > 0.0).map(|focus| Lens {
             right: self.right * self.lens_radius,
             up: self.up * self.lens_radius,
             inverse_focus: focus.recip(),
         });
-        Raster { eye: self.eye, corner, across, down, lens }
+        Raster { eye: self.eye, corner, across, down, start: lens.map_or(RayStart::Eye, RayStart::Lens) }
     }
 
     /// The ray through the point (x, y) of a picture, in pixels from the top left corner; the middle of the first
@@ -229,6 +298,11 @@ impl Camera {
     }
 }
 
+fn lens_beside_parallel(radius: f64) -> InvalidPart {
+    InvalidPart::new(LENS_RADIUS, "must be 0 where the projection is orthographic", radius)
+        .with_hint("rays that run side by side meet in no point of a lens: leave lens-radius away")
+}
+
 /// What is used as `up` in a view along `forward`: itself, but where the view goes straight down or up the y axis and
 /// `up` is that axis, the direction that a camera which looks along −z has upwards when it is tilted there.
 fn upwards(forward: DVec3, up: DVec3) -> DVec3 {
@@ -236,70 +310,9 @@ fn upwards(forward: DVec3, up: DVec3) -> DVec3 {
     if along_y(forward) && along_y(up) && up.y > 0.0 { DVec3::Z * forward.y.signum() } else { up }
 }
 
-/// Ray directions as an affine function of pixels; see [`Camera::raster`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Raster {
-    /// Where every ray starts.
-    pub eye: DVec3,
-    /// Direction at the top left corner of the picture.
-    pub corner: DVec3,
-    /// Change of direction for one pixel to the right.
-    pub across: DVec3,
-    /// Change of direction for one pixel down.
-    pub down: DVec3,
-    /// What rays start on, where that is not the eye alone.
-    pub lens: Option<Lens>,
-}
-
-/// A disk round the eye, across the view.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lens {
-    /// From the eye to its rim on the right.
-    pub right: DVec3,
-    /// From the eye to its upper rim.
-    pub up: DVec3,
-    /// 1 over the distance along the view at which things are sharp.
-    pub inverse_focus: f64,
-}
-
-impl Raster {
-    /// The ray from the eye through (x, y), in pixels from the top left corner.
-    #[must_use]
-    pub fn ray(&self, x: f64, y: f64) -> Ray {
-        let along = |corner: f64, across: f64, down: f64| x.mul_add(across, y.mul_add(down, corner));
-        let direction = DVec3::new(
-            along(self.corner.x, self.across.x, self.down.x),
-            along(self.corner.y, self.across.y, self.down.y),
-            along(self.corner.z, self.across.z, self.down.z),
-        );
-        Ray::new(self.eye, direction)
-    }
-
-    /// The ray to where that from the eye is sharp, from a point of the lens: so many of its radii to the right and upwards.
-    /// Its direction has unit component along the view too. Without a lens, that from the eye.
-    #[must_use]
-    pub fn ray_from(&self, x: f64, y: f64, [right, up]: [f64; 2]) -> Ray {
-        let ray = self.ray(x, y);
-        let Some(lens) = self.lens else { return ray };
-        let along = |of_right: f64, of_up: f64| of_right.mul_add(right, of_up * up);
-        let aside = DVec3::new(
-            along(lens.right.x, lens.up.x),
-            along(lens.right.y, lens.up.y),
-            along(lens.right.z, lens.up.z),
-        );
-        let towards = |aside: f64, direction: f64| aside.mul_add(-lens.inverse_focus, direction);
-        let direction = DVec3::new(
-            towards(aside.x, ray.direction.x),
-            towards(aside.y, ray.direction.y),
-            towards(aside.z, ray.direction.z),
-        );
-        Ray::new(self.eye + aside, direction)
-    }
-}
-
 impl Part for Camera {
     const NAME: &'static str = "camera";
-    const DOC: &'static str = "A perspective camera.";
+    const DOC: &'static str = "A camera, perspective or orthographic.";
     const FIELDS: &'static [Field] = &[
         Field::required("eye", FieldKind::Point, "m", "Where the camera stands."),
         Field::required("target", FieldKind::Point, "m", "The point it looks at; give this or direction.")
@@ -308,8 +321,22 @@ impl Part for Camera {
             .optional(),
         Field::required("up", FieldKind::Direction, "", "Roughly upwards in the picture.")
             .or(|| Value::Vector(DVec3::Y)),
-        Field::required("fov", FieldKind::Angle, "°", "Field of view from the lower to the upper edge.")
+        Field::required(FOV, FieldKind::Angle, "°", "Field of view from the lower to the upper edge.")
             .or(|| Value::Number(PI / 4.0)),
+        Field::required(
+            PROJECTION,
+            FieldKind::Choice(PROJECTIONS),
+            "",
+            "Whether rays run from the eye, or side by side along the view.",
+        )
+        .or(|| Value::Word(PROJECTIONS[0].to_owned())),
+        Field::required(
+            HEIGHT,
+            FieldKind::Length,
+            "m",
+            "What an orthographic camera sees from the lower to the upper edge.",
+        )
+        .optional(),
         Field::required(
             LENS_RADIUS,
             FieldKind::Number,
@@ -332,8 +359,26 @@ impl Part for Camera {
             }
         };
         let focus = given.has(FOCUS).then(|| given.positive(FOCUS)).transpose()?;
-        Self::new(given.point("eye")?, aim, given.direction("up")?, given.number("fov")?)?
-            .with_lens(given.not_negative(LENS_RADIUS)?, focus)
+        let camera = Self::new(given.point("eye")?, aim, given.direction("up")?, given.number(FOV)?)?;
+        let is_orthographic = given.choice(PROJECTION)? == 1;
+        let camera = match (is_orthographic, given.has(HEIGHT)) {
+            (false, false) => camera,
+            (true, _) if given.has(FOV) => {
+                let refused = InvalidPart::new(FOV, "must not be given to an orthographic camera", "given");
+                return Err(refused.with_hint("give height, in metres, in its place"));
+            }
+            (true, true) => camera.with_extent(Extent::Height(given.positive(HEIGHT)?))?,
+            (true, false) => {
+                let refused = InvalidPart::new(HEIGHT, "must be given to an orthographic camera", "missing");
+                return Err(refused.with_hint("write how many metres it sees, such as height 5"));
+            }
+            (false, true) => {
+                let refused =
+                    InvalidPart::new(HEIGHT, "must stand beside projection \"orthographic\"", "alone");
+                return Err(refused.with_hint("write projection \"orthographic\" too, or fov in its place"));
+            }
+        };
+        camera.with_lens(given.not_negative(LENS_RADIUS)?, focus)
     }
 
     fn values(&self) -> Values {
@@ -342,7 +387,14 @@ impl Part for Camera {
             Aim::Target(target) => values.with("target", Value::Vector(target)),
             Aim::Direction(direction) => values.with("direction", Value::Vector(direction)),
         };
-        let values = values.with("up", Value::Vector(self.up_hint)).with("fov", Value::Number(self.fov));
+        let values = values.with("up", Value::Vector(self.up_hint));
+        let projection = |i: usize| Value::Word(PROJECTIONS[i].to_owned());
+        let values = match self.extent {
+            Extent::Angle(fov) => values.with(FOV, Value::Number(fov)).with(PROJECTION, projection(0)),
+            Extent::Height(height) => {
+                values.with(PROJECTION, projection(1)).with(HEIGHT, Value::Number(height))
+            }
+        };
         let values = values.with(LENS_RADIUS, Value::Number(self.lens_radius));
         match self.focus {
             Some(focus) => values.with(FOCUS, Value::Number(focus)),
@@ -352,91 +404,4 @@ impl Part for Camera {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn seed() -> Camera {
-        Camera::looking(DVec3::new(0.0, 10.0, 10.0), -DVec3::Z, DVec3::Y, PI / 2.0).unwrap()
-    }
-
-    #[test]
-    fn the_middle_ray_looks_forward_and_corners_span_the_field_of_view() {
-        let middle = seed().ray(225.0, 225.0, 450, 450);
-        assert!((middle.direction + DVec3::Z).length() < 1e-12);
-        let corner = seed().ray(0.0, 0.0, 450, 450);
-        assert!((corner.direction - DVec3::new(-1.0, 1.0, -1.0)).length() < 1e-12);
-    }
-
-    #[test]
-    fn a_wide_picture_keeps_its_vertical_field_of_view() {
-        let top = seed().ray(800.0, 0.0, 1600, 900);
-        assert!((top.direction - DVec3::new(0.0, 1.0, -1.0)).length() < 1e-12);
-    }
-
-    #[test]
-    fn straight_down_the_far_side_is_at_the_top() {
-        let seen = |direction: DVec3| Camera::looking(DVec3::ZERO, direction, DVec3::Y, 1.0).unwrap();
-        let down = seen(-DVec3::Y * 3.0);
-        assert_eq!((down.up(), down.right(), down.up_hint()), (-DVec3::Z, DVec3::X, DVec3::Y));
-        assert_eq!((seen(DVec3::Y).up(), seen(DVec3::Y).right()), (DVec3::Z, DVec3::X));
-        // What turns with a group keeps it.
-        let turned = Placement::IDENTITY.turned(DVec3::ZERO, DVec3::X, 0.3).unwrap();
-        let up = down.placed(&turned).unwrap().up();
-        assert!((up - turned.direction(-DVec3::Z)).length() < 1e-12, "{up}");
-    }
-
-    #[test]
-    fn rays_from_all_over_a_lens_meet_where_things_are_sharp() {
-        let camera = seed().with_lens(0.25, Some(3.0)).unwrap();
-        let raster = camera.raster(40, 30);
-        for (x, y) in [(20.0, 15.0), (0.5, 29.5), (33.0, 2.25)] {
-            let sharp = raster.ray(x, y).at(3.0);
-            for (right, up) in [(0.0, 0.0), (1.0, 0.0), (0.0, -1.0), (-0.6, 0.8)] {
-                let ray = raster.ray_from(x, y, [right, up]);
-                assert!((ray.at(3.0) - sharp).length() < 1e-12, "{x} {y} {right} {up}");
-                let from = ray.origin - camera.eye();
-                assert!((from - (camera.right() * right + camera.up() * up) * 0.25).length() < 1e-12);
-            }
-        }
-    }
-
-    #[test]
-    fn a_lens_is_sharp_at_the_target_unless_told_otherwise() {
-        let camera = Camera::look_at(DVec3::ZERO, DVec3::X * 4.0, DVec3::Y, 1.0).unwrap();
-        let lens = |radius, focus| camera.clone().with_lens(radius, focus);
-        assert_eq!(lens(0.1, None).unwrap().focus(), Some(4.0));
-        assert_eq!(lens(0.1, Some(2.0)).unwrap().focus(), Some(2.0));
-        assert_eq!(lens(0.0, None).unwrap().raster(8, 8).lens, None);
-        let placement = Placement::IDENTITY.scaled(2.0).unwrap();
-        let placed = lens(0.1, Some(2.0)).unwrap().placed(&placement).unwrap();
-        assert_eq!((placed.lens_radius(), placed.focus()), (0.2, Some(4.0)));
-        for (radius, focus, field) in [
-            (-0.1, None, "lens-radius"),
-            (f64::NAN, None, "lens-radius"),
-            (f64::INFINITY, None, "lens-radius"),
-            (0.1, Some(0.0), "focus"),
-            (0.1, Some(f64::NAN), "focus"),
-        ] {
-            assert_eq!(lens(radius, focus).unwrap_err().field(), field, "{radius} {focus:?}");
-        }
-        assert_eq!(seed().with_lens(0.1, None).unwrap_err().field(), "focus");
-        assert!(seed().with_lens(0.0, None).is_ok());
-    }
-
-    #[test]
-    fn values_make_an_equal_camera() {
-        for camera in [seed(), seed().with_lens(0.1, Some(2.0)).unwrap()] {
-            assert_eq!((Camera::KIND.make)(&Part::values(&camera)).unwrap(), camera);
-        }
-    }
-
-    #[test]
-    fn impossible_views_are_refused() {
-        let refused = |aim, up, fov| Camera::new(DVec3::ZERO, aim, up, fov).unwrap_err().field();
-        assert_eq!(refused(Aim::Target(DVec3::ZERO), DVec3::Y, 1.0), "target");
-        assert_eq!(refused(Aim::Direction(DVec3::Z), DVec3::Z, 1.0), "up");
-        assert_eq!(refused(Aim::Direction(DVec3::Y), -DVec3::Y, 1.0), "up");
-        assert_eq!(refused(Aim::Direction(DVec3::X), DVec3::Y, PI), "fov");
-        assert_eq!(refused(Aim::Direction(DVec3::X), DVec3::Y, f64::NAN), "fov");
-    }
-}
+mod tests;
