@@ -62,7 +62,7 @@ impl Counts {
             }
             Content::Light(_) => self.lights += 1,
             Content::Camera(_) => self.cameras += 1,
-            Content::Group(members) => {
+            Content::Group(members) | Content::Solid(_, members) => {
                 self.groups += 1;
                 members.iter().for_each(|member| self.add(member));
             }
