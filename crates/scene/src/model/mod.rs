@@ -7,11 +7,11 @@
 //! A new format is one file or folder here and one line in [`FORMATS`].
 
 mod colors;
+mod contents;
 mod error;
 mod folder;
 mod merged;
 mod mesh;
-mod model;
 mod names;
 mod obj;
 mod paint;
@@ -24,10 +24,10 @@ use std::path::Path;
 
 use catoptra_core::TriangleMesh;
 
+pub use contents::{Model, ModelMaterial, Warning};
 use error::Fault;
 pub use error::{ModelError, Place};
 pub use folder::Folder;
-pub use model::{Model, ModelMaterial, Warning};
 
 /// A kind of model file.
 #[derive(Debug, Clone, Copy)]

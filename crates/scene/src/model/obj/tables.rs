@@ -203,10 +203,9 @@ impl Tables {
         expect(count, 3, place)?;
         let [x, y, z, a, b, c, d] = row;
         let color = match count {
-            6 => Some([a, b, c]),
             // Some write a weight before a colour, others an opacity behind it.
             7 if a == 1.0 && d != 1.0 => Some([b, c, d]),
-            7 => Some([a, b, c]),
+            6 | 7 => Some([a, b, c]),
             _ => None,
         };
         if let Some(color) = color {
