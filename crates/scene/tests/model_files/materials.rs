@@ -213,6 +213,9 @@ fn pictures_are_laid_as_their_options_say() {
     assert!(std::ptr::eq(metal, rough), "the same picture laid alike is one texture");
     assert_eq!((channel, number(worn(&model), "metallic")), (Some(Channel::Red), 1.0));
     assert_eq!(model.textures.len(), 3);
+    let bench = Bench::new("Kd 1 1 1\nmap_Kd -mm 0 0.5 a.png\n");
+    bench.picture("a.png", [[255, 0, 0], [0, 0, 255]]);
+    assert_eq!(color(worn(&bench.read()), "color"), Rgb::grey(0.5));
 }
 
 #[test]
