@@ -82,14 +82,14 @@ impl Merged {
                 .extend(mesh.triangles().iter().map(|triangle| triangle.map(|corner| corner + start)));
         }
         let turned = |normal: DVec3| narrow(placement.direction(normal));
-        match (&mut self.normals, mesh.normals()) {
-            (Some(normals), Some(own)) => normals.extend(own.iter().map(|&normal| turned(wide(normal)))),
-            (Some(normals), None) => {
-                normals.extend((0..mesh.triangles().len() as u32).flat_map(|triangle| {
-                    [turned(unit_normal(&mesh.corners(triangle)).unwrap_or(DVec3::ZERO)); 3]
-                }))
+        if let Some(normals) = &mut self.normals {
+            match mesh.normals() {
+                Some(own) => normals.extend(own.iter().map(|&normal| turned(wide(normal)))),
+                None => normals.extend((0..mesh.triangles().len() as u32).flat_map(|triangle| {
+                    let normal = unit_normal(&mesh.corners(triangle)).unwrap_or(DVec3::ZERO);
+                    [turned(normal); 3]
+                })),
             }
-            _ => {}
         }
         extend(&mut self.uvs, &corners, mesh.uvs(), [0.0; 2]);
         extend(&mut self.colors, &corners, mesh.colors(), [1.0; 3]);

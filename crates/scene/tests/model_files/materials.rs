@@ -169,7 +169,7 @@ fn physically_based_words_are_taken_as_they_are() {
 }
 
 /// The texture that a value names, and how it is used.
-fn texture<'a>(model: &'a Model, value: Option<Value>) -> (&'a Texture, Option<Channel>) {
+fn texture(model: &Model, value: Option<Value>) -> (&Texture, Option<Channel>) {
     match value {
         Some(Value::Textured(textured)) => {
             (&model.textures[textured.by.texture.index() as usize - 1].1, textured.by.channel)
@@ -179,7 +179,7 @@ fn texture<'a>(model: &'a Model, value: Option<Value>) -> (&'a Texture, Option<C
     }
 }
 
-fn word<'a>(texture: &Texture, field: &str) -> String {
+fn word(texture: &Texture, field: &str) -> String {
     match texture.values().get(field) {
         Some(Value::Word(word)) => word.clone(),
         other => panic!("{field} is {other:?}"),
@@ -213,6 +213,9 @@ fn pictures_are_laid_as_their_options_say() {
     assert!(std::ptr::eq(metal, rough), "the same picture laid alike is one texture");
     assert_eq!((channel, number(worn(&model), "metallic")), (Some(Channel::Red), 1.0));
     assert_eq!(model.textures.len(), 3);
+    let bench = Bench::new("Kd 1 1 1\nmap_Kd -mm 0 0.5 a.png\n");
+    bench.picture("a.png", [[255, 0, 0], [0, 0, 255]]);
+    assert_eq!(color(worn(&bench.read()), "color"), Rgb::grey(0.5));
 }
 
 #[test]

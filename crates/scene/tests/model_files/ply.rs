@@ -1,6 +1,6 @@
 //! PLY files, most of them with something that one program or another writes.
 
-use catoptra_core::{TriangleMesh, srgb_decoded};
+use catoptra_core::{TextureId, TriangleMesh, srgb_decoded};
 use catoptra_scene::image::write_png;
 use catoptra_scene::model::{read, read_mesh_bytes};
 
@@ -245,7 +245,7 @@ fn coloured_meshes_wear_their_colours() {
     let material = &model.materials[shape(&model.nodes[0]).1.index() as usize - 1].material;
     assert_eq!(model.textures[0].1.kind_name(), "vertex-color-texture");
     assert_eq!(
-        material.values().get("color").and_then(catoptra_core::Value::texture).map(|id| id.index()),
+        material.values().get("color").and_then(catoptra_core::Value::texture).map(TextureId::index),
         Some(1)
     );
 }

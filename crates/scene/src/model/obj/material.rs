@@ -49,6 +49,7 @@ impl Maker<'_> {
         let emission_map = self.map(given, Slot::Emission, Use::Color);
         let emission = given.emission.unwrap_or(Rgb::BLACK);
         let emission = if emission_map.is_some() && emission == Rgb::BLACK { Rgb::WHITE } else { emission };
+        let emission = emission * gain(given, Slot::Emission);
         let glow = (emission != Rgb::BLACK).then(|| textured(Value::Color(emission), emission_map));
         let values = Values::new();
         let material = match glow {
@@ -75,6 +76,7 @@ impl Maker<'_> {
         // Some programs write black where a picture says it all.
         let diffuse =
             given.diffuse.filter(|&diffuse| !(has_picture && diffuse == Rgb::BLACK)).unwrap_or(unsaid);
+        let diffuse = diffuse * gain(given, Slot::Diffuse);
         let specular = given.specular.unwrap_or(Rgb::BLACK).map(|v| v.min(1.0));
         let illumination = given.illumination.unwrap_or(2);
         let opacity = self.opacity(name, given);
@@ -173,6 +175,11 @@ impl Maker<'_> {
         }
         Some(by)
     }
+}
+
+/// What a picture is multiplied by beside the colour over it.
+fn gain(given: &Described, slot: Slot) -> f64 {
+    given.maps.get(&slot).map_or(1.0, |map| map.gain.max(0.0))
 }
 
 /// Whether it uses the words for physically based materials.

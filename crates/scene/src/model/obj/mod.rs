@@ -92,28 +92,26 @@ impl Materials<'_> {
             if ids.contains_key(&part.material) {
                 continue;
             }
-            let name = self.names.get(part.material as usize).map(Vec::as_slice).unwrap_or_default();
-            let described = self.library.get(name);
-            let shown = name_of(name);
-            let made = described.and_then(|described| {
-                let material = maker.make(names.unique(&shown), described);
-                material
-                    .map_err(|e| {
-                        maker.warnings.add(Place::File, format!("the material {shown} is grey: {e}"))
-                    })
-                    .ok()
-            });
-            if described.is_none() && !name.is_empty() && self.folder.wants_materials() {
-                maker.warnings.add(Place::File, format!("the material {shown} is not described: it is grey"));
-            }
-            let id = match made {
-                Some(material) => maker.model.add_material(material),
+            let given = self.names.get(part.material as usize).map(Vec::as_slice).unwrap_or_default();
+            let plain = paint::plain(colors)?;
+            let name = if given.is_empty() { plain.name.clone() } else { name_of(given) };
+            let name = names.unique(&name);
+            let made = match self.library.get(given) {
+                Some(described) => maker.make(name.clone(), described),
                 None => {
-                    let plain = paint::plain(colors)?;
-                    let wanted = if shown.is_empty() { plain.name.clone() } else { shown };
-                    maker.model.add_material(ModelMaterial { name: names.unique(&wanted), ..plain })
+                    if !given.is_empty() && self.folder.wants_materials() {
+                        let message = format!("the material {name} is not described: it is grey");
+                        maker.warnings.add(Place::File, message);
+                    }
+                    Ok(ModelMaterial { name: name.clone(), ..plain.clone() })
                 }
             };
+            let material = made.unwrap_or_else(|refused| {
+                let message = format!("the material {name} is grey: {refused}");
+                maker.warnings.add(Place::File, message);
+                ModelMaterial { name, ..plain }
+            });
+            let id = maker.model.add_material(material);
             ids.insert(part.material, id);
         }
         Ok(ids)

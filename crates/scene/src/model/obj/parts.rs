@@ -135,7 +135,10 @@ struct Builder<'a> {
     /// Where the normals of smoothing groups begin.
     smooth: u32,
     cutter: Cutter,
+    // Of the face at hand: its triangles, where its corners are, and what they have.
     pieces: Vec<[u32; 3]>,
+    outline: Vec<DVec3>,
+    rows: Vec<Corner>,
 }
 
 impl<'a> Builder<'a> {
@@ -154,6 +157,8 @@ impl<'a> Builder<'a> {
             smooth: tables.normals.len() as u32,
             cutter: Cutter::default(),
             pieces: Vec::new(),
+            outline: Vec::new(),
+            rows: Vec::new(),
         };
         builder.smooth_groups();
         builder
@@ -170,8 +175,11 @@ impl<'a> Builder<'a> {
         self.normals.get(row as usize).is_some_and(|&normal| normal != [0.0; 3])
     }
 
-    fn outline(&self, corners: &[tables::Corner]) -> Vec<DVec3> {
-        corners.iter().map(|&[position, ..]| self.positions.at(position)).collect()
+    /// Where corners are, in memory that is used again.
+    fn outline(&self, corners: &[tables::Corner], mut outline: Vec<DVec3>) -> Vec<DVec3> {
+        outline.clear();
+        outline.extend(corners.iter().map(|&[position, ..]| self.positions.at(position)));
+        outline
     }
 
     /// Adds the normals of corners that lack them where their faces are smooth.
@@ -187,7 +195,7 @@ impl<'a> Builder<'a> {
                 if corners.iter().all(|&[.., normal]| self.is_normal(normal)) {
                     continue;
                 }
-                let outline = self.outline(corners);
+                let outline = self.outline(corners, Vec::new());
                 let numbers: Vec<u32> = corners.iter().map(|&[position, ..]| position).collect();
                 self.smoothing.add(&numbers, &outline, run.state.smoothing);
             }
@@ -201,7 +209,9 @@ impl<'a> Builder<'a> {
         let is_smooth =
             faces.any(|(face, state)| state.smoothing > 0 || self.corners(face).iter().any(has_normal));
         let own = self.normals.len();
-        let mut triangles = Vec::new();
+        let count =
+            |faces: &Range<usize>| faces.clone().map(|face| self.corners(face).len() - 2).sum::<usize>();
+        let mut triangles = Vec::with_capacity(runs.iter().map(|(faces, _)| count(faces)).sum());
         for (faces, state) in runs {
             for face in faces.clone() {
                 self.add_face(face, is_smooth.then_some(state.smoothing), &mut triangles);
@@ -222,10 +232,12 @@ impl<'a> Builder<'a> {
     /// Adds the triangles of a face, whose corners have normals where its part is smooth.
     fn add_face(&mut self, face: usize, smoothing: Option<u32>, triangles: &mut Vec<[Corner; 3]>) {
         let corners = self.corners(face);
-        let outline = self.outline(corners);
+        let outline = std::mem::take(&mut self.outline);
+        let outline = self.outline(corners, outline);
         self.pieces.clear();
         self.cutter.cut(&outline, &mut self.pieces);
-        let (mut rows, mut flat) = (Vec::with_capacity(corners.len()), NONE);
+        let (mut rows, mut flat) = (std::mem::take(&mut self.rows), NONE);
+        rows.clear();
         for &[position, uv, normal] in corners {
             let normal = match smoothing.map(|group| self.normal_row(position, normal, group)) {
                 None => NONE,
@@ -247,6 +259,7 @@ impl<'a> Builder<'a> {
             });
         }
         triangles.extend(self.pieces.iter().map(|piece| piece.map(|i| rows[i as usize])));
+        (self.outline, self.rows) = (outline, rows);
     }
 
     /// The row of a corner's normal, its own or that of its smoothing group; `None` where it has that of the face.

@@ -203,10 +203,9 @@ impl Tables {
         expect(count, 3, place)?;
         let [x, y, z, a, b, c, d] = row;
         let color = match count {
-            6 => Some([a, b, c]),
             // Some write a weight before a colour, others an opacity behind it.
             7 if a == 1.0 && d != 1.0 => Some([b, c, d]),
-            7 => Some([a, b, c]),
+            6 | 7 => Some([a, b, c]),
             _ => None,
         };
         if let Some(color) = color {
@@ -263,7 +262,13 @@ impl Tables {
 /// The row that an index names: from 1, or negative from the end of what is there. Of texture coordinates and normals what is
 /// no row is none.
 fn row(text: &[u8], what: &str, count: usize, place: Place) -> Result<u32, Fault> {
-    let given = std::str::from_utf8(text).ok().and_then(|text| text.parse::<i64>().ok());
+    // Most are a few digits.
+    let digits = |sum: i64, digit: &u8| sum * 10 + i64::from(digit - b'0');
+    let given = if text.len() < 18 && !text.is_empty() && text.iter().all(u8::is_ascii_digit) {
+        Some(text.iter().fold(0, digits))
+    } else {
+        std::str::from_utf8(text).ok().and_then(|text| text.parse::<i64>().ok())
+    };
     let Some(given) = given else {
         return Err(Fault::new(place, format!("\"{}\" is no index of a {what}", name_of(text))));
     };

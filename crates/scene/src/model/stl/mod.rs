@@ -67,7 +67,10 @@ struct Merged<T> {
 
 impl<T: Copy + Into<f64>> Merged<T> {
     fn with_room(count: usize) -> Self {
-        Self { list: Vec::with_capacity(count), rows: HashMap::default() }
+        Self {
+            list: Vec::with_capacity(count),
+            rows: HashMap::with_capacity_and_hasher(count, Default::default()),
+        }
     }
 
     /// The row of a corner.
