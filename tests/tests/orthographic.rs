@@ -41,8 +41,7 @@ fn views(scene: &Scene) -> Vec<View> {
         (Integrator::Occlusion, 3),
         (Integrator::Path, 3),
     ];
-    let view =
-        |(integrator, samples)| View { integrator, samples, ..View::of(scene, camera_of(scene), ODD) };
+    let view = |(integrator, samples)| View { integrator, samples, ..View::of(scene, camera_of(scene), ODD) };
     ways.map(view).to_vec()
 }
 
@@ -133,7 +132,8 @@ fn every_backend_sees_the_same() {
             for backend in ["wide", "scalar"] {
                 let found = traced(&scene, backend, &view, Film::new(ODD), 2).radiances();
                 let pairs = found.iter().zip(&oracle);
-                let off = pairs.filter(|(a, b)| (0..3).any(|c| (a[c] - b[c]).abs() > 1e-3 * (1.0 + b[c]))).count();
+                let off =
+                    pairs.filter(|(a, b)| (0..3).any(|c| (a[c] - b[c]).abs() > 1e-3 * (1.0 + b[c]))).count();
                 let what = format!("{name} by {backend}, {:?}, {} samples", view.integrator, view.samples);
                 assert!(off <= ODD.pixels() / 100, "{what}: {off} pixels differ");
             }
