@@ -8,7 +8,7 @@ use super::{Fault, Model, Place};
 
 /// Shapes where the model places them, as one mesh round the offset of the first. Normals, texture coordinates and colours
 /// stay where all meshes have them.
-pub(super) fn mesh_of(model: Model) -> Result<TriangleMesh, Fault> {
+pub(super) fn mesh_of(model: &Model) -> Result<TriangleMesh, Fault> {
     let mut meshes = Vec::new();
     for node in &model.nodes {
         gather(node, &Placement::IDENTITY, &mut meshes);

@@ -6,11 +6,11 @@
 //!
 //! A new format is one file or folder here and one line in [`FORMATS`].
 
+mod contents;
 mod error;
 mod folder;
 mod gltf;
 mod merged;
-mod model;
 mod obj;
 mod ply;
 
@@ -18,10 +18,10 @@ use std::path::Path;
 
 use catoptra_core::TriangleMesh;
 
+pub use contents::{Model, ModelMaterial, Warning};
 use error::Fault;
 pub use error::{ModelError, Place};
 pub use folder::Folder;
-pub use model::{Model, ModelMaterial, Warning};
 
 /// A kind of model file.
 #[derive(Debug, Clone, Copy)]
@@ -88,7 +88,7 @@ pub fn read_bytes(bytes: &[u8], name: &Path, folder: &Folder) -> Result<Model, M
 /// # Errors
 /// As for [`read`], and a model without triangles.
 pub fn read_mesh(path: &Path) -> Result<TriangleMesh, ModelError> {
-    merged::mesh_of(read(path)?).map_err(|fault| ModelError::new(path, fault))
+    merged::mesh_of(&read(path)?).map_err(|fault| ModelError::new(path, fault))
 }
 
 /// Reads all triangles of a model as one mesh from the bytes of a file whose name tells the format.
@@ -97,7 +97,7 @@ pub fn read_mesh(path: &Path) -> Result<TriangleMesh, ModelError> {
 /// As for [`read_mesh`]; `name` stands for the file in messages.
 pub fn read_mesh_bytes(bytes: &[u8], name: &Path) -> Result<TriangleMesh, ModelError> {
     let model = read_bytes(bytes, name, &Folder::none())?;
-    merged::mesh_of(model).map_err(|fault| ModelError::new(name, fault))
+    merged::mesh_of(&model).map_err(|fault| ModelError::new(name, fault))
 }
 
 fn format_of(path: &Path) -> Result<&'static Format, Fault> {
