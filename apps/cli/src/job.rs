@@ -131,6 +131,8 @@ impl Job {
         if args.edges.is_some() && self.view.integrator != Integrator::Whitted {
             let integrator = self.view.integrator.name();
             warn(&format!("--edges changes nothing: integrator {integrator} samples them"));
+        } else if args.edges.is_some() && self.view.camera.is_orthographic() {
+            warn("--edges changes nothing: through an orthographic camera edges are sampled");
         }
         if args.simd.is_some() && args.backend != "wide" {
             warn(&format!("--simd changes nothing: backend {} uses no vector instructions", args.backend));

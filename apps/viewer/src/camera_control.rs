@@ -1,8 +1,10 @@
 //! Where does the camera go when it is orbited, panned, moved or zoomed? Pure functions from a camera to a camera.
 //! What a camera refuses (a view along its own up, an infinite eye) leaves it as it was.
 
+use std::f64::consts::PI;
+
 use catoptra_core::glam::{DQuat, DVec3};
-use catoptra_core::{Aabb, Camera};
+use catoptra_core::{Aabb, Camera, Extent};
 
 /// How close a view may come to the vertical while orbiting, radians.
 const POLE: f64 = 0.02;
@@ -34,9 +36,19 @@ fn target(camera: &Camera) -> DVec3 {
 }
 
 fn looking(camera: &Camera, eye: DVec3, target: DVec3, up: DVec3) -> Camera {
-    Camera::look_at(eye, target, up, camera.fov())
+    Camera::look_at(eye, target, up, PI / 2.0)
+        .and_then(|moved| moved.with_extent(camera.extent()))
         .and_then(|moved| moved.with_lens(camera.lens_radius(), camera.given_focus()))
         .unwrap_or_else(|_| camera.clone())
+}
+
+/// The same camera, where that is orthographic with a picture of so many times its height: coming nearer changes nothing in it
+/// but this.
+fn magnified(camera: Camera, factor: f64) -> Camera {
+    match camera.extent() {
+        Extent::Angle(_) => camera,
+        Extent::Height(height) => camera.clone().with_extent(Extent::Height(height * factor)).unwrap_or(camera),
+    }
 }
 
 fn moved(camera: &Camera, by: DVec3) -> Camera {
@@ -58,7 +70,11 @@ pub(crate) fn orbit(camera: &Camera, yaw: f64, pitch: f64) -> Camera {
 
 /// Metres that a pixel of a picture `height` pixels high covers at that distance along the view.
 pub(crate) fn metres_per_pixel(camera: &Camera, height: f64, distance: f64) -> f64 {
-    2.0 * distance * (0.5 * camera.fov()).tan() / height.max(1.0)
+    let seen = match camera.extent() {
+        Extent::Angle(fov) => 2.0 * distance * (0.5 * fov).tan(),
+        Extent::Height(metres) => metres,
+    };
+    seen / height.max(1.0)
 }
 
 /// Moves in the picture's plane so that what lies at the target's distance follows the pointer by that many pixels
@@ -68,18 +84,20 @@ pub(crate) fn pan(camera: &Camera, by: (f64, f64), height: f64) -> Camera {
     moved(camera, (camera.up() * by.1 - camera.right() * by.0) * scale)
 }
 
-/// Moves along the view by `metres`. The target stays until it is nearer than `nearest`, then it is pushed ahead.
+/// Moves along the view by `metres`. The target stays until it is nearer than `nearest`, then it is pushed ahead. An orthographic
+/// picture grows as a perspective one would at the target.
 pub(crate) fn dolly(camera: &Camera, metres: f64, nearest: f64) -> Camera {
     let eye = camera.eye() + camera.forward() * metres;
-    let focus = (focus(camera) - metres).max(nearest);
-    looking(camera, eye, eye + camera.forward() * focus, camera.up_hint())
+    let (before, after) = (focus(camera), (focus(camera) - metres).max(nearest));
+    magnified(looking(camera, eye, eye + camera.forward() * after, camera.up_hint()), after / before)
 }
 
 /// Comes nearer to `point` (or goes away from it) without turning, so that it stays under the pointer: its
 /// distance becomes `factor` times what it was.
 pub(crate) fn zoom_to(camera: &Camera, point: DVec3, factor: f64) -> Camera {
     let eye = point + (camera.eye() - point) * factor;
-    looking(camera, eye, eye + camera.forward() * (focus(camera) * factor), camera.up_hint())
+    let target = eye + camera.forward() * (focus(camera) * factor);
+    magnified(looking(camera, eye, target, camera.up_hint()), factor)
 }
 
 /// Steps sideways and upwards by shares of the distance to the target.
@@ -93,10 +111,16 @@ pub(crate) fn frame(camera: &Camera, bounds: Aabb, aspect: f64) -> Camera {
         return camera.clone();
     }
     let radius = (0.5 * bounds.size().length()).max(1e-6);
+    let centre = bounds.centre();
+    if let Extent::Height(height) = camera.extent() {
+        let wanted = 2.0 * FRAME_MARGIN * radius / aspect.clamp(1e-3, 1.0);
+        // Behind all of it.
+        let eye = centre - camera.forward() * (2.0 * FRAME_MARGIN * radius);
+        return magnified(looking(camera, eye, centre, camera.up_hint()), wanted / height);
+    }
     let half_height = 0.5 * camera.fov();
     let half = half_height.min((half_height.tan() * aspect.max(1e-3)).atan());
     let distance = FRAME_MARGIN * radius / half.sin();
-    let centre = bounds.centre();
     looking(camera, centre - camera.forward() * distance, centre, camera.up_hint())
 }
 
@@ -190,6 +214,39 @@ mod tests {
         assert!((focus(&aimed) - 3.0).abs() < 1e-12);
         assert!((aimed.forward() - camera().forward()).length() < 1e-12);
         assert_eq!(aimed.eye(), camera().eye());
+    }
+
+    /// As [`camera`], with parallel rays.
+    fn parallel() -> Camera {
+        camera().with_extent(Extent::Height(6.0)).unwrap()
+    }
+
+    /// Where a point is seen by parallel rays, in pixels from the middle.
+    fn seen_by_parallel(camera: &Camera, point: DVec3) -> DVec3 {
+        let Extent::Height(height) = camera.extent() else { panic!("{camera:?}") };
+        let d = (point - camera.eye()) * (HEIGHT / height);
+        DVec3::new(d.dot(camera.right()), -d.dot(camera.up()), 0.0)
+    }
+
+    #[test]
+    fn an_orthographic_camera_is_steered_alike() {
+        let (before, point) = (parallel(), DVec3::new(2.0, 0.5, -3.0));
+        let zoomed = zoom_to(&before, point, 0.6);
+        let apart = seen_by_parallel(&before, point) - seen_by_parallel(&zoomed, point);
+        assert!(apart.length() < 1e-9 && zoomed.extent() == Extent::Height(6.0 * 0.6), "{zoomed:?}");
+        let panned = pan(&before, (30.0, -12.0), HEIGHT);
+        let moved = seen_by_parallel(&panned, point) - seen_by_parallel(&before, point);
+        assert!((moved - DVec3::new(30.0, -12.0, 0.0)).length() < 1e-9, "{moved}");
+        assert_eq!(orbit(&before, 0.7, -0.3).extent(), before.extent());
+        let half = dolly(&before, focus(&before) / 2.0, 0.1);
+        assert_eq!(half.extent(), Extent::Height(3.0));
+        let bounds = Aabb { min: DVec3::new(-3.0, 0.0, -9.0), max: DVec3::new(5.0, 2.0, 4.0) };
+        let framed = frame(&before, bounds, 0.4);
+        for corner in bounds.corners() {
+            let seen = seen_by_parallel(&framed, corner).abs();
+            assert!(seen.x <= 0.2 * HEIGHT && seen.y <= 0.5 * HEIGHT, "{corner} at {seen}");
+            assert!((corner - framed.eye()).dot(framed.forward()) > 0.0);
+        }
     }
 
     #[test]

@@ -5,9 +5,9 @@ use crate::canvas::Canvas;
 use crate::ink::Ink;
 use crate::stage::Stage;
 use crate::tint::Tint;
-use catoptra_core::Camera;
 use catoptra_core::glam::DVec3;
 use catoptra_core::scene::{EntityId, Role};
+use catoptra_core::{Camera, Extent};
 
 pub(super) const GIZMO: Gizmo = Gizmo { name: "camera", shown: |style| style.cameras, draw, marks };
 
@@ -30,18 +30,20 @@ fn marks(stage: &Stage<'_>) -> Vec<(EntityId, DVec3)> {
 }
 
 fn frustum(canvas: &mut Canvas<'_>, camera: &Camera, depth: f64, ink: Ink) {
-    let high = (0.5 * camera.fov()).tan();
+    // Parallel rays begin all over the picture's shape, in one size whatever they see.
+    let (high, start) = match camera.extent() {
+        Extent::Angle(fov) => ((0.5 * fov).tan(), 0.0),
+        Extent::Height(_) => (0.5, 1.0),
+    };
     let wide = high * canvas.view().width() / canvas.view().height();
     // A camera of any field of view gets a frustum of one size.
     let depth = depth / high.hypot(wide).max(1.0);
-    let at = |right: f64, up: f64| {
-        camera.eye()
-            + (camera.forward() + camera.right() * (right * wide) + camera.up() * (up * high)) * depth
-    };
-    let corners = [at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0), at(-1.0, -1.0)];
-    canvas.curve(&corners, ink);
-    for &corner in &corners[..4] {
-        canvas.segment(camera.eye(), corner, ink);
+    let aside = |right: f64, up: f64| (camera.right() * (right * wide) + camera.up() * (up * high)) * depth;
+    let at = |right: f64, up: f64| camera.eye() + camera.forward() * depth + aside(right, up);
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)];
+    canvas.curve(&corners.map(|(right, up)| at(right, up)), ink);
+    for &(right, up) in &corners[..4] {
+        canvas.segment(camera.eye() + aside(right, up) * start, at(right, up), ink);
     }
     canvas.curve(&[at(-0.35, 1.12), at(0.0, 1.65), at(0.35, 1.12), at(-0.35, 1.12)], ink);
 }

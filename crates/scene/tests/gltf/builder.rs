@@ -86,6 +86,7 @@ impl Builder {
         self.accessor(kind, UNSIGNED_SHORT, shorts.len() / lanes, &bytes)
     }
 
+    #[allow(clippy::needless_pass_by_value, reason = "values are made where they are given")]
     pub(crate) fn mesh(&mut self, primitive: Value) -> usize {
         self.push("meshes", json!({ "primitives": [primitive] }))
     }
@@ -196,7 +197,7 @@ fn gather<'m>(node: &'m Node, outer: Placement, found: &mut Vec<Stands<'m>>) {
     let placement = node.placement.then(&outer);
     match &node.content {
         Content::Shape(Shape::Mesh(mesh), _) => {
-            found.push(Stands { node, mesh: mesh.triangles(), placement })
+            found.push(Stands { node, mesh: mesh.triangles(), placement });
         }
         Content::Group(members) => members.iter().for_each(|member| gather(member, placement, found)),
         _ => {}

@@ -9,6 +9,7 @@ use crate::builder::{Builder, base64, fits, shapes};
 use crate::textures::png;
 
 /// A file with something of everything.
+#[allow(clippy::too_many_lines, reason = "a table")]
 fn rich() -> Builder {
     let mut file = Builder::with_triangle();
     let corners = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 1.0];

@@ -2,7 +2,7 @@
 
 use catoptra_core::scene::Content;
 use catoptra_core::texture::Channel;
-use catoptra_core::{Node, Rgb, Sides, Value};
+use catoptra_core::{Node, Rgb, Sides, Texture, Value};
 use catoptra_scene::model::{Model, ModelMaterial};
 use serde_json::{Value as Json, json};
 
@@ -43,8 +43,11 @@ fn parts(value: &Value) -> (Vec<f64>, Option<Option<Channel>>) {
     }
 }
 
+/// The name of a field, its numbers, and the channel of a texture that multiplies them.
+type Field<'a> = (&'a str, &'a [f64], Option<Option<Channel>>);
+
 /// Holds each of these fields of a material against numbers and a channel.
-fn holds(material: Json, wanted: &[(&str, &[f64], Option<Option<Channel>>)]) {
+fn holds(material: Json, wanted: &[Field<'_>]) {
     let model = model(material);
     for (field, numbers, channel) in wanted {
         let (found, by) = parts(&value(&model.materials[0], field));
@@ -214,6 +217,41 @@ fn shapes_without_a_material_are_grey() {
     assert_eq!(model.materials[0], ModelMaterial::grey().unwrap());
     let Content::Shape(_, id) = &model.nodes[0].content else { panic!() };
     assert_eq!(id.index(), 1);
+}
+
+/// A triangle of that material whose corners have colours of their own, and one without.
+fn colored(material: Option<&Json>) -> Model {
+    let mut file = file_of(material.cloned().unwrap_or(json!({})));
+    let colors = file.floats("VEC3", &[0.5; 9]);
+    let plain = file.json["meshes"][0]["primitives"][0].clone();
+    file.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(colors);
+    file.mesh(plain);
+    file.push("nodes", json!({ "mesh": 1 }));
+    if material.is_none() {
+        for mesh in 0..2 {
+            file.json["meshes"][mesh]["primitives"][0].as_object_mut().unwrap().remove("material");
+        }
+    }
+    file.read()
+}
+
+#[test]
+fn colours_of_corners_paint_what_has_them_and_nothing_else() {
+    let is_known = Texture::kind_named("vertex-color-texture").is_some();
+    for (material, field) in [(Some(&json!({})), "base-color"), (None, "color")] {
+        let model = colored(material);
+        let painted = |i: usize| model.materials[i].material.values().get(field).unwrap().texture();
+        assert_eq!(model.materials.len(), 2);
+        assert_eq!((painted(0).is_some(), painted(1)), (is_known, None));
+        assert_eq!(
+            (model.textures.len(), model.warnings.len()),
+            (usize::from(is_known), usize::from(!is_known))
+        );
+    }
+    // A texture has the first word.
+    let both = colored(Some(&json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } })));
+    assert!(warnings(&both)[0].contains("where a texture gives a colour too"), "{:?}", warnings(&both));
+    assert_eq!(both.textures.len(), 1);
 }
 
 #[test]

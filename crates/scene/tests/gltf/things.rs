@@ -10,6 +10,7 @@ use serde_json::{Value as Json, json};
 
 use crate::builder::{Builder, warnings};
 
+#[allow(clippy::needless_pass_by_value, reason = "values are made where they are given")]
 fn lights(lights: Json) -> Builder {
     let mut file = Builder::new();
     let count = lights.as_array().unwrap().len();

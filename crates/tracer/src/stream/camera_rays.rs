@@ -120,6 +120,25 @@ struct WindowLanes<S: Simd> {
     down: D3<S>,
 }
 
+impl<S: Simd> StartLanes<S> {
+    #[inline(always)]
+    fn new(s: S, start: &RayStart) -> Self {
+        match start {
+            RayStart::Eye => Self::Eye,
+            RayStart::Lens(lens) => Self::Lens(LensLanes {
+                right: splat_wide(s, lens.right),
+                up: splat_wide(s, lens.up),
+                inverse_focus: D::splat(s, -lens.inverse_focus),
+            }),
+            RayStart::Window(window) => Self::Window(WindowLanes {
+                corner: splat_wide(s, window.corner),
+                across: splat_wide(s, window.across),
+                down: splat_wide(s, window.down),
+            }),
+        }
+    }
+}
+
 impl<'a, S: Simd> CameraPackets<'a, S> {
     /// For one of each pixel's samples.
     #[inline(always)]
@@ -155,19 +174,6 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
         if masked {
             rays.mark_active::<S>(tile, sample.number);
         }
-        let start = match &raster.start {
-            RayStart::Eye => StartLanes::Eye,
-            RayStart::Lens(lens) => StartLanes::Lens(LensLanes {
-                right: splat_wide(s, lens.right),
-                up: splat_wide(s, lens.up),
-                inverse_focus: D::splat(s, -lens.inverse_focus),
-            }),
-            RayStart::Window(window) => StartLanes::Window(WindowLanes {
-                corner: splat_wide(s, window.corner),
-                across: splat_wide(s, window.across),
-                down: splat_wide(s, window.down),
-            }),
-        };
         let eye = splat_wide(s, frame.eye);
         let drift = drift(frame.snapshot.origin_in_frame());
         Self {
@@ -181,7 +187,7 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
             down: splat_wide(s, raster.down),
             within,
             raster: *raster,
-            start,
+            start: StartLanes::new(s, &raster.start),
             sample: *sample,
             own,
             masked,

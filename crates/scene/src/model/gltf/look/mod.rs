@@ -8,7 +8,7 @@ mod specular_glossiness;
 
 use std::collections::HashMap;
 
-use catoptra_core::MaterialId;
+use catoptra_core::{Material as CoreMaterial, MaterialId, TextureUse};
 
 use super::json::{Material, TextureInfo, Whole, entry};
 use super::names::Names;
@@ -61,9 +61,13 @@ impl<'a, 's> Looks<'a, 's> {
                 self.add(given, has_colors).within(|| format!("materials[{index}]"))?
             }
             None => {
-                let grey = ModelMaterial::grey()?;
-                let name = self.names.unique(None, &grey.name);
-                Look { material: self.model.add_material(ModelMaterial { name, ..grey }), uv_set: 0 }
+                let ModelMaterial { name, material, finish } = ModelMaterial::grey()?;
+                let material = if has_colors { self.by_corners(&material, "color")? } else { material };
+                let name = self.names.unique(None, &name);
+                Look {
+                    material: self.model.add_material(ModelMaterial { name, material, finish }),
+                    uv_set: 0,
+                }
             }
         };
         self.known.insert((index, has_colors), look);
@@ -73,14 +77,24 @@ impl<'a, 's> Looks<'a, 's> {
     fn add(&mut self, given: &Material, has_colors: bool) -> Result<Look, Refusal> {
         let uv_set = self.uv_set(given);
         let material = principled::principled(given, &mut self.painter)?;
-        if has_colors {
-            // Here `base-color` is to be painted by a `vertex-color-texture`, once there is one; where a base colour
-            // texture is there too, that one stays.
-            self.source.warnings.add("colours of corners are kept, but no material shows them");
-        }
+        let material = if has_colors { self.by_corners(&material, "base-color")? } else { material };
         let finish = finish::finish(given, &mut self.painter)?;
         let name = self.names.unique(given.name.as_deref(), "material");
         Ok(Look { material: self.model.add_material(ModelMaterial { name, material, finish }), uv_set })
+    }
+
+    /// The same material in the colours of a mesh's corners, where no texture gives it another.
+    fn by_corners(&mut self, material: &CoreMaterial, field: &'static str) -> Result<CoreMaterial, Refusal> {
+        let Some(color) = material.values().get(field).cloned() else { return Ok(material.clone()) };
+        if color.texture().is_some() {
+            self.source.warnings.add("colours of corners are left out where a texture gives a colour too");
+            return Ok(material.clone());
+        }
+        let Some(texture) = self.painter.corner_colors()? else {
+            self.source.warnings.add("colours of corners are kept, but no texture shows them");
+            return Ok(material.clone());
+        };
+        Ok(material.with(field, color.textured(TextureUse::of(texture)))?)
     }
 
     /// The coordinates of the textures in use; where they differ, those of the first.

@@ -22,6 +22,7 @@ pub(super) struct Painter<'a, 's> {
     pictures: Pictures<'a, 's>,
     textures: Vec<(String, Texture)>,
     known: HashMap<Key, TextureId>,
+    corner_colors: Option<TextureId>,
     names: Names,
 }
 
@@ -50,6 +51,7 @@ impl<'a, 's> Painter<'a, 's> {
             pictures: Pictures::new(source),
             textures: Vec::new(),
             known: HashMap::new(),
+            corner_colors: None,
             names: Names::default(),
         }
     }
@@ -118,7 +120,18 @@ impl<'a, 's> Painter<'a, 's> {
         Ok(laid.and_then(|(image, _)| self.pictures.get(image)))
     }
 
-    /// Adds a texture.
+    /// The texture of the colours that corners have; `None` where there is no such kind of texture.
+    pub(super) fn corner_colors(&mut self) -> Result<Option<TextureId>, Refusal> {
+        if self.corner_colors.is_none()
+            && let Some(kind) = Texture::kind_named("vertex-color-texture")
+        {
+            let texture = (kind.make)(&Values::new())?;
+            self.corner_colors = Some(self.keep(Some("colours of corners"), texture)?);
+        }
+        Ok(self.corner_colors)
+    }
+
+    /// Adds a picture as a texture.
     pub(super) fn add(
         &mut self,
         name: Option<&str>,
@@ -127,7 +140,11 @@ impl<'a, 's> Painter<'a, 's> {
         encoding: Encoding,
     ) -> Result<TextureId, Refusal> {
         let texture = make::<ImageTexture>(&laid.values(source, encoding))?;
-        self.textures.push((self.names.unique(name, "texture"), texture.into()));
+        self.keep(name, texture.into())
+    }
+
+    fn keep(&mut self, name: Option<&str>, texture: Texture) -> Result<TextureId, Refusal> {
+        self.textures.push((self.names.unique(name, "texture"), texture));
         let number = u32::try_from(self.textures.len()).ok();
         number.and_then(TextureId::from_index).ok_or_else(|| Refusal::new("the file has too many textures"))
     }
