@@ -115,7 +115,12 @@ impl Lamp {
             Shape::Triangle(flat) => Self::polygon(&flat.corners()),
             Shape::Disk(disk) => Self::disk(disk.center(), disk.normal(), disk.radius()),
             Shape::Sphere(ball) => Self::sphere(ball.center(), ball.radius()),
-            Shape::Plane(_) | Shape::Mesh(_) | Shape::Tetrahedron(_) => None,
+            Shape::Plane(_)
+            | Shape::Mesh(_)
+            | Shape::Tetrahedron(_)
+            | Shape::Cylinder(_)
+            | Shape::Cone(_)
+            | Shape::Capsule(_) => None,
         }
     }
 
@@ -124,7 +129,7 @@ impl Lamp {
     #[must_use]
     pub fn facets(shape: &Shape) -> u32 {
         match shape {
-            Shape::Plane(_) => 0,
+            Shape::Plane(_) | Shape::Cylinder(_) | Shape::Cone(_) | Shape::Capsule(_) => 0,
             Shape::Cuboid(_) => 6,
             Shape::Tetrahedron(_) => 4,
             Shape::Mesh(mesh) => u32::try_from(mesh.triangles().triangles().len()).unwrap_or(u32::MAX),

@@ -2,8 +2,12 @@
 //!
 //! A new shape is one file here, its `mod` line and its name in the list below.
 
+mod capsule;
+mod cone;
 mod cuboid;
+mod cylinder;
 mod disk;
+mod lateral;
 mod mesh;
 mod parametrization;
 mod plane;
@@ -15,7 +19,10 @@ mod triangle_mesh;
 
 use std::cmp::Ordering;
 
+pub use capsule::Capsule;
+pub use cone::Cone;
 pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
 pub use disk::Disk;
 pub use mesh::Mesh;
 pub use parametrization::Parametrization;
@@ -130,8 +137,8 @@ pub trait Geometry {
         Self: Sized;
 
     /// Texture coordinates at a point of a facet, in the space that the shape stands in. Of what has been placed they stay
-    /// what they are, but for planes, disks and spheres, which do not remember how they were turned: ask those in their own
-    /// space.
+    /// what they are, but for planes, disks, spheres and what is round about an axis, which do not remember how they were
+    /// turned: ask those in their own space.
     ///
     /// | shape | u | v |
     /// |---|---|---|
@@ -140,6 +147,9 @@ pub trait Geometry {
     /// | box | share of the face to the right, as seen from outside | upwards; of top and bottom towards −z and +z |
     /// | sphere | longitude, 1/2 at +z, growing to +x | latitude, 0 at −y, 1 at +y |
     /// | disk | angle counterclockwise from the right, 0..1 | distance from the middle, 0..1 |
+    /// | cylinder, cone | angle about the axis, counterclockwise as seen from `to`, 0..1 | share of the axis |
+    /// | their caps | as of a disk | |
+    /// | capsule | angle about the axis, as of a cylinder | share of the way from tip to tip along the surface |
     /// | triangle, face of a tetrahedron | weight of the second corner | weight of the third |
     /// | mesh | its own, else as of a triangle | |
     fn parametrization(&self, point: DVec3, facet: u32) -> Parametrization;
@@ -199,6 +209,12 @@ crate::part::parts! {
         Cuboid,
         /// Triangle mesh from a file.
         Mesh,
+        /// Round cylinder.
+        Cylinder,
+        /// Round cone.
+        Cone,
+        /// Cylinder with rounded ends.
+        Capsule,
     }
 }
 

@@ -1,12 +1,16 @@
 //! Sample shapes of every kind, each with what it is in plain geometry, so that tests need not ask the shape.
 
+mod round;
+
 use std::sync::Arc;
 
 use catoptra_core::geometry::{
-    Cuboid, Disk, Mesh, Plane, Rectangle, Shape, Sphere, Tetrahedron, Triangle, TriangleMesh,
+    Capsule, Cone, Cuboid, Cylinder, Disk, Mesh, Plane, Rectangle, Shape, Sphere, Tetrahedron, Triangle,
+    TriangleMesh,
 };
 use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::{MeshSource, Placement, Ray};
+use round::{Ends, Round};
 
 /// A shape and its form.
 #[derive(Debug, Clone)]
@@ -31,6 +35,7 @@ pub(crate) enum Form {
         normal: DVec3,
         radius: f64,
     },
+    Round(Round),
     /// Flat pieces: the facet each belongs to, and corners anticlockwise as seen from outside.
     Faces(Vec<(u32, [DVec3; 3])>),
 }
@@ -69,6 +74,22 @@ pub(crate) fn samples_of(kind: &str) -> Vec<Sample> {
         ],
         "box" => vec![cuboid(DVec3::NEG_ONE, DVec3::ONE), cuboid(v(100.0, -0.5, 20.0), v(110.0, 0.0, 25.0))],
         "mesh" => vec![octahedron(), kite()],
+        "cylinder" => vec![
+            cylinder([DVec3::ZERO, v(0.0, 4.0, 0.0)], 1.0),
+            tube([v(5.0, 2.0, -3.0), v(7.0, 5.0, 3.0)], 3.5),
+            cylinder([v(1e3, 2e3, -1e3), v(1001.0, 2e3 + 1e-9, -1e3)], 0.1),
+        ],
+        "cone" => vec![
+            cone([DVec3::ZERO, v(0.0, 4.0, 0.0)], [2.0, 0.0]),
+            cone([v(5.0, 2.0, -3.0), v(7.0, 5.0, 3.0)], [0.5, 3.5]),
+            funnel([v(1.0, 2.0, 3.0), v(-4.0, 2.5, 3.0)], [2.0, 0.25]),
+            cone([v(1e3, 2e3, -1e3), v(1001.0, 2e3, -1e3)], [0.25, 0.2]),
+        ],
+        "capsule" => vec![
+            capsule([DVec3::ZERO, v(0.0, 4.0, 0.0)], 1.0),
+            capsule([v(5.0, 2.0, -3.0), v(7.0, 5.0, 3.0)], 3.5),
+            capsule([v(1e3, 2e3, -1e3), v(1001.0, 2e3, -1e3)], 0.1),
+        ],
         _ => Vec::new(),
     }
 }
@@ -110,6 +131,31 @@ fn rectangle(corner: DVec3, u: DVec3, v: DVec3) -> Sample {
 fn disk(center: DVec3, normal: DVec3, radius: f64) -> Sample {
     let shape = Disk::new(center, normal, radius).unwrap().into();
     Sample { shape, form: Form::Disk { center, normal: normal.normalize(), radius } }
+}
+
+fn cylinder(ends: [DVec3; 2], radius: f64) -> Sample {
+    let shape = Cylinder::new(ends[0], ends[1], radius).unwrap().into();
+    Sample { shape, form: Form::Round(Round { ends, radii: [radius; 2], caps: Ends::Flat }) }
+}
+
+fn tube(ends: [DVec3; 2], radius: f64) -> Sample {
+    let shape = Cylinder::new(ends[0], ends[1], radius).unwrap().opened().into();
+    Sample { shape, form: Form::Round(Round { ends, radii: [radius; 2], caps: Ends::Open }) }
+}
+
+fn cone(ends: [DVec3; 2], radii: [f64; 2]) -> Sample {
+    let shape = Cone::new(ends[0], ends[1], radii[0], radii[1]).unwrap().into();
+    Sample { shape, form: Form::Round(Round { ends, radii, caps: Ends::Flat }) }
+}
+
+fn funnel(ends: [DVec3; 2], radii: [f64; 2]) -> Sample {
+    let shape = Cone::new(ends[0], ends[1], radii[0], radii[1]).unwrap().opened().into();
+    Sample { shape, form: Form::Round(Round { ends, radii, caps: Ends::Open }) }
+}
+
+fn capsule(ends: [DVec3; 2], radius: f64) -> Sample {
+    let shape = Capsule::new(ends[0], ends[1], radius).unwrap().into();
+    Sample { shape, form: Form::Round(Round { ends, radii: [radius; 2], caps: Ends::Balls }) }
 }
 
 fn cuboid(min: DVec3, max: DVec3) -> Sample {
@@ -177,6 +223,7 @@ impl Sample {
                 normal: at.direction(*normal),
                 radius: radius * at.scale(),
             },
+            Form::Round(round) => Form::Round(round.placed(at)),
             Form::Faces(faces) => {
                 Form::Faces(faces.iter().map(|(facet, face)| (*facet, face.map(|p| at.point(p)))).collect())
             }
@@ -230,6 +277,7 @@ impl Form {
                 let (turn, out) = (std::f64::consts::TAU * draw.at.y, 0.98 * radius * draw.at.x.sqrt());
                 *center + (across * turn.cos() + normal.cross(across) * turn.sin()) * out
             }
+            Self::Round(round) => round.target(draw),
             Self::Faces(faces) => {
                 let (_, [a, b, c]) = faces[draw.pick % faces.len()];
                 // Folded into the triangle, then drawn towards its middle.
@@ -246,6 +294,7 @@ impl Form {
         match self {
             Self::Plane { point, .. } => *point,
             Self::Sphere { center, .. } | Self::Disk { center, .. } => *center,
+            Self::Round(round) => round.ends[0].midpoint(round.ends[1]),
             Self::Faces(faces) => {
                 let corners: Vec<DVec3> = faces.iter().flat_map(|(_, face)| *face).collect();
                 corners.iter().sum::<DVec3>() / corners.len() as f64
@@ -258,10 +307,43 @@ impl Form {
         match self {
             Self::Plane { .. } => 10.0,
             Self::Sphere { radius, .. } | Self::Disk { radius, .. } => *radius,
+            Self::Round(round) => round.reach(),
             Self::Faces(faces) => {
                 let middle = self.middle();
                 faces.iter().flat_map(|(_, face)| *face).map(|p| p.distance(middle)).fold(0.0, f64::max)
             }
+        }
+    }
+
+    /// Stretches on the surface where facets meet, or short ones across such places.
+    pub(crate) fn seams(&self) -> Vec<[DVec3; 2]> {
+        match self {
+            Self::Plane { .. } | Self::Sphere { .. } | Self::Disk { .. } => Vec::new(),
+            Self::Round(round) => round.seams(),
+            Self::Faces(faces) => {
+                faces.iter().flat_map(|(_, [a, b, c])| [[*a, *b], [*b, *c], [*c, *a]]).collect()
+            }
+        }
+    }
+
+    /// How far the surface is from the middle at least.
+    pub(crate) fn depth(&self) -> f64 {
+        match self {
+            Self::Plane { .. } | Self::Disk { .. } => 0.0,
+            Self::Sphere { radius, .. } => *radius,
+            Self::Round(round) => round.depth(),
+            Self::Faces(faces) => {
+                let middle = self.middle();
+                faces.iter().map(|(_, face)| distance_to(face, middle)).fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+
+    /// How far one must move along the surface at a point, at least, for the normal to turn by a radian, or as far as it reaches.
+    pub(crate) fn bend(&self, p: DVec3) -> f64 {
+        match self {
+            Self::Round(round) => round.distance_from_axis(p),
+            form => form.reach(),
         }
     }
 
@@ -270,12 +352,8 @@ impl Form {
         match self {
             Self::Plane { .. } => None,
             Self::Sphere { center, radius } => Some((*center - *radius, *center + *radius)),
-            Self::Disk { center, normal, radius } => {
-                // The rim is highest where the axis, laid down into the disk, points.
-                let highest = |axis: DVec3| normal.cross(axis).cross(*normal).normalize_or_zero() * *radius;
-                let half = DVec3::from(DVec3::AXES.map(|axis| highest(axis).dot(axis)));
-                Some((*center - half, *center + half))
-            }
+            Self::Disk { center, normal, radius } => Some(disk_bounds(*center, *normal, *radius)),
+            Self::Round(round) => Some(round.bounds()),
             Self::Faces(faces) => {
                 let corners = || faces.iter().flat_map(|(_, face)| *face);
                 Some((corners().reduce(DVec3::min)?, corners().reduce(DVec3::max)?))
@@ -291,6 +369,9 @@ impl Form {
             Self::Sphere { center, radius } | Self::Disk { center, radius, .. } => {
                 radius.max(largest(*center))
             }
+            Self::Round(Round { ends, radii, .. }) => {
+                ends.map(largest).into_iter().chain(*radii).fold(0.0, f64::max)
+            }
             Self::Faces(faces) => faces.iter().flat_map(|(_, face)| *face).map(largest).fold(0.0, f64::max),
         }
     }
@@ -305,6 +386,7 @@ impl Form {
                 let beside = (p - *center - *normal * above).length() - radius;
                 above.hypot(beside.max(0.0))
             }
+            Self::Round(round) => round.distance(p, facet),
             Self::Faces(faces) => {
                 let of_facet = faces.iter().filter(|(of, _)| *of == facet);
                 of_facet.map(|(_, face)| distance_to(face, p)).fold(f64::INFINITY, f64::min)
@@ -317,12 +399,21 @@ impl Form {
         match self {
             Self::Plane { normal, .. } | Self::Disk { normal, .. } => *normal,
             Self::Sphere { center, .. } => (p - *center).normalize(),
+            Self::Round(round) => round.normal(p, facet),
             Self::Faces(faces) => {
                 let (_, [a, b, c]) = faces.iter().find(|(of, _)| *of == facet).expect("a facet of the shape");
                 (b - a).cross(c - a).normalize()
             }
         }
     }
+}
+
+/// Corners of the smallest box round a disk.
+fn disk_bounds(center: DVec3, normal: DVec3, radius: f64) -> (DVec3, DVec3) {
+    // The rim is highest where the axis, laid down into the disk, points.
+    let highest = |axis: DVec3| normal.cross(axis).cross(normal).normalize_or_zero() * radius;
+    let half = DVec3::from(DVec3::AXES.map(|axis| highest(axis).dot(axis)));
+    (center - half, center + half)
 }
 
 /// From a triangle to a point: to the plane where the point is above the triangle, else to the nearest edge. Made

@@ -6,6 +6,7 @@
 
 mod integer;
 mod place;
+mod round;
 mod shape;
 
 use catoptra_core::geometry::{Mesh, Shape};
@@ -106,7 +107,9 @@ fn own_ray(shape: &Shape, ray: &Ray) -> Ray {
 mod tests {
     use std::sync::Arc;
 
-    use catoptra_core::geometry::{Cuboid, Disk, Plane, Rectangle, Sphere, Tetrahedron, Triangle};
+    use catoptra_core::geometry::{
+        Capsule, Cone, Cuboid, Cylinder, Disk, Plane, Rectangle, Sphere, Tetrahedron, Triangle,
+    };
     use catoptra_core::glam::DVec3;
     use catoptra_core::{MeshSource, TriangleMesh};
 
@@ -126,6 +129,10 @@ mod tests {
             Disk::new(o, DVec3::Y, 1.0).unwrap().into(),
             Cuboid::new(-DVec3::ONE, DVec3::new(1.0, 0.0, 1.0)).unwrap().into(),
             Mesh::new(MeshSource { path: String::new(), mesh: Arc::new(mesh) }).into(),
+            Cylinder::new(o, DVec3::NEG_Y * 3.0, 1.0).unwrap().into(),
+            // Leaning so that its uppermost line lies in the plane y = 0, below it the ray.
+            Cone::new(DVec3::new(-3.0, -1.0, 0.25), DVec3::new(3.0, -1.0, 0.25), 1.0, 1.0).unwrap().into(),
+            Capsule::new(DVec3::new(-3.0, -1.0, 0.25), DVec3::new(3.0, -1.0, 0.25), 1.0).unwrap().into(),
         ]
     }
 
