@@ -64,7 +64,14 @@ impl Blocker {
             Shape::Tetrahedron(four) => {
                 solid((0..4).filter_map(|facet| Some((facet, Flat::new(&four.face(facet))?))))
             }
-            Shape::Mesh(_) | Shape::Cylinder(_) | Shape::Cone(_) | Shape::Capsule(_) => return None,
+            Shape::Mesh(_)
+            | Shape::Heightfield(_)
+            | Shape::Cylinder(_)
+            | Shape::Cone(_)
+            | Shape::Capsule(_)
+            | Shape::Polyhedron(_)
+            | Shape::Platonic(_)
+            | Shape::Prism(_) => return None,
         };
         Some(Self { bound: kind.bound(), kind })
     }

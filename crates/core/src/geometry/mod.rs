@@ -7,10 +7,18 @@ mod cone;
 mod cuboid;
 mod cylinder;
 mod disk;
+mod ears;
+mod faceted;
+mod half_spaces;
+mod heightfield;
+mod hull;
 mod lateral;
 mod mesh;
 mod parametrization;
 mod plane;
+mod platonic;
+mod polyhedron;
+mod prism;
 mod rectangle;
 mod sphere;
 mod tetrahedron;
@@ -24,9 +32,14 @@ pub use cone::Cone;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use disk::Disk;
+pub use faceted::Faceted;
+pub use heightfield::Heightfield;
 pub use mesh::Mesh;
 pub use parametrization::Parametrization;
 pub use plane::Plane;
+pub use platonic::Platonic;
+pub use polyhedron::Polyhedron;
+pub use prism::Prism;
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
 pub use tetrahedron::Tetrahedron;
@@ -150,8 +163,11 @@ pub trait Geometry {
     /// | cylinder, cone | angle about the axis, counterclockwise as seen from `to`, 0..1 | share of the axis |
     /// | their caps | as of a disk | |
     /// | capsule | angle about the axis, as of a cylinder | share of the way from tip to tip along the surface |
+    /// | polyhedron, platonic, caps of a prism | share of the face to the right, as seen from outside before it was placed | upwards |
+    /// | sides of a prism | share of the edge | share of the height |
     /// | triangle, face of a tetrahedron | weight of the second corner | weight of the third |
     /// | mesh | its own, else as of a triangle | |
+    /// | heightfield | share of the picture to the right | upwards |
     fn parametrization(&self, point: DVec3, facet: u32) -> Parametrization;
 
     /// Texture coordinates at a point of a facet, and the derivative of the point by u, in metres.
@@ -162,6 +178,16 @@ pub trait Geometry {
 
     /// Whether it encloses a volume: a ray from outside that enters it leaves it again.
     fn is_closed(&self) -> bool;
+
+    /// The mesh that it is, for what is made of many triangles: those of a file or a picture.
+    fn as_mesh(&self) -> Option<&Mesh> {
+        None
+    }
+
+    /// Corners and facets of a solid that has them in a list.
+    fn faceted(&self) -> Option<&Faceted> {
+        None
+    }
 }
 
 /// Where a ray meets a facet of a shape.
@@ -215,6 +241,14 @@ crate::part::parts! {
         Cone,
         /// Cylinder with rounded ends.
         Capsule,
+        /// Convex solid with flat faces.
+        Polyhedron,
+        /// Regular solid.
+        Platonic,
+        /// Straight solid over an outline.
+        Prism,
+        /// Ground with heights from a picture.
+        Heightfield,
     }
 }
 
@@ -284,5 +318,17 @@ impl Shape {
     #[must_use]
     pub fn is_closed(&self) -> bool {
         each_shape!(self, shape => shape.is_closed())
+    }
+
+    /// See [`Geometry::as_mesh`].
+    #[must_use]
+    pub fn as_mesh(&self) -> Option<&Mesh> {
+        each_shape!(self, shape => shape.as_mesh())
+    }
+
+    /// See [`Geometry::faceted`].
+    #[must_use]
+    pub fn faceted(&self) -> Option<&Faceted> {
+        each_shape!(self, shape => shape.faceted())
     }
 }

@@ -1,16 +1,16 @@
 //! Sample shapes of every kind, each with what it is in plain geometry, so that tests need not ask the shape.
 
 mod round;
+mod solids;
 
 use std::sync::Arc;
 
 use catoptra_core::geometry::{
-    Capsule, Cone, Cuboid, Cylinder, Disk, Mesh, Plane, Rectangle, Shape, Sphere, Tetrahedron, Triangle,
-    TriangleMesh,
+    Cuboid, Disk, Mesh, Plane, Rectangle, Shape, Sphere, Tetrahedron, Triangle, TriangleMesh,
 };
 use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::{MeshSource, Placement, Ray};
-use round::{Ends, Round};
+use round::Round;
 
 /// A shape and its form.
 #[derive(Debug, Clone)]
@@ -74,23 +74,7 @@ pub(crate) fn samples_of(kind: &str) -> Vec<Sample> {
         ],
         "box" => vec![cuboid(DVec3::NEG_ONE, DVec3::ONE), cuboid(v(100.0, -0.5, 20.0), v(110.0, 0.0, 25.0))],
         "mesh" => vec![octahedron(), kite()],
-        "cylinder" => vec![
-            cylinder([DVec3::ZERO, v(0.0, 4.0, 0.0)], 1.0),
-            tube([v(5.0, 2.0, -3.0), v(7.0, 5.0, 3.0)], 3.5),
-            cylinder([v(1e3, 2e3, -1e3), v(1001.0, 2e3 + 1e-9, -1e3)], 0.1),
-        ],
-        "cone" => vec![
-            cone([DVec3::ZERO, v(0.0, 4.0, 0.0)], [2.0, 0.0]),
-            cone([v(5.0, 2.0, -3.0), v(7.0, 5.0, 3.0)], [0.5, 3.5]),
-            funnel([v(1.0, 2.0, 3.0), v(-4.0, 2.5, 3.0)], [2.0, 0.25]),
-            cone([v(1e3, 2e3, -1e3), v(1001.0, 2e3, -1e3)], [0.25, 0.2]),
-        ],
-        "capsule" => vec![
-            capsule([DVec3::ZERO, v(0.0, 4.0, 0.0)], 1.0),
-            capsule([v(5.0, 2.0, -3.0), v(7.0, 5.0, 3.0)], 3.5),
-            capsule([v(1e3, 2e3, -1e3), v(1001.0, 2e3, -1e3)], 0.1),
-        ],
-        _ => Vec::new(),
+        _ => [round::samples_of(kind), solids::samples_of(kind)].concat(),
     }
 }
 
@@ -131,31 +115,6 @@ fn rectangle(corner: DVec3, u: DVec3, v: DVec3) -> Sample {
 fn disk(center: DVec3, normal: DVec3, radius: f64) -> Sample {
     let shape = Disk::new(center, normal, radius).unwrap().into();
     Sample { shape, form: Form::Disk { center, normal: normal.normalize(), radius } }
-}
-
-fn cylinder(ends: [DVec3; 2], radius: f64) -> Sample {
-    let shape = Cylinder::new(ends[0], ends[1], radius).unwrap().into();
-    Sample { shape, form: Form::Round(Round { ends, radii: [radius; 2], caps: Ends::Flat }) }
-}
-
-fn tube(ends: [DVec3; 2], radius: f64) -> Sample {
-    let shape = Cylinder::new(ends[0], ends[1], radius).unwrap().opened().into();
-    Sample { shape, form: Form::Round(Round { ends, radii: [radius; 2], caps: Ends::Open }) }
-}
-
-fn cone(ends: [DVec3; 2], radii: [f64; 2]) -> Sample {
-    let shape = Cone::new(ends[0], ends[1], radii[0], radii[1]).unwrap().into();
-    Sample { shape, form: Form::Round(Round { ends, radii, caps: Ends::Flat }) }
-}
-
-fn funnel(ends: [DVec3; 2], radii: [f64; 2]) -> Sample {
-    let shape = Cone::new(ends[0], ends[1], radii[0], radii[1]).unwrap().opened().into();
-    Sample { shape, form: Form::Round(Round { ends, radii, caps: Ends::Open }) }
-}
-
-fn capsule(ends: [DVec3; 2], radius: f64) -> Sample {
-    let shape = Capsule::new(ends[0], ends[1], radius).unwrap().into();
-    Sample { shape, form: Form::Round(Round { ends, radii: [radius; 2], caps: Ends::Balls }) }
 }
 
 fn cuboid(min: DVec3, max: DVec3) -> Sample {
@@ -289,7 +248,7 @@ impl Form {
         }
     }
 
-    /// A point within a convex solid, or somewhere on what is flat.
+    /// A point within a convex solid, from where all of a solid that is not convex is seen, or somewhere on what is flat.
     pub(crate) fn middle(&self) -> DVec3 {
         match self {
             Self::Plane { point, .. } => *point,
@@ -313,6 +272,17 @@ impl Form {
                 faces.iter().flat_map(|(_, face)| *face).map(|p| p.distance(middle)).fold(0.0, f64::max)
             }
         }
+    }
+
+    /// Whether no corner lies in front of a face, but for rounding.
+    pub(crate) fn is_convex(&self) -> bool {
+        let Self::Faces(faces) = self else { return true };
+        let slack = 1e-12 * self.largest_coordinate();
+        let corners = || faces.iter().flat_map(|(_, face)| *face);
+        faces.iter().all(|(facet, [a, _, _])| {
+            let normal = self.normal(*a, *facet);
+            corners().all(|corner| (corner - *a).dot(normal) <= slack)
+        })
     }
 
     /// Stretches on the surface where facets meet, or short ones across such places.

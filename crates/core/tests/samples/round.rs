@@ -1,9 +1,58 @@
 //! Plain geometry of what is round about an axis: in the half plane of distance from the axis and height.
 
 use catoptra_core::Placement;
+use catoptra_core::geometry::{Capsule, Cone, Cylinder};
 use catoptra_core::glam::{DVec2, DVec3};
 
-use super::{Draw, disk_bounds};
+use super::{Draw, Form, Sample, disk_bounds, v};
+
+/// Samples of one kind.
+pub(super) fn samples_of(kind: &str) -> Vec<Sample> {
+    match kind {
+        "cylinder" => vec![
+            cylinder([DVec3::ZERO, v(0.0, 4.0, 0.0)], 1.0),
+            tube([v(5.0, 2.0, -3.0), v(7.0, 5.0, 3.0)], 3.5),
+            cylinder([v(1e3, 2e3, -1e3), v(1001.0, 2e3 + 1e-9, -1e3)], 0.1),
+        ],
+        "cone" => vec![
+            cone([DVec3::ZERO, v(0.0, 4.0, 0.0)], [2.0, 0.0]),
+            cone([v(5.0, 2.0, -3.0), v(7.0, 5.0, 3.0)], [0.5, 3.5]),
+            funnel([v(1.0, 2.0, 3.0), v(-4.0, 2.5, 3.0)], [2.0, 0.25]),
+            cone([v(1e3, 2e3, -1e3), v(1001.0, 2e3, -1e3)], [0.25, 0.2]),
+        ],
+        "capsule" => vec![
+            capsule([DVec3::ZERO, v(0.0, 4.0, 0.0)], 1.0),
+            capsule([v(5.0, 2.0, -3.0), v(7.0, 5.0, 3.0)], 3.5),
+            capsule([v(1e3, 2e3, -1e3), v(1001.0, 2e3, -1e3)], 0.1),
+        ],
+        _ => Vec::new(),
+    }
+}
+
+fn cylinder(ends: [DVec3; 2], radius: f64) -> Sample {
+    let shape = Cylinder::new(ends[0], ends[1], radius).unwrap().into();
+    Sample { shape, form: Form::Round(Round { ends, radii: [radius; 2], caps: Ends::Flat }) }
+}
+
+fn tube(ends: [DVec3; 2], radius: f64) -> Sample {
+    let shape = Cylinder::new(ends[0], ends[1], radius).unwrap().opened().into();
+    Sample { shape, form: Form::Round(Round { ends, radii: [radius; 2], caps: Ends::Open }) }
+}
+
+fn cone(ends: [DVec3; 2], radii: [f64; 2]) -> Sample {
+    let shape = Cone::new(ends[0], ends[1], radii[0], radii[1]).unwrap().into();
+    Sample { shape, form: Form::Round(Round { ends, radii, caps: Ends::Flat }) }
+}
+
+fn funnel(ends: [DVec3; 2], radii: [f64; 2]) -> Sample {
+    let shape = Cone::new(ends[0], ends[1], radii[0], radii[1]).unwrap().opened().into();
+    Sample { shape, form: Form::Round(Round { ends, radii, caps: Ends::Open }) }
+}
+
+fn capsule(ends: [DVec3; 2], radius: f64) -> Sample {
+    let shape = Capsule::new(ends[0], ends[1], radius).unwrap().into();
+    Sample { shape, form: Form::Round(Round { ends, radii: [radius; 2], caps: Ends::Balls }) }
+}
 
 /// How the two ends are closed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

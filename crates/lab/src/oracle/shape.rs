@@ -40,6 +40,15 @@ impl Line {
 /// Everything that a line meets of a shape, with the facets it lies on.
 pub(super) fn places(shape: &Shape, ray: &Ray) -> Vec<(Place, u32)> {
     let alone = |place: Option<Place>| place.map(|place| (place, 0)).into_iter().collect();
+    if let Some(mesh) = shape.as_mesh() {
+        let triangles = mesh.triangles();
+        let one = |i| of_polygon(&triangles.corners(i), ray).map(|place| (place, i));
+        return (0..triangles.triangles().len() as u32).filter_map(one).collect();
+    }
+    if let Some(solid) = shape.faceted() {
+        let facet = |i| solid.triangles(i).filter_map(move |t| Some((of_polygon(&t, ray)?, i)));
+        return (0..solid.count()).flat_map(facet).collect();
+    }
     match shape {
         Shape::Plane(plane) => {
             alone(of_plane(plane.point(), plane.upwards(), ray).map(|(_, [p, q], line)| line.ratio(p, q)))
@@ -56,11 +65,6 @@ pub(super) fn places(shape: &Shape, ray: &Ray) -> Vec<(Place, u32)> {
         }
         Shape::Disk(disk) => alone(of_disk(disk.center(), disk.upwards(), disk.radius(), ray)),
         Shape::Cuboid(cuboid) => of_box(&cuboid.object_bounds(), ray),
-        Shape::Mesh(mesh) => {
-            let triangles = mesh.triangles();
-            let one = |i| of_polygon(&triangles.corners(i), ray).map(|place| (place, i));
-            (0..triangles.triangles().len() as u32).filter_map(one).collect()
-        }
         Shape::Cylinder(cylinder) => {
             let side = Side::new(cylinder.ends(), [cylinder.radius(); 2], ray);
             if cylinder.is_open() { side.places() } else { [side.places(), side.caps()].concat() }

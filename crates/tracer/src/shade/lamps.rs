@@ -170,7 +170,7 @@ impl<'a, S: Simd> Shader<'a, S> {
             let prim = self.plan.lamps[number].blockers[at_blocker];
             let own = self.chunk.best[slot].prim.is(prim);
             let shape = &snapshot.prims()[prim as usize].shape;
-            if let Shape::Mesh(_) = shape {
+            if shape.as_mesh().is_some() {
                 let [e, f, g, h, i] = outline.planes();
                 let cones =
                     ViewCones { tip: point, planes: [e, f, g, h, i, ground], lanes: seeing & !sampled };
