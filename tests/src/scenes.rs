@@ -76,9 +76,6 @@ pub fn camera_of(scene: &Scene) -> Camera {
 
 /// How many triangles all meshes of a scene have.
 pub fn triangles(scene: &Scene) -> usize {
-    let of = |shape: Shape| match shape {
-        Shape::Mesh(mesh) => mesh.triangles().triangles().len(),
-        _ => 0,
-    };
+    let of = |shape: Shape| shape.as_mesh().map_or(0, |mesh| mesh.triangles().triangles().len());
     scene.entities().filter_map(|id| scene.shape(id)).map(of).sum()
 }

@@ -127,10 +127,14 @@ fn a_changed_part_changes_the_whole_solid() {
     assert_eq!(diff.shapes.iter().map(|shape| shape.entity).collect::<Vec<_>>(), members);
     let ray = Ray::new(DVec3::new(-1.6, 9.0, 0.0), DVec3::NEG_Y);
     let span = catoptra_core::Span::AHEAD;
-    let [cut, whole] = [&earlier, &later].map(|snapshot| snapshot.nearest(&ray, span, None).unwrap().crossing.t);
+    let [cut, whole] =
+        [&earlier, &later].map(|snapshot| snapshot.nearest(&ray, span, None).unwrap().crossing.t);
     assert!((cut - 7.8).abs() < 1e-12 && (whole - 6.9).abs() < 1e-12, "{cut} {whole}");
     scene.apply(back).unwrap();
     let open = catoptra_core::geometry::Disk::new(DVec3::ZERO, DVec3::Y, 1.0).unwrap();
     let refused = scene.apply(Edit::Shape(members[2], open.into())).unwrap_err();
-    assert_eq!(refused.to_string(), "\"pip\" encloses nothing and cannot be a part of the solid \"die\"");
+    assert_eq!(
+        refused.to_string(),
+        "\"pip\" cannot be a part of the solid \"die\": only planes, closed convex shapes and other solids can"
+    );
 }

@@ -42,7 +42,7 @@ pub use light::{Arrival, Emitter, Environment, FromAfar, IntensityProfile, Lamp,
 pub use lobe::{Bsdf, Continuation, LobeKinds, Lobes, Scatter, Scattered, ShadingPoint, SurfacePoint};
 pub use material::{Emission, Finish, Material, Medium, NormalMap, Sides, Surface};
 pub use part::{
-    Field, FieldKind, ImageSource, Kind, MeshSource, Part, ProfileSource, Textured, Value, Values,
+    Field, FieldKind, ImageSource, Kind, MeshSource, Part, ProfileSource, Rows, Textured, Value, Values,
 };
 pub use placement::Placement;
 pub use ray::{Crossing, Ray, Span, order_of_roots};

@@ -13,8 +13,8 @@ use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::light::Pole;
 use catoptra_core::{
     Camera, Field, FieldKind, Finish, Image, ImageSource, IntensityProfile, InvalidPart, Kind, Light,
-    Material, Part, Placement, ProfileSource, Rgb, Settings, Shape, Texture, TextureId, TextureUse, Value,
-    Values,
+    Material, Part, Placement, ProfileSource, Rgb, Rows, Settings, Shape, Texture, TextureId, TextureUse,
+    Value, Values,
 };
 use samples::samples_of;
 
@@ -37,6 +37,7 @@ fn plain(kind: FieldKind, i: usize) -> Value {
         FieldKind::Pair => Value::Pair(DVec2::new(100.5 + n, 1000.0)),
         FieldKind::Image => image(),
         FieldKind::Texture => Value::Texture(texture()),
+        FieldKind::Rows(_) => unreachable!("shapes with rows have samples"),
     }
 }
 
@@ -118,6 +119,14 @@ fn bad(kind: FieldKind) -> Vec<Value> {
         FieldKind::Flag | FieldKind::Mesh | FieldKind::Profile | FieldKind::Image | FieldKind::Texture => {
             Vec::new()
         }
+        FieldKind::Rows(width) => {
+            let row = |bad: f64| vec![bad; width];
+            let wider = Rows::default().with(&row(1.0)).with(&row(0.5));
+            let wider =
+                wider.iter().map(|row| [row, &[0.0]].concat()).fold(Rows::default(), |r, row| r.with(&row));
+            let bad = bad.into_iter().map(|bad| Value::Rows(Rows::default().with(&row(0.0)).with(&row(bad))));
+            bad.chain([Value::Rows(wider), Value::Rows(Rows::default())]).collect()
+        }
         FieldKind::Choice(_) => vec![Value::Word(String::new()), Value::Word("no such word".into())],
     }
 }
@@ -135,6 +144,7 @@ fn of_other_sorts(kind: FieldKind) -> Vec<Value> {
         Value::Pair(DVec2::ONE),
         image(),
         Value::Texture(texture()),
+        Value::Rows(Rows::default().with(&[1.0])),
     ];
     let own = match kind {
         FieldKind::Number | FieldKind::Length | FieldKind::Count | FieldKind::Fraction | FieldKind::Angle => {
@@ -149,6 +159,7 @@ fn of_other_sorts(kind: FieldKind) -> Vec<Value> {
         FieldKind::Pair => 7,
         FieldKind::Image => 8,
         FieldKind::Texture => 9,
+        FieldKind::Rows(_) => 10,
     };
     all.into_iter().enumerate().filter(|(sort, _)| *sort != own).map(|(_, value)| value).collect()
 }

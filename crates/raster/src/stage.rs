@@ -85,7 +85,7 @@ impl<'a> Stage<'a> {
 
     fn find_walls(&self) -> Vec<Shape> {
         let shapes = self.scene.entities_of(Role::Shape).filter_map(|id| self.scene.world_shape(id));
-        shapes.filter(|shape| !matches!(shape, Shape::Mesh(_))).collect()
+        shapes.filter(|shape| shape.as_mesh().is_none()).collect()
     }
 
     fn placed_light(&self, id: EntityId) -> Option<PlacedLight> {

@@ -4,7 +4,6 @@ use std::fs::{File, Metadata};
 use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
 
-use catoptra_core::Shape;
 use catoptra_core::scene::Scene;
 
 use crate::atomic;
@@ -225,7 +224,7 @@ impl SceneFile {
     fn know_files(&mut self, scene: &Scene) {
         for id in scene.entities() {
             let values = match (scene.shape(id), scene.light(id)) {
-                (Some(shape @ Shape::Mesh(_)), _) => shape.values(),
+                (Some(shape), _) if shape.as_mesh().is_some() => shape.values(),
                 (_, Some(light)) => light.values(),
                 _ => continue,
             };

@@ -19,7 +19,7 @@ const AFTER_A_MATERIAL: &[Case] = &[
         "unknown word \"shpere\"",
         "did you mean \"sphere\"?",
     ),
-    Case("torus \"t\" material=\"w\"", (2, 1), "unknown word \"torus\"", "known words: plane"),
+    Case("teapot \"t\" material=\"w\"", (2, 1), "unknown word \"teapot\"", "known words, none of them near"),
     Case("Sphere \"s\" material=\"w\" { radius 1 }", (2, 1), "unknown word \"Sphere\"", "\"sphere\""),
     Case("spotlight \"s\"", (2, 1), "unknown word \"spotlight\"", "\"spot-light\""),
     Case(

@@ -99,6 +99,9 @@ fn word_for(kind: FieldKind) -> &'static str {
         FieldKind::Pair => "pair",
         FieldKind::Image => "image",
         FieldKind::Texture => "texture",
+        FieldKind::Rows(2) => "pairs",
+        FieldKind::Rows(3) => "points",
+        FieldKind::Rows(_) => "rows",
     }
 }
 

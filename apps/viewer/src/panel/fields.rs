@@ -19,6 +19,9 @@ const BESIDE_LIST: f32 = 46.0;
 /// The narrowest that a slider or a list becomes, in points.
 const NARROWEST: f32 = 32.0;
 
+/// The most rows of numbers that are shown one by one.
+const MOST_ROWS: usize = 32;
+
 /// What is done to a field.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Changed {
@@ -203,6 +206,10 @@ fn edit(ui: &mut Ui, field: &Field, value: &Value, offers: &Offers<'_>) -> Optio
         (_, Value::Textured(textured)) => {
             edit(ui, field, &textured.base, offers).map(|base| base.textured(textured.by))
         }
+        (_, Value::Rows(rows)) if rows.iter().len() <= MOST_ROWS => widgets::rows(ui, rows).map(Value::Rows),
+        (_, Value::Rows(rows)) => told(ui, &format!("{} rows", rows.iter().len()), || {
+            format!("More than {MOST_ROWS} are edited in the file.")
+        }),
         (_, Value::Word(word)) => told(ui, word, String::new),
         (_, Value::Mesh(source)) => {
             told(ui, &source.path, || format!("{} triangles", source.mesh.triangles().len()))

@@ -1,7 +1,7 @@
 //! By what is one value shown and changed? Sliders, numbers, colours, boxes and lists.
 
-use catoptra_core::Rgb;
 use catoptra_core::glam::{DVec2, DVec3};
+use catoptra_core::{Rgb, Rows};
 use egui::{ComboBox, DragValue, Slider, SliderClamping, Ui};
 
 /// The share of a number's size that one pixel of dragging changes.
@@ -68,18 +68,31 @@ pub(super) fn pair(ui: &mut Ui, value: DVec2) -> Option<DVec2> {
     numbers(ui, value.to_array()).map(DVec2::from_array)
 }
 
+/// Rows of numbers, one below the other.
+pub(super) fn rows(ui: &mut Ui, value: &Rows) -> Option<Rows> {
+    let mut rows: Vec<Vec<f64>> = value.iter().map(<[f64]>::to_vec).collect();
+    let mut changed = false;
+    ui.vertical(|ui| rows.iter_mut().for_each(|row| changed |= drag_all(ui, row)));
+    changed.then(|| rows.iter().fold(Rows::default(), |all, row| all.with(row)))
+}
+
 fn numbers<const N: usize>(ui: &mut Ui, value: [f64; N]) -> Option<[f64; N]> {
     let mut v = value;
+    drag_all(ui, &mut v).then_some(v)
+}
+
+/// Numbers side by side; whether one was changed.
+fn drag_all(ui: &mut Ui, numbers: &mut [f64]) -> bool {
     let mut changed = false;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
-        for part in &mut v {
+        for part in numbers {
             let speed = speed(*part);
             let widget = DragValue::new(part).speed(speed).max_decimals(3);
             changed |= ui.add_sized([49.0, ui.spacing().interact_size.y], widget).changed();
         }
     });
-    changed.then_some(v)
+    changed
 }
 
 /// A reflectance.

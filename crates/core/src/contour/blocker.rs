@@ -44,7 +44,7 @@ pub(super) struct SolidEdge {
 }
 
 impl Blocker {
-    /// What of a shape blocks light, `None` for a mesh, whose outline has no closed form.
+    /// What of a shape blocks light, `None` for one whose outline has no closed form.
     #[must_use]
     pub fn of(shape: &Shape) -> Option<Self> {
         let kind = match shape {
@@ -64,7 +64,14 @@ impl Blocker {
             Shape::Tetrahedron(four) => {
                 solid((0..4).filter_map(|facet| Some((facet, Flat::new(&four.face(facet))?))))
             }
-            Shape::Mesh(_) => return None,
+            Shape::Mesh(_)
+            | Shape::Heightfield(_)
+            | Shape::Cylinder(_)
+            | Shape::Cone(_)
+            | Shape::Capsule(_)
+            | Shape::Polyhedron(_)
+            | Shape::Platonic(_)
+            | Shape::Prism(_) => return None,
         };
         Some(Self { bound: kind.bound(), kind })
     }

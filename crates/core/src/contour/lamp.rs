@@ -101,10 +101,12 @@ impl Lamp {
     /// one without area.
     #[must_use]
     pub fn of(shape: &Shape, facet: u32) -> Option<Self> {
+        if let Some(mesh) = shape.as_mesh() {
+            let exists = (facet as usize) < mesh.triangles().triangles().len();
+            let corners = || mesh.triangles().corners(facet).map(|p| mesh.placement().point(p));
+            return if exists { Self::polygon(&corners()) } else { None };
+        }
         match shape {
-            Shape::Mesh(mesh) if (facet as usize) < mesh.triangles().triangles().len() => {
-                Self::polygon(&mesh.triangles().corners(facet).map(|p| mesh.placement().point(p)))
-            }
             Shape::Cuboid(_) => super::blocker::box_face(shape, facet).and_then(|face| Self::polygon(&face)),
             Shape::Tetrahedron(solid) if facet < 4 => Self::polygon(&solid.face(facet)),
             _ if facet > 0 => None,
@@ -115,7 +117,16 @@ impl Lamp {
             Shape::Triangle(flat) => Self::polygon(&flat.corners()),
             Shape::Disk(disk) => Self::disk(disk.center(), disk.normal(), disk.radius()),
             Shape::Sphere(ball) => Self::sphere(ball.center(), ball.radius()),
-            Shape::Plane(_) | Shape::Mesh(_) | Shape::Tetrahedron(_) => None,
+            Shape::Plane(_)
+            | Shape::Mesh(_)
+            | Shape::Heightfield(_)
+            | Shape::Tetrahedron(_)
+            | Shape::Cylinder(_)
+            | Shape::Cone(_)
+            | Shape::Capsule(_)
+            | Shape::Polyhedron(_)
+            | Shape::Platonic(_)
+            | Shape::Prism(_) => None,
         }
     }
 
@@ -123,11 +134,21 @@ impl Lamp {
     /// of a plane, 1 of any other shape.
     #[must_use]
     pub fn facets(shape: &Shape) -> u32 {
+        if let Some(mesh) = shape.as_mesh() {
+            return u32::try_from(mesh.triangles().triangles().len()).unwrap_or(u32::MAX);
+        }
         match shape {
-            Shape::Plane(_) => 0,
+            Shape::Plane(_)
+            | Shape::Mesh(_)
+            | Shape::Heightfield(_)
+            | Shape::Cylinder(_)
+            | Shape::Cone(_)
+            | Shape::Capsule(_)
+            | Shape::Polyhedron(_)
+            | Shape::Platonic(_)
+            | Shape::Prism(_) => 0,
             Shape::Cuboid(_) => 6,
             Shape::Tetrahedron(_) => 4,
-            Shape::Mesh(mesh) => u32::try_from(mesh.triangles().triangles().len()).unwrap_or(u32::MAX),
             Shape::Rectangle(_) | Shape::Triangle(_) | Shape::Disk(_) | Shape::Sphere(_) => 1,
         }
     }

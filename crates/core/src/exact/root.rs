@@ -57,6 +57,18 @@ impl<N: Number> Root<N> {
         Self { rational: self.rational.negative(), radical, divisor: self.divisor.clone() }
     }
 
+    /// How `constant + slope × root` compares with zero: on which side of a plane that the ray runs through, say.
+    ///
+    /// # Errors
+    /// When the sum lies too close to zero for such numbers.
+    pub fn side(&self, constant: &N, slope: &N) -> Verdict<Ordering> {
+        let rest = constant.times(&self.divisor).plus(&slope.times(&self.rational));
+        let Some(radical) = &self.radical else { return rest.sign() };
+        let zero = N::of(0.0);
+        let slope = if radical.positive { slope.clone() } else { slope.negative() };
+        N::sign_with_roots([&rest, &slope, &zero], [&radical.square, &zero])
+    }
+
     /// How it compares with another root.
     ///
     /// # Errors
@@ -116,6 +128,22 @@ mod tests {
         let golden = quadratic::<Bounded>(1.0, 5.0, 2.0, true);
         assert_eq!(golden.compare(&ratio(1.618, 1.0)), Ok(Ordering::Greater));
         assert!(golden.compare(&quadratic(3.0, 45.0, 6.0, true)).is_err());
+    }
+
+    #[test]
+    fn a_root_lies_on_one_side_of_a_line() {
+        let golden = quadratic::<Dyadic>(1.0, 5.0, 2.0, true);
+        let side = |constant, slope| golden.side(&Dyadic::of(constant), &Dyadic::of(slope));
+        // 1.618… − 1.75, 1.75 − 1.618…, and −1 + 0 times it.
+        assert_eq!(side(-1.75, 1.0), Ok(Ordering::Less));
+        assert_eq!(side(1.75, -1.0), Ok(Ordering::Greater));
+        assert_eq!(side(-1.0, 0.0), Ok(Ordering::Less));
+        // (6 − √16) / 2 = 1 lies on it.
+        let whole = quadratic::<Dyadic>(6.0, 16.0, 2.0, false);
+        assert_eq!(whole.side(&Dyadic::of(-3.0), &Dyadic::of(3.0)), Ok(Ordering::Equal));
+        assert!(
+            quadratic::<Bounded>(6.0, 16.0, 2.0, false).side(&Bounded::of(-3.0), &Bounded::of(3.0)).is_err()
+        );
     }
 
     #[test]

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::parametrization::on_disk;
 use super::plane::plane_root;
 use super::{FacetRoot, Geometry, Parametrization};
-use crate::exact::{Located, Number, Vector, Verdict};
+use crate::exact::{Located, Number, Root, Vector, Verdict};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
@@ -90,15 +90,8 @@ impl Geometry for Disk {
         if leaving.is_some() {
             return Ok(None);
         }
-        let Some(root) = plane_root::<N>(self.center, self.upwards, own)? else { return Ok(None) };
-        // From the centre to where the ray meets the plane, times the root's divisor.
-        let from_center = Vector::of(own.origin).minus(&Vector::of(self.center)).scaled(&root.divisor);
-        let from_center = from_center.plus(&Vector::of(own.direction).scaled(&root.rational));
-        let reach = N::of(self.radius).times(&root.divisor);
-        if from_center.squared().minus(&reach.squared()).sign()?.is_gt() {
-            return Ok(None);
-        }
-        FacetRoot::on(span, root, 0)
+        meet_disk(self.center, &Vector::of(self.upwards), self.radius, own)?
+            .map_or(Ok(None), |root| FacetRoot::on(span, root, 0))
     }
 
     fn crossing(&self, _: &Ray, at: Located, facet: u32) -> Option<Crossing> {
@@ -106,11 +99,7 @@ impl Geometry for Disk {
     }
 
     fn bounds(&self) -> Option<Aabb> {
-        // Along an axis the rim reaches as far as the radius times the sine between axis and normal. The sine is taken
-        // from the two other components: √(1 − n²) would lose half its digits where the disk nearly faces the axis.
-        let n = self.normal;
-        let half = DVec3::new(n.y.hypot(n.z), n.z.hypot(n.x), n.x.hypot(n.y)) * self.radius;
-        Some(Aabb { min: self.center - half, max: self.center + half })
+        Some(disk_bounds(self.center, self.normal, self.radius))
     }
 
     fn placed(&self, placement: &Placement) -> Self {
@@ -130,6 +119,30 @@ impl Geometry for Disk {
     fn is_closed(&self) -> bool {
         false
     }
+}
+
+/// Where a ray meets the disk round a centre, perpendicular to a normal of any length; its rim belongs to it.
+pub(super) fn meet_disk<N: Number>(
+    center: DVec3,
+    normal: &Vector<N>,
+    radius: f64,
+    ray: &Ray,
+) -> Verdict<Option<Root<N>>> {
+    let Some(root) = plane_root(center, normal, ray)? else { return Ok(None) };
+    // From the centre to where the ray meets the plane, times the root's divisor.
+    let from_center = Vector::of(ray.origin).minus(&Vector::of(center)).scaled(&root.divisor);
+    let from_center = from_center.plus(&Vector::of(ray.direction).scaled(&root.rational));
+    let reach = N::of(radius).times(&root.divisor);
+    let is_beside = from_center.squared().minus(&reach.squared()).sign()?.is_gt();
+    Ok(if is_beside { None } else { Some(root) })
+}
+
+/// The smallest box round a disk with a unit normal, to rounding.
+pub(super) fn disk_bounds(center: DVec3, n: DVec3, radius: f64) -> Aabb {
+    // Along an axis the rim reaches as far as the radius times the sine between axis and normal. The sine is taken
+    // from the two other components: √(1 − n²) would lose half its digits where the disk nearly faces the axis.
+    let half = DVec3::new(n.y.hypot(n.z), n.z.hypot(n.x), n.x.hypot(n.y)) * radius;
+    Aabb { min: center - half, max: center + half }
 }
 
 #[cfg(test)]

@@ -137,4 +137,8 @@ impl Geometry for Mesh {
     fn is_closed(&self) -> bool {
         false
     }
+
+    fn as_mesh(&self) -> Option<&Mesh> {
+        Some(self)
+    }
 }

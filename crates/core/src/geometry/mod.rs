@@ -2,11 +2,23 @@
 //!
 //! A new shape is one file here, its `mod` line and its name in the list below.
 
+mod capsule;
+mod cone;
 mod cuboid;
+mod cylinder;
 mod disk;
+mod ears;
+mod faceted;
+mod half_spaces;
+mod heightfield;
+mod hull;
+mod lateral;
 mod mesh;
 mod parametrization;
 mod plane;
+mod platonic;
+mod polyhedron;
+mod prism;
 mod rectangle;
 mod sphere;
 mod tetrahedron;
@@ -15,11 +27,19 @@ mod triangle_mesh;
 
 use std::cmp::Ordering;
 
+pub use capsule::Capsule;
+pub use cone::Cone;
 pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
 pub use disk::Disk;
+pub use faceted::Faceted;
+pub use heightfield::Heightfield;
 pub use mesh::Mesh;
 pub use parametrization::Parametrization;
 pub use plane::Plane;
+pub use platonic::Platonic;
+pub use polyhedron::Polyhedron;
+pub use prism::Prism;
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
 pub use tetrahedron::Tetrahedron;
@@ -131,8 +151,8 @@ pub trait Geometry {
         Self: Sized;
 
     /// Texture coordinates at a point of a facet, in the space that the shape stands in. Of what has been placed they stay
-    /// what they are, but for planes, disks and spheres, which do not remember how they were turned: ask those in their own
-    /// space.
+    /// what they are, but for planes, disks, spheres and what is round about an axis, which do not remember how they were
+    /// turned: ask those in their own space.
     ///
     /// | shape | u | v |
     /// |---|---|---|
@@ -141,8 +161,14 @@ pub trait Geometry {
     /// | box | share of the face to the right, as seen from outside | upwards; of top and bottom towards −z and +z |
     /// | sphere | longitude, 1/2 at +z, growing to +x | latitude, 0 at −y, 1 at +y |
     /// | disk | angle counterclockwise from the right, 0..1 | distance from the middle, 0..1 |
+    /// | cylinder, cone | angle about the axis, counterclockwise as seen from `to`, 0..1 | share of the axis |
+    /// | their caps | as of a disk | |
+    /// | capsule | angle about the axis, as of a cylinder | share of the way from tip to tip along the surface |
+    /// | polyhedron, platonic, caps of a prism | share of the face to the right, as seen from outside before it was placed | upwards |
+    /// | sides of a prism | share of the edge | share of the height |
     /// | triangle, face of a tetrahedron | weight of the second corner | weight of the third |
     /// | mesh | its own, else as of a triangle | |
+    /// | heightfield | share of the picture to the right | upwards |
     fn parametrization(&self, point: DVec3, facet: u32) -> Parametrization;
 
     /// Texture coordinates at a point of a facet, and the derivative of the point by u, in metres.
@@ -178,6 +204,16 @@ pub trait Geometry {
         Self: Sized,
     {
         crate::solid::convex(self, own, leaving)
+    }
+
+    /// The mesh that it is, for what is made of many triangles: those of a file or a picture.
+    fn as_mesh(&self) -> Option<&Mesh> {
+        None
+    }
+
+    /// Corners and facets of a solid that has them in a list.
+    fn faceted(&self) -> Option<&Faceted> {
+        None
     }
 }
 
@@ -226,6 +262,20 @@ crate::part::parts! {
         Cuboid,
         /// Triangle mesh from a file.
         Mesh,
+        /// Round cylinder.
+        Cylinder,
+        /// Round cone.
+        Cone,
+        /// Cylinder with rounded ends.
+        Capsule,
+        /// Convex solid with flat faces.
+        Polyhedron,
+        /// Regular solid.
+        Platonic,
+        /// Straight solid over an outline.
+        Prism,
+        /// Ground with heights from a picture.
+        Heightfield,
     }
 }
 
@@ -318,5 +368,17 @@ impl Shape {
     /// When such numbers cannot decide.
     pub fn passage<N: Number>(&self, ray: &Ray, leaving: Option<u32>) -> Verdict<Passage<N>> {
         each_shape!(self, shape => shape.passage(&shape.own_ray(ray), leaving))
+    }
+
+    /// See [`Geometry::as_mesh`].
+    #[must_use]
+    pub fn as_mesh(&self) -> Option<&Mesh> {
+        each_shape!(self, shape => shape.as_mesh())
+    }
+
+    /// See [`Geometry::faceted`].
+    #[must_use]
+    pub fn faceted(&self) -> Option<&Faceted> {
+        each_shape!(self, shape => shape.faceted())
     }
 }

@@ -62,14 +62,35 @@ pub(super) fn on_sphere(from_center: DVec3, radius: f64) -> Parametrization {
 /// Angle and distance from the middle of a disk, both in parts of the whole; the angle runs counterclockwise as seen from
 /// the side of the normal.
 pub(super) fn on_disk(from_center: DVec3, normal: DVec3, radius: f64) -> Parametrization {
-    let [right, up] = level_axes(normal);
-    let place = DVec2::new(from_center.dot(right), from_center.dot(up));
+    let turn = turn_about(normal, from_center);
+    let out = turn.outwards.dot(from_center);
+    Parametrization {
+        uv: DVec2::new(turn.share, out / radius),
+        along_u: turn.along,
+        along_v: turn.outwards * radius,
+    }
+}
+
+/// How far round an axis a point lies.
+pub(super) struct Turn {
+    /// In parts of a whole turn, from the right (see [`level_axes`]), counterclockwise as seen against the axis.
+    pub(super) share: f64,
+    /// How far the point moves in a whole turn at its speed.
+    pub(super) along: DVec3,
+    /// The unit vector away from the axis.
+    pub(super) outwards: DVec3,
+}
+
+/// How far round a unit axis a point lies that is given as seen from a point of the axis.
+pub(super) fn turn_about(axis: DVec3, from_axis: DVec3) -> Turn {
+    let [right, up] = level_axes(axis);
+    let place = DVec2::new(from_axis.dot(right), from_axis.dot(up));
     let angle = place.y.atan2(place.x);
     let (sine, cosine) = angle.sin_cos();
-    Parametrization {
-        uv: DVec2::new((angle / TAU).rem_euclid(1.0), place.length() / radius),
-        along_u: (up * cosine - right * sine) * (TAU * place.length()),
-        along_v: (right * cosine + up * sine) * radius,
+    Turn {
+        share: (angle / TAU).rem_euclid(1.0),
+        along: (up * cosine - right * sine) * (TAU * place.length()),
+        outwards: right * cosine + up * sine,
     }
 }
 

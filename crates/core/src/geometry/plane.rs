@@ -102,7 +102,7 @@ impl Geometry for Plane {
         if leaving.is_some() {
             return Ok(None);
         }
-        match plane_root(self.point, self.upwards, own)? {
+        match plane_root(self.point, &Vector::of(self.upwards), own)? {
             Some(root) => FacetRoot::on(span, root, 0),
             None => Ok(None),
         }
@@ -143,7 +143,7 @@ impl Geometry for Plane {
         if leaving.is_some() {
             return Ok(Passage { inside: climbs.is_lt(), ..Passage::by() });
         }
-        let Some(root) = plane_root(self.point, self.upwards, own)? else {
+        let Some(root) = plane_root(self.point, &up, own)? else {
             let above = up.dot(&Vector::of(own.origin).minus(&Vector::of(self.point)));
             return Ok(Passage { inside: above.sign()?.is_lt(), ..Passage::by() });
         };
@@ -152,8 +152,7 @@ impl Geometry for Plane {
 }
 
 /// Where a ray meets the plane through `point` with a `normal` of any length; `None` when parallel to it.
-pub(super) fn plane_root<N: Number>(point: DVec3, normal: DVec3, ray: &Ray) -> Verdict<Option<Root<N>>> {
-    let normal = Vector::<N>::of(normal);
+pub(super) fn plane_root<N: Number>(point: DVec3, normal: &Vector<N>, ray: &Ray) -> Verdict<Option<Root<N>>> {
     let along = normal.dot(&Vector::of(ray.direction));
     let away = normal.dot(&Vector::of(point).minus(&Vector::of(ray.origin)));
     Root::ratio(&away, &along)

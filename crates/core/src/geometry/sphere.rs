@@ -42,44 +42,6 @@ impl Sphere {
     pub fn radius(&self) -> f64 {
         self.radius
     }
-
-    /// The near and the far crossing of a line with the sphere, `None` where it passes by. With o from the centre to the
-    /// origin: (−o·d ± √s) / d², where s = r² d² − |o × d|².
-    ///
-    /// That form of s, rather than (o·d)² − d² (o² − r²), keeps its digits when the sphere is small and far away.
-    fn roots<N: Number>(&self, ray: &Ray, span: Span) -> Verdict<Option<[Root<N>; 2]>> {
-        let direction = Vector::<N>::of(ray.direction);
-        let from_center = Vector::of(ray.origin).minus(&Vector::of(self.center));
-        let radius2 = N::of(self.radius).squared();
-        let towards = from_center.dot(&direction).negative();
-        let norm = from_center.squared().minus(&radius2);
-        let is_behind = |sign: Verdict<Ordering>, than: Ordering| span.min >= 0.0 && sign == Ok(than);
-        if is_behind(towards.sign(), Ordering::Less) && is_behind(norm.sign(), Ordering::Greater) {
-            return Ok(None);
-        }
-        let divisor = direction.squared();
-        let square = radius2.times(&divisor).minus(&from_center.cross(&direction).squared());
-        if square.sign()?.is_lt() {
-            return Ok(None);
-        }
-        let root = |positive| Root {
-            rational: towards.clone(),
-            radical: Some(Radical { positive, square: square.clone(), norm: norm.clone() }),
-            divisor: divisor.clone(),
-        };
-        Ok(Some([root(false), root(true)]))
-    }
-
-    /// The other end of the chord that a ray from the sphere's surface goes along, `None` where it goes outwards: at
-    /// −2 o·d / d², whatever rounding has made of the distance of its origin.
-    fn chord<N: Number>(&self, ray: &Ray) -> Verdict<Option<Root<N>>> {
-        let direction = Vector::<N>::of(ray.direction);
-        let towards = Vector::of(self.center).minus(&Vector::of(ray.origin)).dot(&direction);
-        if towards.sign()?.is_le() {
-            return Ok(None);
-        }
-        Root::ratio(&towards.plus(&towards), &direction.squared())
-    }
 }
 
 impl Part for Sphere {
@@ -108,9 +70,9 @@ impl Geometry for Sphere {
         leaving: Option<u32>,
     ) -> Verdict<Option<FacetRoot<N>>> {
         if leaving.is_some() {
-            return self.chord(own)?.map_or(Ok(None), |end| FacetRoot::on(span, end, 0));
+            return chord(self.center, own)?.map_or(Ok(None), |end| FacetRoot::on(span, end, 0));
         }
-        let Some([near, far]) = self.roots::<N>(own, span)? else { return Ok(None) };
+        let Some([near, far]) = roots(self.center, self.radius, own, span)? else { return Ok(None) };
         match FacetRoot::on(span, near, 0)? {
             None => FacetRoot::on(span, far, 0),
             near => Ok(near),
@@ -144,6 +106,49 @@ impl Geometry for Sphere {
     fn is_solid(&self) -> bool {
         true
     }
+}
+
+/// The near and the far crossing of a line with a sphere, `None` where it passes by, and where both lie before the stretch
+/// for certain. With o from the centre to the origin: (−o·d ± √s) / d², where s = r² d² − |o × d|².
+///
+/// That form of s, rather than (o·d)² − d² (o² − r²), keeps its digits when the sphere is small and far away.
+pub(super) fn roots<N: Number>(
+    center: DVec3,
+    radius: f64,
+    ray: &Ray,
+    span: Span,
+) -> Verdict<Option<[Root<N>; 2]>> {
+    let direction = Vector::<N>::of(ray.direction);
+    let from_center = Vector::of(ray.origin).minus(&Vector::of(center));
+    let radius2 = N::of(radius).squared();
+    let towards = from_center.dot(&direction).negative();
+    let norm = from_center.squared().minus(&radius2);
+    let is_behind = |sign: Verdict<Ordering>, than: Ordering| span.min >= 0.0 && sign == Ok(than);
+    if is_behind(towards.sign(), Ordering::Less) && is_behind(norm.sign(), Ordering::Greater) {
+        return Ok(None);
+    }
+    let divisor = direction.squared();
+    let square = radius2.times(&divisor).minus(&from_center.cross(&direction).squared());
+    if square.sign()?.is_lt() {
+        return Ok(None);
+    }
+    let root = |positive| Root {
+        rational: towards.clone(),
+        radical: Some(Radical { positive, square: square.clone(), norm: norm.clone() }),
+        divisor: divisor.clone(),
+    };
+    Ok(Some([root(false), root(true)]))
+}
+
+/// The other end of the chord that a ray from a sphere's surface goes along, `None` where it goes outwards: at
+/// −2 o·d / d², whatever rounding has made of the distance of its origin.
+pub(super) fn chord<N: Number>(center: DVec3, ray: &Ray) -> Verdict<Option<Root<N>>> {
+    let direction = Vector::<N>::of(ray.direction);
+    let towards = Vector::of(center).minus(&Vector::of(ray.origin)).dot(&direction);
+    if towards.sign()?.is_le() {
+        return Ok(None);
+    }
+    Root::ratio(&towards.plus(&towards), &direction.squared())
 }
 
 #[cfg(test)]

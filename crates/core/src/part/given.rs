@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Field, FieldKind, ImageSource, MeshSource, ProfileSource, Textured, Value, Values};
+use super::{Field, FieldKind, ImageSource, MeshSource, ProfileSource, Rows, Textured, Value, Values};
 use crate::texture::{Level, Paint, TextureUse};
 use crate::{InvalidPart, Rgb, TextureId};
 
@@ -149,6 +149,30 @@ impl Given<'_> {
         }
         // In range, so that the conversion is exact.
         Ok(number as u32)
+    }
+
+    /// Rows of numbers, as many in each as the field states.
+    ///
+    /// # Errors
+    /// Missing, no rows of so many numbers, not finite, or beyond [`LARGEST`].
+    pub fn rows(&self, name: &'static str) -> Result<Rows, InvalidPart> {
+        let width = self.fields.iter().find_map(|field| match field.kind {
+            FieldKind::Rows(width) if field.name == name => Some(width),
+            _ => None,
+        });
+        let width = width.unwrap_or(0);
+        match self.value(name)? {
+            Value::Rows(rows) if rows.width() == width => {
+                let wrong = |row: &[f64]| {
+                    let is_finite = row.iter().all(|v| v.is_finite());
+                    let requirement = if is_finite { WITHIN_LARGEST } else { "must be finite numbers" };
+                    InvalidPart::new(name, requirement, numbers(row))
+                };
+                let refused = rows.iter().find(|row| !row.iter().all(|v| v.abs() <= LARGEST)).map(wrong);
+                refused.map_or(Ok(rows), Err)
+            }
+            other => Err(wrong(name, &format!("must be rows of {width} finite numbers"), &other)),
+        }
     }
 
     /// A point.
@@ -326,18 +350,24 @@ fn short(v: f64) -> String {
     if v != 0.0 && !(1e-9..1e16).contains(&v.abs()) { format!("{v:e}") } else { v.to_string() }
 }
 
+/// Numbers side by side.
+fn numbers(row: &[f64]) -> String {
+    row.iter().map(|v| short(*v)).collect::<Vec<_>>().join(" ")
+}
+
 fn wrong(name: &'static str, requirement: &str, found: &Value) -> InvalidPart {
     let found = match found {
         Value::Number(v) => short(*v),
-        Value::Vector(v) => v.to_array().map(short).join(" "),
+        Value::Vector(v) => numbers(&v.to_array()),
         Value::Color(c) => c.to_array().map(short).join(" "),
         Value::Flag(v) => format!("#{v}"),
         Value::Word(w) => format!("\"{w}\""),
         Value::Mesh(m) => format!("the mesh {}", m.path),
         Value::Profile(p) => format!("the profile {}", p.path),
-        Value::Pair(v) => v.to_array().map(short).join(" "),
+        Value::Pair(v) => numbers(&v.to_array()),
         Value::Image(i) => format!("the picture {}", i.path),
         Value::Texture(texture) => texture.to_string(),
+        Value::Rows(rows) => format!("{} rows of {}", rows.iter().len(), rows.width()),
         Value::Textured(_) => "a value with a texture".to_owned(),
     };
     InvalidPart::new(name, requirement, found)

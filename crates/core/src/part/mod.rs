@@ -6,7 +6,7 @@ mod value;
 
 pub(crate) use given::degrees;
 pub use given::{Given, LARGEST};
-pub use value::{ImageSource, MeshSource, ProfileSource, Textured, Value, Values};
+pub use value::{ImageSource, MeshSource, ProfileSource, Rows, Textured, Value, Values};
 
 use crate::InvalidPart;
 
@@ -45,6 +45,8 @@ pub enum FieldKind {
     Image,
     /// One of the scene's textures, by its name.
     Texture,
+    /// Any count of rows of so many numbers each; in text every row is a line of its own.
+    Rows(usize),
 }
 
 impl FieldKind {

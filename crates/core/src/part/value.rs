@@ -62,6 +62,44 @@ pub struct Textured {
     pub by: TextureUse,
 }
 
+/// Rows of numbers, all of the same length.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Rows {
+    width: usize,
+    numbers: Vec<f64>,
+}
+
+impl Rows {
+    /// Of so many numbers each.
+    #[must_use]
+    pub fn of<const N: usize>(rows: impl IntoIterator<Item = [f64; N]>) -> Self {
+        Self { width: N, numbers: rows.into_iter().flatten().collect() }
+    }
+
+    /// How many numbers a row has; 0 where there is none.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// The rows, in order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = &[f64]> {
+        self.numbers.chunks_exact(self.width.max(1))
+    }
+
+    /// With one more row, if that has as many numbers as the others.
+    #[must_use]
+    pub fn with(mut self, row: &[f64]) -> Self {
+        if self.numbers.is_empty() {
+            self.width = row.len();
+        }
+        if row.len() == self.width {
+            self.numbers.extend(row);
+        }
+        self
+    }
+}
+
 /// The value of a field.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
@@ -85,6 +123,8 @@ pub enum Value {
     Image(ImageSource),
     /// For [`FieldKind::Texture`](super::FieldKind::Texture).
     Texture(TextureId),
+    /// For [`FieldKind::Rows`](super::FieldKind::Rows).
+    Rows(Rows),
     /// For [`FieldKind::Color`](super::FieldKind::Color), `Quantity` and `Fraction`, times a texture.
     Textured(Box<Textured>),
 }

@@ -57,8 +57,10 @@ pub enum SceneError {
         /// What it is.
         is: Role,
     },
-    /// Solids are made of shapes that enclose something, and of other solids.
-    #[error("\"{name}\" encloses nothing and cannot be a part of the solid \"{solid}\"")]
+    /// Solids are made of planes, of closed convex shapes, and of other solids.
+    #[error(
+        "\"{name}\" cannot be a part of the solid \"{solid}\": only planes, closed convex shapes and other solids can"
+    )]
     NotSolid {
         /// What was to become a part, or to have another shape.
         name: String,

@@ -4,7 +4,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::geometry::{Cuboid, Plane, Sphere, Tetrahedron};
+use crate::geometry::{Cuboid, Cylinder, Plane, Sphere, Tetrahedron};
 
 fn cuboid(min: [f64; 3], max: [f64; 3]) -> Shape {
     Cuboid::new(min.into(), max.into()).unwrap().into()
@@ -53,6 +53,23 @@ fn the_common_part_of_a_ball_and_half_of_space_is_half_a_ball() {
     assert_eq!(met(&solid, [0.0, 9.0, 0.0], [0.0, -1.0, 0.0]), Some((9.0, 1, DVec3::Y)));
     assert_eq!(met(&solid, [0.0, -9.0, 0.0], [0.0, 1.0, 0.0]), Some((8.0, 0, DVec3::NEG_Y)));
     assert_eq!(met(&solid, [-9.0, 0.5, 0.0], [1.0, 0.0, 0.0]), None);
+}
+
+#[test]
+fn a_drilled_hole_is_seen_through() {
+    let drill = Cylinder::new(DVec3::new(0.0, -2.0, 0.0), DVec3::new(0.0, 2.0, 0.0), 0.5).unwrap();
+    let block = combined(Operation::Difference, vec![cuboid([-1.0; 3], [1.0; 3]), drill.clone().into()]);
+    assert_eq!(met(&block, [0.25, 9.0, 0.0], [0.0, -1.0, 0.0]), None);
+    assert_eq!(met(&block, [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]), Some((0.5, 1, DVec3::NEG_X)));
+    assert_eq!(
+        met(&block, [0.25, 9.0, 0.0], [0.25, -9.0, 0.0]).map(|(t, member, _)| (t, member)),
+        Some((1.0, 1))
+    );
+    // A blind hole has a floor: the cap of what drilled it.
+    let short = Cylinder::new(DVec3::ZERO, DVec3::Y * 2.0, 0.5).unwrap();
+    let blind = combined(Operation::Difference, vec![cuboid([-1.0; 3], [1.0; 3]), short.into()]);
+    assert_eq!(met(&blind, [0.25, 9.0, 0.0], [0.0, -1.0, 0.0]), Some((9.0, 1, DVec3::Y)));
+    assert!(Solid::new(vec![drill.opened().into()], Rule::Shape(0)).is_none());
 }
 
 #[test]

@@ -1,5 +1,8 @@
 //! Sample shapes of every kind, each with what it is in plain geometry, so that tests need not ask the shape.
 
+mod round;
+mod solids;
+
 use std::sync::Arc;
 
 use catoptra_core::geometry::{
@@ -7,6 +10,7 @@ use catoptra_core::geometry::{
 };
 use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::{MeshSource, Placement, Ray};
+use round::Round;
 
 /// A shape and its form.
 #[derive(Debug, Clone)]
@@ -31,6 +35,7 @@ pub(crate) enum Form {
         normal: DVec3,
         radius: f64,
     },
+    Round(Round),
     /// Flat pieces: the facet each belongs to, and corners anticlockwise as seen from outside.
     Faces(Vec<(u32, [DVec3; 3])>),
 }
@@ -69,7 +74,7 @@ pub(crate) fn samples_of(kind: &str) -> Vec<Sample> {
         ],
         "box" => vec![cuboid(DVec3::NEG_ONE, DVec3::ONE), cuboid(v(100.0, -0.5, 20.0), v(110.0, 0.0, 25.0))],
         "mesh" => vec![octahedron(), kite()],
-        _ => Vec::new(),
+        _ => [round::samples_of(kind), solids::samples_of(kind)].concat(),
     }
 }
 
@@ -177,6 +182,7 @@ impl Sample {
                 normal: at.direction(*normal),
                 radius: radius * at.scale(),
             },
+            Form::Round(round) => Form::Round(round.placed(at)),
             Form::Faces(faces) => {
                 Form::Faces(faces.iter().map(|(facet, face)| (*facet, face.map(|p| at.point(p)))).collect())
             }
@@ -230,6 +236,7 @@ impl Form {
                 let (turn, out) = (std::f64::consts::TAU * draw.at.y, 0.98 * radius * draw.at.x.sqrt());
                 *center + (across * turn.cos() + normal.cross(across) * turn.sin()) * out
             }
+            Self::Round(round) => round.target(draw),
             Self::Faces(faces) => {
                 let (_, [a, b, c]) = faces[draw.pick % faces.len()];
                 // Folded into the triangle, then drawn towards its middle.
@@ -241,11 +248,12 @@ impl Form {
         }
     }
 
-    /// A point within a convex solid, or somewhere on what is flat.
+    /// A point within a convex solid, from where all of a solid that is not convex is seen, or somewhere on what is flat.
     pub(crate) fn middle(&self) -> DVec3 {
         match self {
             Self::Plane { point, .. } => *point,
             Self::Sphere { center, .. } | Self::Disk { center, .. } => *center,
+            Self::Round(round) => round.ends[0].midpoint(round.ends[1]),
             Self::Faces(faces) => {
                 let corners: Vec<DVec3> = faces.iter().flat_map(|(_, face)| *face).collect();
                 corners.iter().sum::<DVec3>() / corners.len() as f64
@@ -258,10 +266,54 @@ impl Form {
         match self {
             Self::Plane { .. } => 10.0,
             Self::Sphere { radius, .. } | Self::Disk { radius, .. } => *radius,
+            Self::Round(round) => round.reach(),
             Self::Faces(faces) => {
                 let middle = self.middle();
                 faces.iter().flat_map(|(_, face)| *face).map(|p| p.distance(middle)).fold(0.0, f64::max)
             }
+        }
+    }
+
+    /// Whether no corner lies in front of a face, but for rounding.
+    pub(crate) fn is_convex(&self) -> bool {
+        let Self::Faces(faces) = self else { return true };
+        let slack = 1e-12 * self.largest_coordinate();
+        let corners = || faces.iter().flat_map(|(_, face)| *face);
+        faces.iter().all(|(facet, [a, _, _])| {
+            let normal = self.normal(*a, *facet);
+            corners().all(|corner| (corner - *a).dot(normal) <= slack)
+        })
+    }
+
+    /// Stretches on the surface where facets meet, or short ones across such places.
+    pub(crate) fn seams(&self) -> Vec<[DVec3; 2]> {
+        match self {
+            Self::Plane { .. } | Self::Sphere { .. } | Self::Disk { .. } => Vec::new(),
+            Self::Round(round) => round.seams(),
+            Self::Faces(faces) => {
+                faces.iter().flat_map(|(_, [a, b, c])| [[*a, *b], [*b, *c], [*c, *a]]).collect()
+            }
+        }
+    }
+
+    /// How far the surface is from the middle at least.
+    pub(crate) fn depth(&self) -> f64 {
+        match self {
+            Self::Plane { .. } | Self::Disk { .. } => 0.0,
+            Self::Sphere { radius, .. } => *radius,
+            Self::Round(round) => round.depth(),
+            Self::Faces(faces) => {
+                let middle = self.middle();
+                faces.iter().map(|(_, face)| distance_to(face, middle)).fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+
+    /// How far one must move along the surface at a point, at least, for the normal to turn by a radian, or as far as it reaches.
+    pub(crate) fn bend(&self, p: DVec3) -> f64 {
+        match self {
+            Self::Round(round) => round.distance_from_axis(p),
+            form => form.reach(),
         }
     }
 
@@ -270,12 +322,8 @@ impl Form {
         match self {
             Self::Plane { .. } => None,
             Self::Sphere { center, radius } => Some((*center - *radius, *center + *radius)),
-            Self::Disk { center, normal, radius } => {
-                // The rim is highest where the axis, laid down into the disk, points.
-                let highest = |axis: DVec3| normal.cross(axis).cross(*normal).normalize_or_zero() * *radius;
-                let half = DVec3::from(DVec3::AXES.map(|axis| highest(axis).dot(axis)));
-                Some((*center - half, *center + half))
-            }
+            Self::Disk { center, normal, radius } => Some(disk_bounds(*center, *normal, *radius)),
+            Self::Round(round) => Some(round.bounds()),
             Self::Faces(faces) => {
                 let corners = || faces.iter().flat_map(|(_, face)| *face);
                 Some((corners().reduce(DVec3::min)?, corners().reduce(DVec3::max)?))
@@ -291,6 +339,9 @@ impl Form {
             Self::Sphere { center, radius } | Self::Disk { center, radius, .. } => {
                 radius.max(largest(*center))
             }
+            Self::Round(Round { ends, radii, .. }) => {
+                ends.map(largest).into_iter().chain(*radii).fold(0.0, f64::max)
+            }
             Self::Faces(faces) => faces.iter().flat_map(|(_, face)| *face).map(largest).fold(0.0, f64::max),
         }
     }
@@ -305,6 +356,7 @@ impl Form {
                 let beside = (p - *center - *normal * above).length() - radius;
                 above.hypot(beside.max(0.0))
             }
+            Self::Round(round) => round.distance(p, facet),
             Self::Faces(faces) => {
                 let of_facet = faces.iter().filter(|(of, _)| *of == facet);
                 of_facet.map(|(_, face)| distance_to(face, p)).fold(f64::INFINITY, f64::min)
@@ -317,12 +369,21 @@ impl Form {
         match self {
             Self::Plane { normal, .. } | Self::Disk { normal, .. } => *normal,
             Self::Sphere { center, .. } => (p - *center).normalize(),
+            Self::Round(round) => round.normal(p, facet),
             Self::Faces(faces) => {
                 let (_, [a, b, c]) = faces.iter().find(|(of, _)| *of == facet).expect("a facet of the shape");
                 (b - a).cross(c - a).normalize()
             }
         }
     }
+}
+
+/// Corners of the smallest box round a disk.
+fn disk_bounds(center: DVec3, normal: DVec3, radius: f64) -> (DVec3, DVec3) {
+    // The rim is highest where the axis, laid down into the disk, points.
+    let highest = |axis: DVec3| normal.cross(axis).cross(normal).normalize_or_zero() * radius;
+    let half = DVec3::from(DVec3::AXES.map(|axis| highest(axis).dot(axis)));
+    (center - half, center + half)
 }
 
 /// From a triangle to a point: to the plane where the point is above the triangle, else to the nearest edge. Made

@@ -1,7 +1,9 @@
 //! Shapes with flat faces, and rays at their rims, along their faces and nearly so.
 
-use catoptra_core::geometry::{Cuboid, Disk, Plane, Rectangle, Tetrahedron, Triangle};
-use catoptra_core::glam::DVec3;
+use catoptra_core::geometry::{
+    Cuboid, Disk, Plane, Platonic, Polyhedron, Prism, Rectangle, Tetrahedron, Triangle,
+};
+use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::{InvalidPart, Placement, Ray, Shape};
 
 use super::random::rounded;
@@ -51,6 +53,61 @@ pub(super) const TETRAHEDRA: Group = Group {
         rim(random, Tetrahedron::new(a, b, c, d), &[a, b, c, d, a, c, b, d])
     },
 };
+
+pub(super) const POLYHEDRA: Group = Group {
+    name: "polyhedron",
+    doc: "hulls of points and cuts of planes, with many points in one plane; rays at edges, corners and across faces",
+    make: |random| {
+        let size = random.power(-2, 6);
+        let solid = if random.below(2) == 0 {
+            let center = random.whole_point(50.0);
+            let points: Vec<DVec3> = (0..12).map(|_| center + random.whole_point(4.0) * size).collect();
+            Polyhedron::hull_of(points)
+        } else {
+            let half =
+                (0..8).map(|i| if i % 2 == 0 { DVec3::AXES[i / 2 % 3] } else { -DVec3::AXES[i / 2 % 3] });
+            let cuts = [(); 4].map(|()| (random.direction(), size));
+            let half: Vec<_> = half.map(|normal| (normal, size)).chain(cuts).collect();
+            Polyhedron::between(half)
+        };
+        facets(random, solid)
+    },
+};
+
+pub(super) const PLATONIC: Group = Group {
+    name: "platonic",
+    doc: "rays at edges and corners of the five regular solids, and across their faces",
+    make: |random| {
+        let solid = ["tetrahedron", "cube", "octahedron", "dodecahedron", "icosahedron"][random.below(5)];
+        let (center, radius) = (random.point(10.0), random.power(-6, 6));
+        facets(random, Platonic::new(solid, center, radius))
+    },
+};
+
+pub(super) const PRISMS: Group = Group {
+    name: "prism",
+    doc: "rays at edges and corners of straight solids over concave outlines, and in the planes of their faces",
+    make: |random| {
+        let outline = (0..9).map(|i| {
+            let out = if i % 3 == 1 { 2.0 } else { random.between(3.0, 9.0) };
+            let (sine, cosine) = (f64::from(i) * 0.69).sin_cos();
+            DVec2::new(cosine * out, sine * out).round()
+        });
+        let outline: Vec<DVec2> = outline.collect();
+        let (height, from) = (random.power(-3, 3), random.whole_point(10.0));
+        let axis = [DVec3::Y, DVec3::X, random.direction()][random.below(3)];
+        facets(random, Prism::new(outline, height, from, axis))
+    },
+};
+
+/// Of a solid with facets, now and then placed elsewhere: rays at its edges, and at points of the triangles they are cut into.
+fn facets(random: &mut Random, solid: Result<impl Into<Shape>, InvalidPart>) -> Trial {
+    let Ok(shape) = solid.map(|solid| place(random, solid.into())) else { return nothing() };
+    let Some(solid) = shape.faceted() else { return nothing() };
+    let ends = (0..solid.count()).flat_map(|facet| solid.triangles(facet)).flat_map(|[a, b, c]| [a, b, c, a]);
+    let ends: Vec<DVec3> = ends.collect();
+    rim(random, Ok(shape), &ends)
+}
 
 pub(super) const BOXES: Group = Group {
     name: "box",

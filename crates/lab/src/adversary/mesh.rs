@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use catoptra_core::geometry::Mesh;
-use catoptra_core::glam::DVec3;
-use catoptra_core::{MeshSource, Placement, Ray, Shape, TriangleMesh};
+use catoptra_core::geometry::{Heightfield, Mesh};
+use catoptra_core::glam::{DVec2, DVec3};
+use catoptra_core::{Image, ImageSource, MeshSource, Placement, Ray, Shape, TriangleMesh};
 
 use super::{Group, Random, Trial};
 
@@ -75,6 +75,29 @@ pub(super) const PLACED: Group = Group {
         trial(random, &ball, placement, 400.0)
     },
 };
+
+pub(super) const HEIGHTFIELD: Group = Group {
+    name: "heightfield",
+    doc: "hills of a small picture, placed or not; rays at their edges and corners",
+    make: |random| {
+        let bytes = (0..20).map(|_| random.bits() as u8).collect();
+        let Ok(image) = Image::from_bytes([5, 4], 1, bytes) else { return nothing() };
+        let picture = ImageSource { path: String::new(), image: Arc::new(image) };
+        let size = DVec2::new(random.power(-3, 3), random.power(-3, 3)) * 3.0;
+        let Ok(ground) = Heightfield::new(picture, size, random.power(-6, 3), random.below(2) == 0) else {
+            return nothing();
+        };
+        let turned = Placement::IDENTITY.turned(DVec3::ZERO, random.direction(), random.between(-3.0, 3.0));
+        let placement = if random.below(2) == 0 { turned.unwrap_or_default() } else { Placement::IDENTITY };
+        let mesh = ground.mesh().triangles().clone();
+        let trial = trial(random, &mesh, placement, 4.0 * size.max_element());
+        Trial { shapes: vec![Shape::from(ground).placed(&placement)], ..trial }
+    },
+};
+
+fn nothing() -> Trial {
+    Trial { shapes: Vec::new(), rays: Vec::new() }
+}
 
 /// Corners of an octahedron's faces, each split into four, moved by `place`; as `f32` holds them.
 fn ball(random: &mut Random, mut place: impl FnMut(DVec3, &mut Random) -> DVec3) -> TriangleMesh {

@@ -7,6 +7,7 @@ mod order;
 mod random;
 mod round;
 mod scale;
+mod swept;
 
 use catoptra_core::material::Matte;
 use catoptra_core::{Ray, Rgb, Scene, Shape};
@@ -57,11 +58,15 @@ pub const GROUPS: &[Group] = &[
     mesh::WHOLE_NUMBERS,
     mesh::FLAT,
     mesh::PLACED,
+    mesh::HEIGHTFIELD,
     flat::TRIANGLES,
     flat::RECTANGLES,
     flat::DISKS,
     flat::TETRAHEDRA,
     flat::BOXES,
+    flat::POLYHEDRA,
+    flat::PLATONIC,
+    flat::PRISMS,
     flat::PLANES,
     flat::CANCELLING_PLANES,
     round::FAR,
@@ -69,6 +74,10 @@ pub const GROUPS: &[Group] = &[
     round::TANGENT,
     round::INSIDE,
     round::ON_SURFACE,
+    swept::CYLINDERS,
+    swept::CONES,
+    swept::CAPSULES,
+    swept::TOUCHING,
     order::CROSSING,
     order::PARALLEL,
     order::SPHERES,
@@ -78,3 +87,40 @@ pub const GROUPS: &[Group] = &[
     scale::DIRECTIONS,
     scale::BAD_RAYS,
 ];
+
+#[cfg(test)]
+mod tests {
+    use catoptra_core::Span;
+    use catoptra_tracer::query::{HitList, RayList, find_nearest};
+    use catoptra_tracer::{Pool, Snapshot, backends};
+
+    use super::*;
+    use crate::oracle::confirm;
+
+    /// Rays asked of every group.
+    const ASKED: usize = 10_000;
+
+    /// What the shapes say themselves, tried one by one: in `f64`, and where that does not decide, exactly.
+    #[test]
+    fn shapes_answer_hard_rays_as_the_reference_does() {
+        let pool = Pool::new(1).expect("a pool of threads");
+        let plain = backends().iter().find(|backend| backend.name() == "oracle").expect("it is listed");
+        for group in GROUPS {
+            let (mut asked, mut number, mut wrong) = (0, 1000, Vec::new());
+            while asked < ASKED {
+                let trial = (group.make)(&mut Random::new(number));
+                let snapshot = Snapshot::extract(&trial.scene().expect("a scene"), &pool);
+                let (mut list, mut hits) = (RayList::new(), HitList::default());
+                trial.rays.iter().for_each(|ray| list.push(ray, [Span::AHEAD.min, Span::AHEAD.max], None));
+                find_nearest(*plain, &snapshot, &list, &mut hits, &pool);
+                for (at, ray) in trial.rays.iter().enumerate() {
+                    wrong.extend(confirm(&trial.shapes, ray, Span::AHEAD, hits.get(at)).err());
+                }
+                asked += trial.rays.len();
+                number += 1;
+            }
+            let told = wrong.len().min(5);
+            assert!(wrong.is_empty(), "{}: {} wrong\n{}", group.name, wrong.len(), wrong[..told].join("\n"));
+        }
+    }
+}

@@ -6,6 +6,7 @@
 
 mod integer;
 mod place;
+mod round;
 mod shape;
 
 use catoptra_core::geometry::{Mesh, Shape};
@@ -96,7 +97,7 @@ pub fn is_same_parameter(t: f64, exact: f64) -> bool {
 /// The ray in the space that the numbers of a shape are given in.
 fn own_ray(shape: &Shape, ray: &Ray) -> Ray {
     match shape {
-        Shape::Mesh(mesh) => Mesh::own_ray(mesh, ray),
+        shape if shape.as_mesh().is_some() => shape.as_mesh().map_or(*ray, |mesh| Mesh::own_ray(mesh, ray)),
         Shape::Cuboid(cuboid) => cuboid.own_ray(ray),
         _ => *ray,
     }
@@ -106,9 +107,12 @@ fn own_ray(shape: &Shape, ray: &Ray) -> Ray {
 mod tests {
     use std::sync::Arc;
 
-    use catoptra_core::geometry::{Cuboid, Disk, Plane, Rectangle, Sphere, Tetrahedron, Triangle};
-    use catoptra_core::glam::DVec3;
-    use catoptra_core::{MeshSource, TriangleMesh};
+    use catoptra_core::geometry::{
+        Capsule, Cone, Cuboid, Cylinder, Disk, Heightfield, Plane, Platonic, Polyhedron, Prism, Rectangle,
+        Sphere, Tetrahedron, Triangle,
+    };
+    use catoptra_core::glam::{DVec2, DVec3};
+    use catoptra_core::{Image, ImageSource, MeshSource, TriangleMesh};
 
     use super::*;
 
@@ -126,7 +130,30 @@ mod tests {
             Disk::new(o, DVec3::Y, 1.0).unwrap().into(),
             Cuboid::new(-DVec3::ONE, DVec3::new(1.0, 0.0, 1.0)).unwrap().into(),
             Mesh::new(MeshSource { path: String::new(), mesh: Arc::new(mesh) }).into(),
+            Cylinder::new(o, DVec3::NEG_Y * 3.0, 1.0).unwrap().into(),
+            // Leaning so that its uppermost line lies in the plane y = 0, below it the ray.
+            Cone::new(DVec3::new(-3.0, -1.0, 0.25), DVec3::new(3.0, -1.0, 0.25), 1.0, 1.0).unwrap().into(),
+            Capsule::new(DVec3::new(-3.0, -1.0, 0.25), DVec3::new(3.0, -1.0, 0.25), 1.0).unwrap().into(),
+            Polyhedron::hull_of([o, x, z, x + z, -DVec3::Y]).unwrap().into(),
+            // Whose upper face lies in the plane, as its corners are powers of two.
+            Platonic::new("cube", -DVec3::Y, 3.0_f64.sqrt()).unwrap().into(),
+            Prism::new(
+                [[0.0, 0.0], [1.0, 0.0], [1.0, -1.0], [0.0, -1.0]].map(Into::into),
+                1.0,
+                -DVec3::Y,
+                DVec3::Y,
+            )
+            .unwrap()
+            .into(),
+            black_picture(),
         ]
+    }
+
+    /// Flat ground.
+    fn black_picture() -> Shape {
+        let image = Arc::new(Image::from_bytes([2, 2], 1, vec![0; 4]).unwrap());
+        let picture = ImageSource { path: String::new(), image };
+        Heightfield::new(picture, DVec2::ONE, 1.0, false).unwrap().into()
     }
 
     #[test]
@@ -147,10 +174,10 @@ mod tests {
         let shapes = one_of_each();
         let down = Ray::new(DVec3::new(0.25, 4.0, 0.25), DVec3::NEG_Y);
         let met = meetings(&shapes, &down, Span { min: 4.0, max: 4.0 });
-        assert_eq!(
-            met.iter().map(|met| met.shape).collect::<Vec<_>>(),
-            (0..shapes.len()).collect::<Vec<_>>()
-        );
+        // Where it meets the diagonals of faces, it meets two triangles of them.
+        let mut order: Vec<usize> = met.iter().map(|met| met.shape).collect();
+        order.dedup();
+        assert_eq!(order, (0..shapes.len()).collect::<Vec<_>>());
     }
 
     #[test]

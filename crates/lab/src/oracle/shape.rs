@@ -7,19 +7,20 @@ use num_bigint::{BigInt, Sign};
 
 use super::Place;
 use super::integer::{Vector, cross, dot, doublings, integer, minus, vector};
+use super::round::{Side, of_capsule};
 
 /// A ray whose origin and the shape's coordinates are integers of one scale, and whose direction is one of another.
-struct Line {
-    origin: Vector,
-    direction: Vector,
+pub(super) struct Line {
+    pub(super) origin: Vector,
+    pub(super) direction: Vector,
     /// Doublings that made coordinates integers.
-    scale: i32,
+    pub(super) scale: i32,
     /// What a parameter of the scaled ray must be doubled by to be one of the given ray.
-    doubled: i32,
+    pub(super) doubled: i32,
 }
 
 impl Line {
-    fn new(ray: &Ray, coordinates: impl IntoIterator<Item = f64>) -> Self {
+    pub(super) fn new(ray: &Ray, coordinates: impl IntoIterator<Item = f64>) -> Self {
         let most = |values: &mut dyn Iterator<Item = f64>| values.map(doublings).max().unwrap_or(0);
         let scale = most(&mut ray.origin.to_array().into_iter().chain(coordinates));
         let fine = most(&mut ray.direction.to_array().into_iter());
@@ -31,7 +32,7 @@ impl Line {
         }
     }
 
-    fn ratio(&self, p: BigInt, q: BigInt) -> Place {
+    pub(super) fn ratio(&self, p: BigInt, q: BigInt) -> Place {
         Place::ratio(p, q, self.doubled)
     }
 }
@@ -39,6 +40,15 @@ impl Line {
 /// Everything that a line meets of a shape, with the facets it lies on.
 pub(super) fn places(shape: &Shape, ray: &Ray) -> Vec<(Place, u32)> {
     let alone = |place: Option<Place>| place.map(|place| (place, 0)).into_iter().collect();
+    if let Some(mesh) = shape.as_mesh() {
+        let triangles = mesh.triangles();
+        let one = |i| of_polygon(&triangles.corners(i), ray).map(|place| (place, i));
+        return (0..triangles.triangles().len() as u32).filter_map(one).collect();
+    }
+    if let Some(solid) = shape.faceted() {
+        let facet = |i| solid.triangles(i).filter_map(move |t| Some((of_polygon(&t, ray)?, i)));
+        return (0..solid.count()).flat_map(facet).collect();
+    }
     match shape {
         Shape::Plane(plane) => {
             alone(of_plane(plane.point(), plane.upwards(), ray).map(|(_, [p, q], line)| line.ratio(p, q)))
@@ -55,11 +65,15 @@ pub(super) fn places(shape: &Shape, ray: &Ray) -> Vec<(Place, u32)> {
         }
         Shape::Disk(disk) => alone(of_disk(disk.center(), disk.upwards(), disk.radius(), ray)),
         Shape::Cuboid(cuboid) => of_box(&cuboid.object_bounds(), ray),
-        Shape::Mesh(mesh) => {
-            let triangles = mesh.triangles();
-            let one = |i| of_polygon(&triangles.corners(i), ray).map(|place| (place, i));
-            (0..triangles.triangles().len() as u32).filter_map(one).collect()
+        Shape::Cylinder(cylinder) => {
+            let side = Side::new(cylinder.ends(), [cylinder.radius(); 2], ray);
+            if cylinder.is_open() { side.places() } else { [side.places(), side.caps()].concat() }
         }
+        Shape::Cone(cone) => {
+            let side = Side::new(cone.ends(), cone.radii(), ray);
+            if cone.is_open() { side.places() } else { [side.places(), side.caps()].concat() }
+        }
+        Shape::Capsule(capsule) => of_capsule(capsule.ends(), capsule.radius(), ray),
         other => panic!("the reference has no test for a {}", other.kind_name()),
     }
 }
@@ -75,7 +89,7 @@ fn of_plane(point: DVec3, normal: DVec3, ray: &Ray) -> Option<(Vector, [BigInt; 
 }
 
 /// The quadratic equation of the sphere, solved as it stands.
-fn of_sphere(center: DVec3, radius: f64, ray: &Ray) -> Vec<(Place, u32)> {
+pub(super) fn of_sphere(center: DVec3, radius: f64, ray: &Ray) -> Vec<(Place, u32)> {
     let line = Line::new(ray, center.to_array().into_iter().chain([radius]));
     let from_center = minus(&line.origin, &vector(center, line.scale));
     let radius = integer(radius, line.scale);

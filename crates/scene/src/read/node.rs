@@ -1,10 +1,10 @@
 //! How a node is read: its kind, its name, its fields, its placement and, for a group, its members.
 
-use catoptra_core::{Field, FieldKind, Placement, Values};
+use catoptra_core::{Field, FieldKind, Placement, Rows, Value, Values};
 use kdl::{KdlEntry, KdlNode};
 
 use super::placement::STEPS;
-use super::value::{fits_property, value_span};
+use super::value::{arity, fits_property, value_span};
 use super::{Reader, hint_for_word, span_of};
 use crate::outline::{FieldText, Item, Sort, Span, Word};
 use crate::words;
@@ -139,8 +139,11 @@ impl Reader<'_> {
         match item.sort.field(name) {
             None => self.unknown(name, entry.name().map_or(span, |n| span_of(n.span())), item.sort),
             Some(field) if !fits_property(field.kind) => {
-                let help = format!("write it in the block of the node: {name} x y z");
-                self.complaints.add_with(span, format!("{name} takes three numbers"), help);
+                let (counts, numbers) = arity(field.kind);
+                let letters = ["x", "y", "z", "d"];
+                let letters = letters[..counts[0].min(letters.len())].join(" ");
+                let help = format!("write it in the block of the node: {name} {letters}");
+                self.complaints.add_with(span, format!("{name} takes {numbers}"), help);
             }
             Some(field) => {
                 let written =
@@ -181,7 +184,8 @@ impl Reader<'_> {
     /// Reads the values of a field, `written` but for them.
     fn read_field(&mut self, mut written: FieldText, entries: &[&KdlEntry], item: &mut Item) {
         let field = written.field;
-        if let Some(before) = item.fields.iter().find(|f| f.field.name == field.name) {
+        let may_repeat = matches!(field.kind, FieldKind::Rows(_));
+        if let Some(before) = item.fields.iter().find(|f| f.field.name == field.name && !may_repeat) {
             let first = before.span.start;
             self.complaints.add_again(written.span, format!("{} is given twice", field.name), first);
             return;
@@ -191,8 +195,13 @@ impl Reader<'_> {
             Some(painted) => self.paint(value, painted, field),
             None => Some(value),
         });
-        if let Some(value) = value {
-            item.given.set(field.name, value);
+        match (value, item.given.get(field.name)) {
+            (Some(Value::Rows(row)), Some(Value::Rows(rows))) => {
+                let rows = row.iter().fold(rows.clone(), Rows::with);
+                item.given.set(field.name, Value::Rows(rows));
+            }
+            (Some(value), _) => item.given.set(field.name, value),
+            (None, _) => {}
         }
         if matches!(field.kind, FieldKind::Texture) {
             written.word = entries.first().and_then(|e| e.value().as_string()).map(str::to_owned);

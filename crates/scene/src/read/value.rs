@@ -1,7 +1,7 @@
 //! How the value of a field is read from the values of a KDL node.
 
 use catoptra_core::glam::{DVec2, DVec3};
-use catoptra_core::{Field, FieldKind, Rgb, Value};
+use catoptra_core::{Field, FieldKind, Rgb, Rows, Value};
 use kdl::{KdlEntry, KdlValue};
 
 use super::{Files, Reader, span_of};
@@ -11,7 +11,9 @@ use crate::{slip, words};
 /// How many values a kind of field takes: the numbers allowed, and in words.
 pub(crate) fn arity(kind: FieldKind) -> (&'static [usize], &'static str) {
     match kind {
-        FieldKind::Point | FieldKind::Direction => (&[3], "three numbers"),
+        FieldKind::Point | FieldKind::Direction | FieldKind::Rows(3) => (&[3], "three numbers"),
+        FieldKind::Rows(2) => (&[2], "two numbers"),
+        FieldKind::Rows(_) => (&[4], "four numbers"),
         FieldKind::Color | FieldKind::Quantity => (&[3, 1], "three numbers (red green blue) or one (grey)"),
         FieldKind::Choice(_) => (&[1], "one word"),
         FieldKind::Mesh => (&[1], "the path of a mesh file"),
@@ -81,6 +83,10 @@ impl Reader<'_> {
                 let [x, y, z] = self.read_three(field.name, entries)?;
                 Some(Value::Vector(DVec3::new(x, y, z)))
             }
+            FieldKind::Rows(_) => {
+                let numbers = self.read_numbers(field.name, entries)?;
+                Some(Value::Rows(Rows::default().with(&numbers)))
+            }
             FieldKind::Color | FieldKind::Quantity if entries.len() == 1 => {
                 self.read_number(field.name, entries[0]).map(|v| Value::Color(Rgb::grey(v)))
             }
@@ -99,11 +105,13 @@ impl Reader<'_> {
 
     /// Three numbers; every one of them that is wrong is complained about.
     pub(super) fn read_three(&mut self, name: &str, entries: &[&KdlEntry]) -> Option<[f64; 3]> {
+        self.read_numbers(name, entries)?.try_into().ok()
+    }
+
+    /// A number for each entry; every one of them that is wrong is complained about.
+    fn read_numbers(&mut self, name: &str, entries: &[&KdlEntry]) -> Option<Vec<f64>> {
         let numbers: Vec<Option<f64>> = entries.iter().map(|entry| self.read_number(name, entry)).collect();
-        match numbers[..] {
-            [Some(x), Some(y), Some(z)] => Some([x, y, z]),
-            _ => None,
-        }
+        numbers.into_iter().collect()
     }
 
     /// A finite number.

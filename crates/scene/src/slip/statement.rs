@@ -78,15 +78,16 @@ fn is_value(written: &str) -> bool {
 
 /// What `word` takes in a block of that sort, or of the word `within`; an unknown one may be a node.
 pub(super) fn takes(word: &str, sort: Option<Sort>, within: Option<&str>, is_node: bool) -> Takes {
-    if let Some(own) = Sort::named(word) {
-        return Takes::Head(Some(own));
-    }
+    // A field may be called as a node is: the planes of a polyhedron.
     if let Some(field) = sort.and_then(|sort| sort.field(word)) {
         return match field.kind {
             kind if is_word(kind) => Takes::Words,
             FieldKind::Flag => Takes::Flag,
             kind => Takes::Numbers(arity(kind).0),
         };
+    }
+    if let Some(own) = Sort::named(word) {
+        return Takes::Head(Some(own));
     }
     if word == MATERIAL && matches!(sort, Some(Sort::Shape(_))) {
         return Takes::Words;

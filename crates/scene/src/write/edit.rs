@@ -1,11 +1,11 @@
 //! How the nodes that are in the text already follow the scene: names, values, materials, placements.
 
-use catoptra_core::Value;
 use catoptra_core::scene::Scene;
+use catoptra_core::{Field, FieldKind, Value};
 
 use super::layout::{self, INDENT};
 use super::splice::Splice;
-use super::value::{quoted, words};
+use super::value::{number, quoted, words};
 use super::{node, paint, placement};
 use crate::build::Id;
 use crate::outline::{FieldText, Item, Outline, Part};
@@ -56,6 +56,16 @@ fn edit_fields(text: &str, item: &Item, now: &Part, scene: &Scene, splices: &mut
     }
     let mut lines = Vec::new();
     for field in sort.fields() {
+        if let FieldKind::Rows(_) = field.kind {
+            lines.extend(edit_rows(
+                text,
+                item,
+                field,
+                [before.get(field.name), values.get(field.name)],
+                splices,
+            ));
+            continue;
+        }
         let written = item.fields.iter().find(|w| w.field.name == field.name);
         match (written, values.get(field.name)) {
             (Some(written), None) => splices.push(removal(text, written)),
@@ -65,11 +75,40 @@ fn edit_fields(text: &str, item: &Item, now: &Part, scene: &Scene, splices: &mut
                 let change = Change { written, old: before.get(field.name), new, scene };
                 lines.extend(change.splice(text, splices));
             }
-            (None, Some(new)) => lines.extend(node::field_line(field, new, scene)),
+            (None, Some(new)) => lines.extend(node::lines_of(field, new, scene)),
             (None, None) => {}
         }
     }
     lines
+}
+
+/// Changes and removes the rows of a field, one by one, given what they were and what they are; answers with the lines of
+/// those that are new.
+fn edit_rows(
+    text: &str,
+    item: &Item,
+    field: &Field,
+    [old, new]: [Option<&Value>; 2],
+    splices: &mut Vec<Splice>,
+) -> Vec<String> {
+    let rows = |value: Option<&'_ Value>| match value {
+        Some(Value::Rows(rows)) => rows.iter().map(<[f64]>::to_vec).collect(),
+        _ => Vec::new(),
+    };
+    let (old, new): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (rows(old), rows(new));
+    let written: Vec<&FieldText> = item.fields.iter().filter(|w| w.field.name == field.name).collect();
+    for (i, written) in written.iter().enumerate() {
+        let Some(row) = new.get(i) else {
+            splices.push(removal(text, written));
+            continue;
+        };
+        for (k, (now, span)) in row.iter().zip(&written.values).enumerate() {
+            if old.get(i).and_then(|row| row.get(k)) != Some(now) {
+                splices.push(Splice::new(span.clone(), number(*now)));
+            }
+        }
+    }
+    new.iter().skip(written.len()).map(|row| node::row_line(field, row)).collect()
 }
 
 /// A field that is written otherwise than it should be now.

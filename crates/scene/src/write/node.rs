@@ -5,18 +5,27 @@ use catoptra_core::{Field, FieldKind, Value};
 
 use super::layout::INDENT;
 use super::placement;
-use super::value::{paint, quoted, words};
+use super::value::{number, paint, quoted, words};
 use crate::build::Id;
 use crate::outline::Part;
 use crate::read::MATERIAL;
 use crate::state::State;
 
-/// The line of a field; `None` where the value is what it is when the field is left out.
-pub(super) fn field_line(field: &Field, value: &Value, scene: &Scene) -> Option<String> {
+/// The lines of a field: one for each row, or one in all; none where the value is what it is when the field is left out.
+pub(super) fn lines_of(field: &Field, value: &Value, scene: &Scene) -> Vec<String> {
     if field.default.is_some_and(|default| default() == *value) {
-        return None;
+        return Vec::new();
     }
-    Some(whole_line(field, value, scene))
+    match value {
+        Value::Rows(rows) => rows.iter().map(|row| row_line(field, row)).collect(),
+        value => vec![whole_line(field, value, scene)],
+    }
+}
+
+/// The line of a row.
+pub(super) fn row_line(field: &Field, row: &[f64]) -> String {
+    let words: Vec<String> = row.iter().copied().map(number).collect();
+    format!("{} {}", field.name, words.join(" "))
 }
 
 /// The line of a field.
@@ -90,7 +99,6 @@ fn head(state: &State) -> String {
 
 fn field_lines(part: &Part, scene: &Scene) -> Vec<String> {
     let values = part.values();
-    let line =
-        |field: &'static Field| values.get(field.name).and_then(|value| field_line(field, value, scene));
-    part.sort().fields().filter_map(line).collect()
+    let given = part.sort().fields().filter_map(|field| Some((field, values.get(field.name)?)));
+    given.flat_map(|(field, value)| lines_of(field, value, scene)).collect()
 }

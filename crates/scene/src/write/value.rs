@@ -20,6 +20,7 @@ pub(crate) fn words(kind: FieldKind, value: &Value, scene: &Scene) -> Vec<String
         Value::Image(source) => vec![quoted(&source.path)],
         Value::Texture(texture) => vec![quoted(scene.texture_name(*texture).unwrap_or_default())],
         Value::Textured(textured) => words(kind, &textured.base, scene),
+        Value::Rows(rows) => rows.iter().flatten().copied().map(number).collect(),
     }
 }
 

@@ -6,6 +6,7 @@ use catoptra_core::scene::{Edit, EntityId, Integrator, Node, Role, Scene, Settin
 use catoptra_core::{Placement, Rgb, Shape, Value, Values};
 use catoptra_scene::{SceneFile, load, parse};
 
+mod rows;
 mod structure;
 mod values;
 

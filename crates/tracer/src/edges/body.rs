@@ -68,6 +68,11 @@ pub(crate) enum Body {
 
 impl Body {
     pub(crate) fn of(shape: &Shape) -> Self {
+        if let Some(solid) = shape.faceted().filter(|solid| solid.is_convex()) {
+            let outline = |facet| solid.outline(facet).iter().map(|&i| i as usize).collect();
+            let faces: Vec<Vec<usize>> = (0..solid.count()).map(outline).collect();
+            return Self::solid(solid.corners(), &faces.iter().map(Vec::as_slice).collect::<Vec<_>>());
+        }
         match shape {
             Shape::Plane(plane) => {
                 Self::Plane(Level::through(plane.point(), plane.normal().normalize_or_zero()))
@@ -157,7 +162,7 @@ impl Body {
                 Some(flat)
             })
             .collect();
-        let Some(flats) = flats else { return Self::Other(None) };
+        let Some(flats) = flats else { return Self::Other(Some(Aabb::of(corners.iter().copied()))) };
         let mut rims: Vec<([usize; 2], Rim)> = Vec::new();
         for (side, face) in faces.iter().enumerate() {
             for i in 0..face.len() {

@@ -179,7 +179,7 @@ impl<'a, S: Simd> Shader<'a, S> {
                 answered = answered & !(seeing & self.may_hide(&outline, prim, lamp, point));
                 continue;
             }
-            if let Shape::Mesh(_) = shape {
+            if shape.as_mesh().is_some() {
                 let [e, f, g, h, i] = outline.planes();
                 let cones =
                     ViewCones { tip: point, planes: [e, f, g, h, i, ground], lanes: seeing & !sampled };

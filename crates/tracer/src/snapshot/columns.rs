@@ -180,6 +180,12 @@ impl Columns {
         if prim.member.is_some() || !is_ordinary(shape) {
             return Row::General;
         }
+        if let Some(mesh) = shape.as_mesh() {
+            let Some(tree) = prim.mesh else { return Row::General };
+            let tree = Arc::clone(&meshes[tree as usize]);
+            let instance = Instance { prim: id, tree, to_object: Affine::of(mesh.to_object()) };
+            return Row::Instance(push(&mut self.kernels.instances, instance));
+        }
         match shape {
             Shape::Plane(plane) => {
                 Row::Plane(push(&mut self.kernels.planes, PlaneRow::new(plane.point(), plane.normal(), id)))
@@ -200,14 +206,6 @@ impl Columns {
             }
             Shape::Triangle(t) => self.add_facets(id, &[t.corners()]),
             Shape::Tetrahedron(t) => self.add_facets(id, &[0, 1, 2, 3].map(|face| t.face(face))),
-            Shape::Mesh(mesh) => match prim.mesh {
-                Some(tree) => {
-                    let tree = Arc::clone(&meshes[tree as usize]);
-                    let instance = Instance { prim: id, tree, to_object: Affine::of(mesh.to_object()) };
-                    Row::Instance(push(&mut self.kernels.instances, instance))
-                }
-                None => Row::General,
-            },
             _ => Row::General,
         }
     }

@@ -39,15 +39,15 @@ impl Snapshot {
                 held.push(SurfaceId { prim, facet });
             }
         };
-        match (shape, self.prims[prim as usize].mesh) {
-            (Shape::Mesh(mesh), Some(tree)) => {
+        match (shape.as_mesh(), self.prims[prim as usize].mesh) {
+            (Some(mesh), Some(tree)) => {
                 let own = mesh.to_object().point(point);
                 let bounds = mesh.triangles().bounds();
                 let size = bounds.min.abs().max(bounds.max.abs()).max_element();
                 let placed = point.abs().max_element() * mesh.to_object().scale();
                 self.index.meshes[tree as usize].tree.around(own, reach(size + placed), add);
             }
-            (Shape::Plane(_), _) => add(0),
+            _ if matches!(shape, Shape::Plane(_)) => add(0),
             _ => (0..catoptra_core::contour::Lamp::facets(shape)).for_each(add),
         }
     }
@@ -72,7 +72,7 @@ impl Snapshot {
         mut left: impl Iterator<Item = u32> + Clone,
     ) -> bool {
         let shape = &self.prims[prim as usize].shape;
-        let (Shape::Mesh(mesh), Some(tree)) = (shape, self.prims[prim as usize].mesh) else {
+        let (Some(mesh), Some(tree)) = (shape.as_mesh(), self.prims[prim as usize].mesh) else {
             // A ray that leaves a solid by any of its faces does not meet it again.
             return left.all(|facet| shape.cross(segment.ray, segment.span, Some(facet)).is_some());
         };

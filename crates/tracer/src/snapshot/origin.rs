@@ -61,8 +61,13 @@ fn moves_exactly(shape: &Shape, origin: DVec3) -> bool {
         let stays = Placement::IDENTITY.moved(placement.translation());
         stays.is_ok_and(|stays| stays == *placement) && is_exact(placement.translation(), origin)
     };
+    if let Some(mesh) = shape.as_mesh() {
+        return plain(mesh.placement());
+    }
+    if let Some(solid) = shape.faceted() {
+        return solid.corners().iter().all(|corner| is_exact(*corner, origin));
+    }
     match shape {
-        Shape::Mesh(mesh) => plain(mesh.placement()),
         Shape::Cuboid(cuboid) => plain(cuboid.placement()),
         shape => shape.kind().fields.iter().all(|field| match shape.values().get(field.name) {
             Some(Value::Vector(point)) if field.kind == FieldKind::Point => is_exact(*point, origin),

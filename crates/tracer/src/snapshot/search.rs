@@ -195,10 +195,7 @@ impl Snapshot {
 
     /// The mesh that a shape is, if it is one.
     pub(crate) fn mesh_at(&self, prim: u32) -> Option<&Mesh> {
-        match &self.prims[prim as usize].shape {
-            Shape::Mesh(mesh) => Some(mesh),
-            _ => None,
-        }
+        self.prims[prim as usize].shape.as_mesh()
     }
 
     /// Where a ray crosses one shape; meshes by their tree.
@@ -208,12 +205,13 @@ impl Snapshot {
             return Some(Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing });
         }
         let leaving = leaving_facet(prim, segment.leaving);
-        let crossing = match (&*self.shape(segment, prim), self.prims[prim as usize].mesh) {
-            (Shape::Mesh(mesh), Some(tree)) => {
+        let shape = self.shape(segment, prim);
+        let crossing = match (shape.as_mesh(), self.prims[prim as usize].mesh) {
+            (Some(mesh), Some(tree)) => {
                 let tree = &self.index.meshes[tree as usize].tree;
                 cross_mesh(mesh, tree, &mesh.own_ray(segment.ray), segment.span, leaving)
             }
-            (shape, _) => shape.cross(segment.ray, segment.span, leaving),
+            _ => shape.cross(segment.ray, segment.span, leaving),
         }?;
         Some(Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing })
     }

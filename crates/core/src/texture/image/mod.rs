@@ -15,7 +15,7 @@ pub use levels::{Levels, Wrap};
 use pyramid::{Pyramid, linear_copy};
 
 use super::Texel;
-use crate::InvalidPart;
+use crate::{InvalidPart, Rgb};
 
 /// How the numbers of a picture stand for light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -156,6 +156,14 @@ impl Image {
     pub fn pixel(&self, x: u32, y: u32) -> Texel {
         let (x, y) = (x.min(self.width() - 1), y.min(self.height() - 1));
         levels::light_of(&self.plane, self.natural, x, y).texel()
+    }
+
+    /// The pixel in column `x` from the left and row `y` from the top, its numbers as they are (whole ones as shares of the
+    /// largest); the last one beyond the border.
+    #[must_use]
+    pub fn plain_pixel(&self, x: u32, y: u32) -> Rgb {
+        let (x, y) = (x.min(self.width() - 1), y.min(self.height() - 1));
+        levels::light_of(&self.plane, Encoding::Linear, x, y).texel().color
     }
 
     /// The picture as light, with its smaller copies.

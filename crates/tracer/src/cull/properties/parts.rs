@@ -8,8 +8,8 @@ use catoptra_core::geometry::Plane;
 use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::light::Pole;
 use catoptra_core::{
-    Field, FieldKind, IntensityProfile, Kind, Light, MeshSource, Placement, ProfileSource, Rgb, Shape,
-    TriangleMesh, Value, Values,
+    Field, FieldKind, Image, ImageSource, IntensityProfile, Kind, Light, MeshSource, Placement,
+    ProfileSource, Rgb, Rows, Shape, TriangleMesh, Value, Values,
 };
 
 use crate::random::Random;
@@ -62,7 +62,10 @@ impl Given {
             FieldKind::Mesh => Value::Mesh(some_mesh(random, size)),
             FieldKind::Profile => Value::Profile(some_profile(random)),
             FieldKind::Pair => Value::Pair(DVec2::splat(size)),
-            FieldKind::Image | FieldKind::Texture => unreachable!("neither shapes nor lights have one"),
+            FieldKind::Image => Value::Image(some_picture(random)),
+            FieldKind::Rows(2) => Value::Rows(some_outline(random, size)),
+            FieldKind::Rows(_) => Value::Rows(Rows::of([(); 8].map(|()| (random.point() * size).to_array()))),
+            FieldKind::Texture => unreachable!("neither shapes nor lights have one"),
         }
     }
 }
@@ -75,6 +78,21 @@ fn some_mesh(random: &mut Random, size: f64) -> MeshSource {
         (0..2 + random.bits() % 6).map(|_| [(); 3].map(|()| (random.bits() % 6) as u32)).collect();
     let mesh = TriangleMesh::new(positions, triangles, None, None).unwrap();
     MeshSource { path: String::new(), mesh: Arc::new(mesh) }
+}
+
+/// A grey picture of a few pixels.
+fn some_picture(random: &mut Random) -> ImageSource {
+    let bytes = (0..12).map(|_| random.bits() as u8).collect();
+    ImageSource { path: String::new(), image: Arc::new(Image::from_bytes([4, 3], 1, bytes).unwrap()) }
+}
+
+/// Corners round zero, nearer and farther.
+fn some_outline(random: &mut Random, size: f64) -> Rows {
+    Rows::of([0, 1, 2, 3, 4, 5].map(|i| {
+        let (sine, cosine) = f64::from(i).sin_cos();
+        let out = size * random.power(-2, 0);
+        [cosine * out, sine * out]
+    }))
 }
 
 /// Light into a cap round nadir.
@@ -90,7 +108,8 @@ fn some_part<T>(random: &mut Random, kind: &Kind<T>, size: f64) -> T {
         let mut given = Given::default();
         // Of two fields one is given.
         let mut fields: Vec<_> = kind.fields.iter().collect();
-        fields.retain(|field| !(["power", "file"].contains(&field.name) && kind.field("radiance").is_some()));
+        let place = |name: &str| kind.fields.iter().position(|field| field.name == name);
+        fields.retain(|field| field.instead_of.is_none_or(|other| place(field.name) < place(other)));
         let fields = fields.into_iter();
         let values = fields.map(|field| (field.name, given.value(random, field, size)));
         (kind.make)(&values.fold(Values::new(), |values, (name, value)| values.with(name, value)))
@@ -133,10 +152,14 @@ pub(super) fn moved(shape: &Shape, by: DVec3) -> Shape {
 
 /// Points of a shape's rim, where its kind has any; corners of its box where the kind is not known here.
 pub(super) fn rim(shape: &Shape) -> Vec<DVec3> {
-    let round = |center: DVec3, axis: DVec3, radius: f64| {
+    let round = |center: DVec3, axis: DVec3, radius: f64| -> Vec<DVec3> {
         let a = axis.any_orthonormal_vector();
         let b = axis.cross(a);
         (0..8).map(|i| center + (a * f64::from(i).sin() + b * f64::from(i).cos()) * radius).collect()
+    };
+    let swept = |[from, to]: [DVec3; 2], [lower, upper]: [f64; 2]| -> Vec<DVec3> {
+        let axis = (to - from).normalize();
+        [round(from, axis, lower), round(to, axis, upper)].concat()
     };
     match shape {
         Shape::Plane(p) => {
@@ -152,10 +175,13 @@ pub(super) fn rim(shape: &Shape) -> Vec<DVec3> {
             vec![r.corner(), r.corner() + u, r.corner() + u + v, r.corner() + v]
         }
         Shape::Cuboid(c) => c.object_bounds().corners().map(|p| c.placement().point(p)).to_vec(),
-        Shape::Mesh(m) => {
+        shape if shape.as_mesh().is_some() => shape.as_mesh().map_or_else(Vec::new, |m| {
             let corners = m.triangles().positions().iter();
             corners.map(|p| m.placement().point(DVec3::from(p.map(f64::from)))).collect()
-        }
+        }),
+        shape if shape.faceted().is_some() => shape.faceted().map_or_else(Vec::new, |s| s.corners().to_vec()),
+        Shape::Cylinder(c) => swept(c.ends(), [c.radius(); 2]),
+        Shape::Cone(c) => swept(c.ends(), c.radii()),
         shape => shape.bounds().map_or_else(Vec::new, |bounds| bounds.corners().to_vec()),
     }
 }
@@ -166,6 +192,15 @@ pub(super) fn farthest(shape: &Shape, along: DVec3) -> DVec3 {
         Shape::Sphere(s) => s.center() + along * s.radius(),
         Shape::Disk(d) => {
             d.center() + along.reject_from_normalized(d.normal()).normalize_or_zero() * d.radius()
+        }
+        Shape::Capsule(c) => {
+            let [from, to] = c.ends();
+            (if (to - from).dot(along) > 0.0 { to } else { from }) + along * c.radius()
+        }
+        Shape::Cylinder(c) => {
+            let [from, to] = c.ends();
+            (if (to - from).dot(along) > 0.0 { to } else { from })
+                + along.reject_from_normalized(c.axis()).normalize_or_zero() * c.radius()
         }
         shape => {
             let rim = rim(shape).into_iter();
