@@ -47,7 +47,9 @@ fn looking(camera: &Camera, eye: DVec3, target: DVec3, up: DVec3) -> Camera {
 fn magnified(camera: Camera, factor: f64) -> Camera {
     match camera.extent() {
         Extent::Angle(_) => camera,
-        Extent::Height(height) => camera.clone().with_extent(Extent::Height(height * factor)).unwrap_or(camera),
+        Extent::Height(height) => {
+            camera.clone().with_extent(Extent::Height(height * factor)).unwrap_or(camera)
+        }
     }
 }
 
