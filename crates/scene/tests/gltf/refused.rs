@@ -171,6 +171,30 @@ fn what_multiplies_is_bounded() {
 }
 
 #[test]
+fn what_stands_beyond_all_numbers_is_refused() {
+    let with = |node: Value| {
+        let mut file = Builder::with_triangle();
+        let mut outer = node.clone();
+        outer["children"] = json!([1]);
+        let mut inner = node;
+        inner["mesh"] = json!(0);
+        file.push("nodes", outer);
+        file.push("nodes", inner);
+        file.refusal()
+    };
+    for node in [
+        json!({ "scale": [1e30, 1e30, 1e30] }),
+        json!({ "scale": [1e-30, 1e-30, 1e-30] }),
+        json!({ "scale": [1e300, 1e300, 1e300] }),
+        json!({ "translation": [3e38, 0, 0] }),
+        json!({ "translation": [1, 0, 1e300] }),
+    ] {
+        let refused = with(node.clone());
+        assert!(refused.contains("numbers do not go so far"), "{node}: {refused}");
+    }
+}
+
+#[test]
 fn sparse_places_must_grow_and_lie_within() {
     for places in [[1_u16, 1], [2, 1], [1, 3]] {
         let mut file = Builder::new();

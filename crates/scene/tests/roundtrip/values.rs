@@ -2,7 +2,7 @@
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::scene::{Edit, Integrator, Settings};
-use catoptra_core::{Camera, Placement, Rgb, Value};
+use catoptra_core::{Camera, Extent, Placement, Rgb, Value};
 use catoptra_scene::parse;
 
 use super::{difference, edited, id, place, set_shape, start};
@@ -146,6 +146,17 @@ fn an_occlusion_distance_comes_and_goes() {
     scene.apply(Edit::Settings(now.with_integrator(Integrator::Whitted))).unwrap();
     file.update(&scene);
     assert!(file.text().contains("integrator \"whitted\"") && file.text().contains("occlusion-distance 2.5"));
+}
+
+#[test]
+fn a_camera_that_becomes_orthographic_has_a_height_for_its_angle() {
+    let text = edited(|scene| {
+        let main = id(scene, "main");
+        let camera = scene.camera(main).unwrap().with_extent(Extent::Height(4.0)).unwrap();
+        scene.apply(Edit::Camera(main, camera)).unwrap();
+    });
+    let has = |words: &str| text.contains(words);
+    assert!(has("projection \"orthographic\"") && has("height 4") && !has("fov"), "{text}");
 }
 
 #[test]

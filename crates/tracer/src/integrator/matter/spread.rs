@@ -59,3 +59,39 @@ impl Spread {
         Self::Cone { width: width + growth * t * length, growth: growth + wider }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use catoptra_core::{Camera, Extent};
+
+    use super::*;
+
+    /// Where the rays of the pixels beside meet a plane, from where a pixel's own does.
+    #[test]
+    fn pixels_beside_lie_where_their_rays_meet_the_surface() {
+        let camera = Camera::looking(DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.2, -0.3, -1.0), DVec3::Y, 0.8);
+        let camera = camera.expect("a camera");
+        let parallel = camera.clone().with_extent(Extent::Height(2.5)).expect("a height");
+        let (normal, distance) = (DVec3::new(0.3, 0.5, 0.8).normalize(), -4.0);
+        for camera in [camera, parallel] {
+            let raster = camera.raster(64, 48);
+            let met = |x: f64, y: f64| {
+                let ray = raster.ray(x, y);
+                let t = (distance - normal.dot(ray.origin)) / normal.dot(ray.direction);
+                (ray, t, ray.at(t))
+            };
+            for (x, y) in [(32.0, 24.0), (0.5, 0.5), (60.5, 3.5)] {
+                let (ray, t, here) = met(x, y);
+                let found = Spread::of_pixel(&raster, 0.5).on_surface(&ray, t, normal);
+                let wanted = [met(x + 0.5, y).2 - here, met(x, y + 0.5).2 - here];
+                for (found, wanted) in found.into_iter().zip(wanted) {
+                    assert!((found - wanted).length() < 1e-9, "{camera:?}: {found} for {wanted}");
+                }
+                let Spread::Cone { width, .. } = Spread::of_pixel(&raster, 0.5).after(&ray, t, 0.0) else {
+                    panic!()
+                };
+                assert!(width > 0.0 && width <= wanted[0].length().max(wanted[1].length()) * 1.0001);
+            }
+        }
+    }
+}

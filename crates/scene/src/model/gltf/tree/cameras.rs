@@ -42,7 +42,7 @@ fn of(given: &json::Camera, outer: Outer, warnings: &Warnings) -> Result<Option<
         return Ok(None);
     };
     // Half of what is seen; some programs write it below 0.
-    let height = 2.0 * orthographic.ymag.abs() / outer.scale;
+    let height = 2.0 * orthographic.ymag.abs() / outer.world.scale();
     let camera = Camera::looking(DVec3::ZERO, forward, up, PI / 2.0)?.with_extent(Extent::Height(height));
     camera.map(Some).map_err(Refusal::new).within(|| "orthographic.ymag".to_owned())
 }

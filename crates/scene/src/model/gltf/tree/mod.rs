@@ -13,8 +13,9 @@ mod skeleton;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use catoptra_core::Node;
 use catoptra_core::glam::{DAffine3, DMat3};
+use catoptra_core::part::LARGEST;
+use catoptra_core::{Node, Placement};
 
 pub(super) use frame::Rest;
 
@@ -49,18 +50,31 @@ pub(super) struct Tree<'a, 's> {
 struct Outer {
     /// What is left of the matrices round it beside their placements.
     rest: Rest,
-    /// How much those scale.
-    scale: f64,
+    /// What those make of its own.
+    world: Placement,
     /// In how many nodes it lies.
     depth: usize,
 }
 
 impl Outer {
-    const WORLD: Self = Self { rest: Rest::NONE, scale: 1.0, depth: 0 };
+    const WORLD: Self = Self { rest: Rest::NONE, world: Placement::IDENTITY, depth: 0 };
 
     /// What stands in a node that itself stands so.
-    fn holding(self, frame: &Frame) -> Self {
-        Self { rest: frame.rest, scale: self.scale * frame.placement.scale(), depth: self.depth + 1 }
+    ///
+    /// # Errors
+    /// It stands too far away for numbers, or is too large or small for them.
+    fn holding(self, frame: &Frame) -> Result<Self, Refusal> {
+        let world = frame.placement.then(&self.world);
+        let far = world.translation().abs().max_element();
+        if !(far <= LARGEST && (1.0 / LARGEST..=LARGEST).contains(&world.scale())) {
+            let [x, y, z] = world.translation().to_array();
+            let message = format!(
+                "stands at {x:e} {y:e} {z:e}, scaled by {:e}: numbers do not go so far",
+                world.scale()
+            );
+            return Err(Refusal::new(message));
+        }
+        Ok(Self { rest: frame.rest, world, depth: self.depth + 1 })
     }
 }
 
@@ -108,8 +122,8 @@ impl<'a, 's> Tree<'a, 's> {
         let (of_content, kind) = self.naming(given);
         let own = given.name.as_deref().filter(|name| !name.trim().is_empty());
         let name = self.names.unique(own.or(of_content), kind);
-        let inner = outer.holding(&frame);
-        let mut parts = self.shapes(index, &name, inner.rest)?;
+        let inner = outer.holding(&frame).within(path)?;
+        let mut parts = self.shapes(index, &name, inner)?;
         parts.extend(self.others(given, &name, inner).within(path)?);
         let is_alone = parts.len() == 1 && given.children.is_empty();
         for part in &mut parts {

@@ -16,13 +16,13 @@ use crate::model::gltf::refusal::{Refusal, Within};
 
 impl Tree<'_, '_> {
     /// The mesh of a node.
-    pub(super) fn shapes(&mut self, node: usize, owner: &str, rest: Rest) -> Result<Vec<Node>, Refusal> {
+    pub(super) fn shapes(&mut self, node: usize, owner: &str, outer: Outer) -> Result<Vec<Node>, Refusal> {
         let given = &self.source.document.nodes[node];
         let path = || format!("nodes[{node}]");
         let Some(index) = given.mesh else { return Ok(Vec::new()) };
         let mesh = entry(&self.source.document.meshes, index, "meshes").within(path)?;
         let mesh = (index.index(), mesh);
-        let mut pose = Pose { weights: &given.weights, skin: None, rest };
+        let mut pose = Pose { weights: &given.weights, skin: None, rest: outer.rest };
         if let Some(skin) = given.skin.filter(|_| self.can_be_skinned(mesh.1)) {
             let joints = self.joints_of(skin).referred().within(path)?;
             pose = Pose { skin: Some((skin.0, &joints)), rest: Rest::NONE, ..pose };
@@ -41,7 +41,8 @@ impl Tree<'_, '_> {
             .within(path)?;
         let mut shapes = Vec::new();
         for local in &locals {
-            let Some(frame) = Frame::within(rest, local).within(path)? else { continue };
+            let Some(frame) = Frame::within(outer.rest, local).within(path)? else { continue };
+            outer.holding(&frame).within(path)?;
             let pose = Pose { rest: frame.rest, ..pose };
             for shape in self.primitives(mesh, &pose, owner)? {
                 let placement = shape.placement.then(&frame.placement);
