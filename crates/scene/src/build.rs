@@ -2,8 +2,10 @@
 
 use std::collections::HashMap;
 
-use catoptra_core::scene::{Content, Edit, EntityId, MaterialId, Node, Scene, Subtree, TextureId};
+use catoptra_core::scene::{Content, Edit, EntityId, MaterialId, Node, Role, Scene, Subtree, TextureId};
 
+use crate::instance::{self, Instance, Override, Overrides};
+use crate::model::Model;
 use crate::outline::{Item, Outline, Part, Sort, Word};
 use crate::report::Complaints;
 use crate::words;
@@ -15,25 +17,30 @@ pub(crate) enum Id {
     Texture(TextureId),
     Material(MaterialId),
     Entity(EntityId),
+    /// What the text says of a part of a model; `None` where it is left out.
+    Part(Option<EntityId>),
 }
 
 /// Builds the scene, and answers with what each item of the outline has become. If anything is wrong it goes to
 /// `complaints`, and the scene is not whole.
-pub(crate) fn build(outline: &Outline, complaints: &mut Complaints) -> (Scene, Vec<Id>) {
+pub(crate) fn build(outline: &Outline, complaints: &mut Complaints) -> (Scene, Vec<Id>, Vec<Instance>) {
     let mut builder = Builder {
         scene: Scene::new(),
         complaints,
         first: HashMap::new(),
-        materials: HashMap::new(),
         names: Vec::new(),
+        models: Vec::new(),
         ids: vec![None; outline.items.len()],
     };
     builder.check_names(outline);
     builder.add_textures(outline);
     builder.add_materials(outline);
+    builder.add_models(outline);
     builder.add_entities(outline);
+    let scene = &builder.scene;
+    builder.models.iter_mut().for_each(|model| model.note(scene));
     let ids = builder.ids.into_iter().map(|id| id.unwrap_or(Id::Settings)).collect();
-    (builder.scene, ids)
+    (builder.scene, ids, builder.models)
 }
 
 struct Builder<'a> {
@@ -41,9 +48,9 @@ struct Builder<'a> {
     complaints: &'a mut Complaints,
     /// Where every name was first given, by what shares a list of names.
     first: HashMap<(&'static str, &'a str), usize>,
-    materials: HashMap<&'a str, MaterialId>,
+    models: Vec<Instance>,
     /// Names of all materials, those that could not be made too.
-    names: Vec<&'a str>,
+    names: Vec<String>,
     ids: Vec<Option<Id>>,
 }
 
@@ -68,6 +75,8 @@ impl<'a> Builder<'a> {
         let whose = match item.sort {
             Sort::Texture(_) => "texture",
             Sort::Material(_) => "material",
+            // The name of a part is one that its file gives.
+            Sort::Part => return,
             _ => "shape, light, camera or group",
         };
         let key = (whose, name.value.as_str());
@@ -78,7 +87,7 @@ impl<'a> Builder<'a> {
         }
         self.first.insert(key, item.span.start);
         if matches!(item.sort, Sort::Material(_)) {
-            self.names.push(&name.value);
+            self.names.push(name.value.clone());
         }
     }
 
@@ -98,7 +107,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn add_materials(&mut self, outline: &'a Outline) {
+    fn add_materials(&mut self, outline: &Outline) {
         for (i, item) in outline.items.iter().enumerate() {
             let (Some(Part::Material(material, finish)), Some(name)) = (&item.part, &item.name) else {
                 continue;
@@ -110,10 +119,7 @@ impl<'a> Builder<'a> {
                 added = Err(error);
             }
             match added {
-                Ok(id) => {
-                    self.ids[i] = Some(Id::Material(id));
-                    self.materials.insert(&name.value, id);
-                }
+                Ok(id) => self.ids[i] = Some(Id::Material(id)),
                 Err(error) => self.refused(item, &error),
             }
         }
@@ -125,6 +131,14 @@ impl<'a> Builder<'a> {
                 self.check_material(item);
                 continue;
             };
+            match item.sort {
+                Sort::Part => continue,
+                Sort::Model => {
+                    self.add_model(i, outline);
+                    continue;
+                }
+                _ => {}
+            }
             let content = match part {
                 Part::Texture(_) | Part::Material(..) => continue,
                 Part::Settings(settings) => {
@@ -151,7 +165,7 @@ impl<'a> Builder<'a> {
         // The members of a group that was refused are left out: the group has been complained about.
         let parent = match item.parent.map(|parent| self.ids[parent]) {
             None => None,
-            Some(Some(Id::Entity(parent))) => Some(parent),
+            Some(Some(Id::Entity(parent) | Id::Part(Some(parent)))) => Some(parent),
             Some(_) => return,
         };
         let name = item.name.as_ref().map(|name| name.value.clone()).unwrap_or_default();
@@ -163,12 +177,93 @@ impl<'a> Builder<'a> {
         }
     }
 
+    /// Adds the textures and materials of all models: shapes may wear them wherever they stand.
+    fn add_models(&mut self, outline: &Outline) {
+        for item in &outline.items {
+            let (Some(source), Some(name)) = (&item.model, &item.name) else { continue };
+            match Instance::add_looks(&mut self.scene, &name.value, source) {
+                Ok(instance) => {
+                    self.names.extend(instance.material_names(source));
+                    self.models.push(instance);
+                }
+                Err(error) if self.complaints.count() == 0 => {
+                    self.complaints.add(name.span.clone(), error);
+                }
+                Err(_) => {}
+            }
+        }
+    }
+
+    /// Adds what a model holds, as the parts in its block change it.
+    fn add_model(&mut self, place: usize, outline: &Outline) {
+        let item = &outline.items[place];
+        let (Some(source), Some(name)) = (&item.model, &item.name) else { return };
+        let Some(at) = self.models.iter().position(|model| model.name() == name.value) else { return };
+        let parts = self.overrides(place, outline, &source.model);
+        let content = match self.models[at].members(source, &parts) {
+            Ok(members) => Content::Group(members),
+            Err(error) => return self.complaints.add(name.span.clone(), error.to_string()),
+        };
+        self.insert(place, item, content);
+        let Some(Id::Entity(root)) = self.ids[place] else { return };
+        self.models[at].settle(&self.scene, root);
+        for (i, part) in outline.items.iter().enumerate() {
+            if let (Sort::Part, Some(named), true) = (part.sort, &part.name, part.parent == Some(place)) {
+                let id = self.scene.entity_named(&instance::full_name(&name.value, &named.value));
+                self.ids[i] = Some(Id::Part(id));
+                if id.is_none_or(|id| self.scene.role(id) != Some(Role::Group)) {
+                    self.refuse_members(i, outline);
+                }
+            }
+        }
+    }
+
+    /// A part that is no group has no members.
+    fn refuse_members(&mut self, part: usize, outline: &Outline) {
+        if let Some(member) = outline.items.iter().find(|item| item.parent == Some(part)) {
+            self.complaints.add(member.word.clone(), "this part cannot have members; only a group can");
+        }
+    }
+
+    /// What the text says of the parts of a model, by their names.
+    fn overrides(&mut self, place: usize, outline: &Outline, model: &Model) -> Overrides {
+        let mut parts = Overrides::new();
+        let known = instance::names(model);
+        for item in outline.items.iter().filter(|item| item.parent == Some(place)) {
+            let (Sort::Part, Some(name)) = (item.sort, &item.name) else { continue };
+            let Some(node) = instance::find(model, &name.value) else {
+                let help = self.complaints.hint(|| words::hint(&name.value, &known, "parts"));
+                let message = format!("the model has no part \"{}\"", name.value);
+                self.complaints.add_with(name.span.clone(), message, help);
+                continue;
+            };
+            if item.material.is_some() && node.role() != Role::Shape {
+                self.complaints.add(item.word.clone(), "only a part that is a shape has a material");
+            }
+            if item.removed && (item.material.is_some() || !item.steps.is_empty()) {
+                let help = "leave out remove, or everything else";
+                self.complaints.add_with(item.word.clone(), "this part is removed and changed", help);
+            }
+            let change = Override {
+                placement: (!item.steps.is_empty()).then_some(item.placement),
+                material: self.check_material(item),
+                removed: item.removed,
+            };
+            if parts.insert(name.value.clone(), change).is_some() {
+                let message = format!("the part \"{}\" is given twice", name.value);
+                self.complaints.add(name.span.clone(), message);
+            }
+        }
+        parts
+    }
+
     /// The material that a shape names, if it is there.
     fn check_material(&mut self, item: &Item) -> Option<MaterialId> {
         let word = item.material.as_ref()?;
-        let found = self.materials.get(word.value.as_str()).copied();
-        if found.is_none() && !word.value.is_empty() && !self.names.contains(&word.value.as_str()) {
-            let help = self.complaints.hint(|| words::hint(&word.value, &self.names, "materials"));
+        let found = self.scene.material_named(&word.value);
+        if found.is_none() && !word.value.is_empty() && !self.names.contains(&word.value) {
+            let names: Vec<&str> = self.names.iter().map(String::as_str).collect();
+            let help = self.complaints.hint(|| words::hint(&word.value, &names, "materials"));
             let message = format!("there is no material \"{}\"", word.value);
             self.complaints.add_with(word.span.clone(), message, help);
         }

@@ -9,8 +9,9 @@ use catoptra_core::scene::Scene;
 use crate::atomic;
 use crate::build::{self, Id};
 use crate::disk::{self, OnDisk};
-use crate::foreign;
-use crate::outline::Outline;
+use crate::{bare, foreign, model};
+use crate::instance::{self, Instance};
+use crate::outline::{Outline, Sort};
 use crate::printable;
 use crate::read::{self, Files, LONGEST};
 use crate::report::{Complaints, SceneTextError};
@@ -30,6 +31,9 @@ pub struct SceneFile {
     /// What every item of the outline stands for.
     ids: Vec<Id>,
     files: Files,
+    /// What came from model files and is as they and the text say.
+    models: Vec<Instance>,
+    added: Option<String>,
 }
 
 /// A scene that could not be saved; what was on the disk before is there still.
@@ -41,7 +45,8 @@ pub struct SaveError {
     cause: std::io::Error,
 }
 
-/// Reads a scene file. Meshes and profiles are looked for relative to its folder; for what lies in none, such as a pipe or
+/// Reads a scene file, or a model file as a scene of its own: with a view of it and light where it has none, and with no
+/// path, so that it is not saved over the model. Meshes and profiles are looked for relative to its folder; for what lies in none, such as a pipe or
 /// `/dev/stdin`, relative to the current one.
 ///
 /// # Errors
@@ -55,6 +60,9 @@ pub fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
     let input = File::open(path).map_err(unreadable)?;
     if is_device(&found) && !input.is_terminal() {
         return Err(SceneTextError::unusable(path, "is a device, not a scene".to_owned()));
+    }
+    if found.is_file() && model::is_named_so(path) {
+        return bare::load(path);
     }
     let lies_in_folder = found.is_file() && !atomic::is_descriptor(path);
     let base = path.parent().filter(|_| lies_in_folder).unwrap_or(Path::new(""));
@@ -102,15 +110,23 @@ fn is_device(_found: &Metadata) -> bool {
 /// # Errors
 /// Text that is no valid scene, with all that is wrong in it.
 pub fn parse(text: &str, name: &str, base: Option<&Path>) -> Result<(Scene, SceneFile), SceneTextError> {
-    let mut files = Files::new(base);
+    parse_with(text, name, Files::new(base))
+}
+
+/// The same with files that may be known.
+pub(crate) fn parse_with(
+    text: &str,
+    name: &str,
+    mut files: Files,
+) -> Result<(Scene, SceneFile), SceneTextError> {
     let mended = slip::mend(text);
     let mut complaints = Complaints::new();
     if mended.as_ref().is_none_or(Mended::is_doubtful) {
         let outline = read::read(text, None, &mut files, &mut complaints);
-        let (scene, ids) = build::build(&outline, &mut complaints);
+        let (scene, ids, models) = build::build(&outline, &mut complaints);
         if complaints.count() == 0 {
             let text = text.to_owned();
-            let file = SceneFile { path: None, stored: String::new(), text, outline, ids, files };
+            let file = SceneFile { path: None, stored: String::new(), text, outline, ids, files, models, added: None };
             return Ok((scene, file));
         }
     }
@@ -142,6 +158,11 @@ fn not_utf8(error: &std::string::FromUtf8Error, name: &str) -> SceneTextError {
 }
 
 impl SceneFile {
+    /// The same with a line about what was added to a model.
+    pub(crate) fn with_added(self, added: Option<String>) -> Self {
+        Self { added, ..self }
+    }
+
     /// Text for a scene that has none yet.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
@@ -152,6 +173,8 @@ impl SceneFile {
             outline: Outline::default(),
             ids: Vec::new(),
             files: Files::new(None),
+            models: Vec::new(),
+            added: None,
         };
         file.update(scene);
         file
@@ -175,6 +198,23 @@ impl SceneFile {
         self.files.mesh_paths()
     }
 
+    /// Where the models lie that it names.
+    pub fn model_paths(&self) -> impl Iterator<Item = PathBuf> {
+        self.files.model_paths()
+    }
+
+    /// What of the models is not shown as their files mean it: a line for each.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        self.files.warnings()
+    }
+
+    /// One line about what was added to a model that was loaded as a scene, if anything was.
+    #[must_use]
+    pub fn added(&self) -> Option<&str> {
+        self.added.as_deref()
+    }
+
     /// Where the intensity profiles lie that it names.
     pub fn profile_paths(&self) -> impl Iterator<Item = PathBuf> {
         self.files.profile_paths()
@@ -195,11 +235,13 @@ impl SceneFile {
     /// spelling of numbers that did not change stay; a node goes with its line and the comment behind it.
     pub fn update(&mut self, scene: &Scene) {
         self.know_files(scene);
+        self.write_out_models(scene);
         if self.follow(scene).is_none() {
             // No text that we wrote ourselves could be read again: begin anew rather than lose an edit.
             self.text.clear();
             self.outline = Outline::default();
             self.ids.clear();
+            self.models.clear();
             let _ = self.follow(scene);
         }
     }
@@ -235,11 +277,29 @@ impl SceneFile {
         }
     }
 
+    /// Takes the nodes of models out that are no longer as the text and their files say: what they hold is then written like
+    /// everything else.
+    fn write_out_models(&mut self, scene: &Scene) {
+        self.models.retain(|model| model.is_intact(scene));
+        let mut splices: Vec<Splice> = Vec::new();
+        for (item, id) in self.outline.items.iter().zip(&self.ids) {
+            let inside = splices.last().is_some_and(|s| s.range.contains(&item.span.start));
+            let is_kept = self.models.iter().any(|model| model.root().map(Id::Entity) == Some(*id));
+            if matches!(item.sort, Sort::Model) && !is_kept && !inside {
+                splices.push(Splice::new(write::whole_node(&self.text, &item.span), ""));
+            }
+        }
+        let _ = self.splice(scene, splices);
+        let ids = &self.ids;
+        self.models.retain(|model| model.root().is_some_and(|root| ids.contains(&Id::Entity(root))));
+    }
+
     fn follow(&mut self, scene: &Scene) -> Option<()> {
         self.splice(scene, write::edit(&self.text, &self.outline, &self.ids, scene))?;
         // Every call settles at least one node.
+        let hidden = instance::hidden(&self.models, scene);
         for _ in 0..=self.ids.len() + scene.entities().len() + 2 {
-            let splices = write::arrange(&self.text, &self.outline, &self.ids, scene);
+            let splices = write::arrange(&self.text, &self.outline, &self.ids, scene, &hidden);
             if splices.is_empty() {
                 break;
             }

@@ -12,6 +12,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test may stop at the first surprise"))]
 
 pub mod atomic;
+mod bare;
 mod build;
 mod disk;
 mod excerpt;
@@ -19,6 +20,7 @@ mod file;
 mod foreign;
 pub mod ies;
 pub mod image;
+mod instance;
 pub mod model;
 mod outline;
 mod printable;

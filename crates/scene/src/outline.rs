@@ -9,6 +9,8 @@ use catoptra_core::{
     TextureId, Values,
 };
 
+use crate::instance::ModelSource;
+
 /// A place in the text, in bytes.
 pub(crate) type Span = Range<usize>;
 
@@ -23,10 +25,20 @@ pub(crate) enum Sort {
     Camera,
     Group,
     Solid(Operation),
+    /// A model file: a group of what it holds.
+    Model,
+    /// What is said of one thing in a model file.
+    Part,
 }
 
 /// The word for a group of entities.
 pub(crate) const GROUP: &str = "group";
+
+/// The word for what a model file holds.
+pub(crate) const MODEL: &str = "model";
+
+/// The word for what is said of one thing in a model file.
+pub(crate) const PART: &str = "part";
 
 impl Sort {
     /// The sort of node that a word stands for.
@@ -45,6 +57,8 @@ impl Sort {
         }
         match word {
             GROUP => Some(Self::Group),
+            MODEL => Some(Self::Model),
+            PART => Some(Self::Part),
             _ if word == Camera::KIND.name => Some(Self::Camera),
             _ if word == Settings::KIND.name => Some(Self::Settings),
             _ => Operation::named(word).map(Self::Solid),
@@ -55,7 +69,7 @@ impl Sort {
     pub(crate) fn words(in_group: bool) -> Vec<&'static str> {
         let mut words: Vec<&'static str> = Shape::KINDS.iter().map(|k| k.name).collect();
         words.extend(Light::KINDS.iter().map(|k| k.name));
-        words.extend([Camera::KIND.name, GROUP]);
+        words.extend([Camera::KIND.name, GROUP, MODEL]);
         words.extend(Operation::ALL.map(Operation::word));
         if !in_group {
             words.extend(Material::KINDS.iter().map(|k| k.name));
@@ -76,6 +90,8 @@ impl Sort {
             Self::Camera => Camera::KIND.name,
             Self::Group => GROUP,
             Self::Solid(operation) => operation.word(),
+            Self::Model => MODEL,
+            Self::Part => PART,
         }
     }
 
@@ -88,7 +104,7 @@ impl Sort {
             Self::Shape(kind) => kind.fields,
             Self::Light(kind) => kind.fields,
             Self::Camera => Camera::KIND.fields,
-            Self::Group | Self::Solid(_) => &[],
+            Self::Group | Self::Solid(_) | Self::Model | Self::Part => &[],
         };
         let common: &[Field] = if matches!(self, Self::Material(_)) { Finish::KIND.fields } else { &[] };
         own.iter().chain(common)
@@ -110,7 +126,7 @@ impl Sort {
             Self::Shape(kind) => Part::Shape((kind.make)(values)?),
             Self::Light(kind) => Part::Light((kind.make)(values)?),
             Self::Camera => Part::Camera((Camera::KIND.make)(values)?),
-            Self::Group => Part::Group,
+            Self::Group | Self::Model | Self::Part => Part::Group,
             Self::Solid(operation) => Part::Solid(operation),
         })
     }
@@ -122,7 +138,7 @@ impl Sort {
 
     /// Whether others can lie in it.
     pub(crate) fn has_members(self) -> bool {
-        matches!(self, Self::Group | Self::Solid(_))
+        matches!(self, Self::Group | Self::Solid(_) | Self::Model | Self::Part)
     }
 }
 
@@ -236,6 +252,10 @@ pub(crate) struct Item {
     pub(crate) part: Option<Part>,
     /// The group that it is a member of, as its place in [`Outline::items`].
     pub(crate) parent: Option<usize>,
+    /// The file of a model, if it could be read.
+    pub(crate) model: Option<ModelSource>,
+    /// Whether a part of a model is left out.
+    pub(crate) removed: bool,
 }
 
 /// All nodes of a text, in order: a group stands before its members.

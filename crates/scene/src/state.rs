@@ -7,7 +7,7 @@ use crate::build::Id;
 use crate::outline::Part;
 
 /// Name, part, material and placement of one node as the scene has them.
-#[derive(Debug)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct State {
     pub(crate) part: Part,
     /// Empty for settings, which have none.
@@ -34,6 +34,7 @@ impl State {
                 ))
             }
             Id::Entity(id) => Self::of_entity(scene, id),
+            Id::Part(_) => None,
         }
     }
 

@@ -22,7 +22,7 @@ pub enum Place {
 
 /// A model file that cannot be used. Reads `bunny.ply:12: …` or `bunny.ply, byte 1024: …`.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("{}{}: {}", printable(&path.to_string_lossy()), at(*place), brief(message, LONGEST))]
+#[error("{}{}: {}", printable(&path.to_string_lossy()), place, brief(message, LONGEST))]
 #[diagnostic(code(catoptra::model))]
 pub struct ModelError {
     path: PathBuf,
@@ -67,11 +67,14 @@ impl ModelError {
     }
 }
 
-fn at(place: Place) -> String {
-    match place {
-        Place::File => String::new(),
-        Place::Line(line) => format!(":{line}"),
-        Place::Byte(byte) => format!(", byte {byte}"),
+/// As it stands behind the name of the file.
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File => Ok(()),
+            Self::Line(line) => write!(f, ":{line}"),
+            Self::Byte(byte) => write!(f, ", byte {byte}"),
+        }
     }
 }
 

@@ -113,6 +113,12 @@ pub fn read_mesh_bytes(bytes: &[u8], name: &Path) -> Result<TriangleMesh, ModelE
     merged::mesh_of(model).map_err(|fault| ModelError::new(name, fault))
 }
 
+/// Whether a file has an ending of models.
+#[must_use]
+pub fn is_named_so(path: &Path) -> bool {
+    format_of(path).is_ok()
+}
+
 fn format_of(path: &Path) -> Result<&'static Format, Fault> {
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
     FORMATS.iter().find(|format| format.endings.contains(&ending.as_str())).ok_or_else(|| {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use catoptra_core::{Image, ImageSource, IntensityProfile, MeshSource, ProfileSource, TriangleMesh, Value};
 
+use crate::instance::{self, ModelSource};
 use crate::{ies, image, model};
 
 /// The files of one scene, by the path that the text names, and why some cannot be had.
@@ -15,6 +16,7 @@ pub(crate) struct Files {
     meshes: Known<TriangleMesh>,
     profiles: Known<IntensityProfile>,
     images: Known<Image>,
+    models: Known<model::Model>,
 }
 
 /// What is known of files of one kind.
@@ -28,6 +30,13 @@ impl Files {
 
     /// The mesh at `path`, read now or before.
     pub(crate) fn mesh(&mut self, path: &str) -> Result<MeshSource, String> {
+        if !self.meshes.contains_key(path)
+            && let Some((file, name)) = self.divided(path)
+        {
+            let source = self.model(file)?;
+            let found = instance::mesh_named(&source.model, name).map_err(|e| format!("{file}: {e}"))?;
+            self.meshes.insert(path.to_owned(), Ok(found));
+        }
         let mesh =
             get(&mut self.meshes, self.base.as_deref(), path, |file| model::read_mesh(file).map(Arc::new))?;
         Ok(MeshSource { path: path.to_owned(), mesh })
@@ -42,8 +51,43 @@ impl Files {
 
     /// The picture at `path`, read now or before.
     pub(crate) fn image(&mut self, path: &str) -> Result<ImageSource, String> {
+        if !self.images.contains_key(path)
+            && let Some((file, name)) = self.divided(path)
+        {
+            let source = self.model(file)?;
+            let found = instance::image_named(&source.model, name).map_err(|e| format!("{file}: {e}"))?;
+            self.images.insert(path.to_owned(), Ok(found));
+        }
         let image = get(&mut self.images, self.base.as_deref(), path, image::load)?;
         Ok(ImageSource { path: path.to_owned(), image })
+    }
+
+    /// The model at `path`, read now or before.
+    pub(crate) fn model(&mut self, path: &str) -> Result<ModelSource, String> {
+        let model =
+            get(&mut self.models, self.base.as_deref(), path, |file| model::read(file).map(Arc::new))?;
+        Ok(ModelSource { path: path.to_owned(), model })
+    }
+
+    /// A path of the form `FILE#NAME` in its two parts, where no file is called so as a whole.
+    fn divided<'p>(&self, path: &'p str) -> Option<(&'p str, &'p str)> {
+        let is_model = |at: &usize| model::is_named_so(Path::new(&path[..*at]));
+        let at = path.match_indices('#').map(|(at, _)| at).find(is_model)?;
+        let is_file = place(self.base.as_deref(), path).is_some_and(|file| file.is_file());
+        (!is_file).then(|| (&path[..at], &path[at + 1..]))
+    }
+
+    /// Where all models that are known lie.
+    pub(crate) fn model_paths(&self) -> impl Iterator<Item = PathBuf> {
+        self.models.keys().filter_map(|path| place(self.base.as_deref(), path))
+    }
+
+    /// What of the models is not shown as their files mean it, in the order of their paths.
+    pub(crate) fn warnings(&self) -> Vec<String> {
+        let mut read: Vec<_> = self.models.iter().filter_map(|(path, model)| Some((path, model.as_ref().ok()?))).collect();
+        read.sort_by_key(|(path, _)| *path);
+        let told = |path: &str, warning: &model::Warning| format!("{path}{}: {}", warning.place, warning.message);
+        read.into_iter().flat_map(|(path, model)| model.warnings.iter().map(move |w| told(path, w))).collect()
     }
 
     /// Where all pictures that are known lie.

@@ -12,6 +12,12 @@ use crate::words;
 /// The property that names the material of a shape.
 pub(crate) const MATERIAL: &str = "material";
 
+/// The word for the path of a model.
+const FILE: &str = "file";
+
+/// The word that leaves a part of a model out.
+pub(crate) const REMOVE: &str = "remove";
+
 impl Reader<'_> {
     /// Reads a node at the top or, with `parent`, in a group, and everything in it.
     pub(super) fn read_node(&mut self, node: &KdlNode, parent: Option<usize>) {
@@ -19,7 +25,13 @@ impl Reader<'_> {
         let word = node.name().value();
         let word_span = span_of(node.name().span());
         let in_group = parent.is_some();
+        let in_model = parent.is_some_and(|p| matches!(self.outline.items[p].sort, Sort::Model));
         let sort = match Sort::named(word) {
+            Some(Sort::Part) if !in_model => {
+                let help = "put it in the block of the model that it is a part of";
+                self.complaints.add_with(word_span, "a part stands in a model", help);
+                return;
+            }
             Some(sort) if !in_group || sort.is_entity() => sort,
             Some(_) => {
                 let help = "put it at the top, outside of any group";
@@ -37,6 +49,10 @@ impl Reader<'_> {
         self.read_head(node, &mut item);
         let place = self.outline.items.len();
         let members = self.read_children(node, &mut item);
+        if matches!(sort, Sort::Model) && item.model.is_none() && self.complaints.count() == complaints {
+            let help = "write model \"some name\" { file \"path of a model file\" }";
+            self.complaints.add_with(item.word.clone(), "this model needs a file", help);
+        }
         if self.complaints.count() == complaints {
             self.make(&mut item);
         }
@@ -63,6 +79,8 @@ impl Reader<'_> {
             given: Values::new(),
             part: None,
             parent,
+            model: None,
+            removed: false,
         }
     }
 
@@ -72,7 +90,9 @@ impl Reader<'_> {
         for entry in node.entries() {
             match entry.name().map(kdl::KdlIdentifier::value) {
                 None => self.read_name(entry, item),
-                Some(MATERIAL) if matches!(item.sort, Sort::Shape(_)) => self.read_material(entry, item),
+                Some(MATERIAL) if matches!(item.sort, Sort::Shape(_) | Sort::Part) => self.read_material(entry, item),
+                Some(FILE) if matches!(item.sort, Sort::Model) => self.read_model(&[entry], span_of(entry.span()), item),
+                Some(REMOVE) if matches!(item.sort, Sort::Part) => self.read_remove(&[entry], span_of(entry.span()), item),
                 Some(property) => self.read_property(property, entry, item),
             }
         }
@@ -167,6 +187,14 @@ impl Reader<'_> {
                 let written =
                     FieldText { field, span, values: Vec::new(), property: false, word: None, painted };
                 self.read_field(written, &entries, item);
+            } else if matches!((item.sort, word), (Sort::Model, FILE) | (Sort::Part, REMOVE)) {
+                let entries = self.arguments(child);
+                self.refuse_block(child);
+                if word == FILE {
+                    self.read_model(&entries, name_span, item);
+                } else {
+                    self.read_remove(&entries, name_span, item);
+                }
             } else if item.sort.is_entity() && STEPS.iter().any(|(step, ..)| *step == word) {
                 self.read_step(child, item);
             } else if item.sort.has_members() {
@@ -179,6 +207,35 @@ impl Reader<'_> {
             }
         }
         members
+    }
+
+    /// Reads the path of a model, and the model.
+    fn read_model(&mut self, entries: &[&KdlEntry], span: Span, item: &mut Item) {
+        let &[entry] = entries else {
+            return self.complaints.add(span, "file takes one path in quotes");
+        };
+        if item.model.is_some() {
+            return self.complaints.add(span, "file is given twice");
+        }
+        self.refuse_odd_quotes(entry);
+        let Some(path) = entry.value().as_string() else {
+            return self.complaints.add(value_span(entry), "file needs the path of a model in quotes");
+        };
+        match self.files.model(path) {
+            Ok(model) => item.model = Some(model),
+            Err(message) => {
+                let help = "the path of a model is relative to the folder of the scene file";
+                self.complaints.add_with(value_span(entry), message, help);
+            }
+        }
+    }
+
+    /// Reads whether a part is left out.
+    fn read_remove(&mut self, entries: &[&KdlEntry], span: Span, item: &mut Item) {
+        match entries.first().and_then(|entry| entry.value().as_bool()) {
+            Some(removed) if entries.len() == 1 => item.removed = removed,
+            _ => self.complaints.add(span, "remove takes #true or #false"),
+        }
     }
 
     /// Reads the values of a field, `written` but for them.

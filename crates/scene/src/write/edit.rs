@@ -8,7 +8,7 @@ use super::splice::Splice;
 use super::value::{number, quoted, words};
 use super::{node, paint, placement};
 use crate::build::Id;
-use crate::outline::{FieldText, Item, Outline, Part};
+use crate::outline::{FieldText, Item, Outline, Part, Sort};
 use crate::scan;
 use crate::state::State;
 
@@ -16,6 +16,7 @@ use crate::state::State;
 pub(crate) fn edit(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -> Vec<Splice> {
     let mut splices = Vec::new();
     for (item, &id) in outline.items.iter().zip(ids) {
+        // What is said of the parts of models stays as it is: a model that is no longer so is written out.
         if let Some(now) = State::of(scene, id) {
             edit_item(text, item, &now, scene, &mut splices);
         }
@@ -25,7 +26,7 @@ pub(crate) fn edit(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -> 
 
 fn edit_item(text: &str, item: &Item, now: &State, scene: &Scene, splices: &mut Vec<Splice>) {
     let word = now.part.sort().word();
-    if word != item.sort.word() {
+    if word != item.sort.word() && !matches!(item.sort, Sort::Model) {
         splices.push(Splice::new(item.word.clone(), word));
     }
     if let Some(name) = item.name.as_ref().filter(|name| name.value != now.name) {

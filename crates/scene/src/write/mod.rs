@@ -13,8 +13,9 @@ mod splice;
 mod tree;
 mod value;
 
+pub(crate) use layout::whole_node;
 pub(crate) use splice::{Splice, apply};
 pub(crate) use tree::{arrange, remove};
 
 pub(crate) use edit::edit;
-pub(crate) use value::number;
+pub(crate) use value::{number, quoted};

@@ -1,7 +1,7 @@
 //! How the order of the nodes follows the scene: what is new goes in, what has moved goes to its place, what is gone
 //! goes out.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 use catoptra_core::scene::{EntityId, Scene, Settings};
@@ -19,7 +19,7 @@ pub(crate) fn remove(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -
     let mut splices: Vec<Splice> = Vec::new();
     for (item, &id) in outline.items.iter().zip(ids) {
         let inside = splices.last().is_some_and(|s| s.range.contains(&item.span.start));
-        if !inside && State::of(scene, id).is_none() {
+        if !inside && !matches!(id, Id::Part(_)) && State::of(scene, id).is_none() {
             splices.push(Splice::new(layout::whole_node(text, &item.span), ""));
         }
     }
@@ -28,10 +28,17 @@ pub(crate) fn remove(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -
 
 /// Splices that bring the nodes nearer to the order of the scene; none when it is reached. What depends on another
 /// change (a new member of a group that is to move) waits for the next call.
-pub(crate) fn arrange(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -> Vec<Splice> {
+/// Nothing is written of what is `hidden`: models bring it with them.
+pub(crate) fn arrange(
+    text: &str,
+    outline: &Outline,
+    ids: &[Id],
+    scene: &Scene,
+    hidden: &HashSet<Id>,
+) -> Vec<Splice> {
     let places = ids.iter().enumerate().map(|(i, &id)| (id, i)).collect();
     let mut arranging =
-        Arranging { text, outline, ids, scene, places, splices: Vec::new(), moves: Vec::new() };
+        Arranging { text, outline, ids, scene, hidden, places, splices: Vec::new(), moves: Vec::new() };
     arranging.add_settings();
     arranging.add_shared(scene.textures().map(|(id, ..)| Id::Texture(id)), |id| matches!(id, Id::Texture(_)));
     arranging
@@ -53,6 +60,7 @@ struct Arranging<'a> {
     outline: &'a Outline,
     ids: &'a [Id],
     scene: &'a Scene,
+    hidden: &'a HashSet<Id>,
     /// Where in the outline everything stands.
     places: HashMap<Id, usize>,
     splices: Vec<Splice>,
@@ -73,7 +81,7 @@ impl Arranging<'_> {
     /// Adds those of the textures or of the materials that are new, behind the last of their sort.
     fn add_shared(&mut self, all: impl Iterator<Item = Id>, is_such: impl Fn(&Id) -> bool) {
         let mut nodes = Nodes::default();
-        for id in all.filter(|id| !self.places.contains_key(id)) {
+        for id in all.filter(|id| !self.places.contains_key(id) && !self.hidden.contains(id)) {
             nodes.add(self.scene, id);
         }
         let last = self.ids.iter().rposition(is_such);
@@ -102,7 +110,8 @@ impl Arranging<'_> {
 
     /// Puts new members of a group (or of the top) into the text, and notes those that have to move.
     fn arrange_members(&mut self, group: Option<(EntityId, usize)>) {
-        let members = self.scene.children(group.map(|(id, _)| id));
+        let mut members = self.scene.children(group.map(|(id, _)| id));
+        members.retain(|id| !self.hidden.contains(&Id::Entity(*id)));
         let group = group.map(|(_, place)| place);
         let place = |id: &EntityId| self.places.get(&Id::Entity(*id)).copied();
         let here = |p: &usize| self.outline.items[*p].parent == group;
