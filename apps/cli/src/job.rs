@@ -13,7 +13,8 @@ use catoptra_tracer::{
 use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
 
 use crate::args::{JobArgs, STANDARD};
-use crate::console::warn;
+use catoptra_scene::printable;
+use crate::console::{say, warn};
 use crate::destination::{Input, Output, check_apart};
 use crate::memory;
 use crate::names::{find_backend, find_edges, find_filter, find_instructions, find_integrator, find_pattern};
@@ -167,8 +168,18 @@ pub(crate) struct Frame {
     pub(crate) reached: Option<Reached>,
 }
 
-/// Reads a scene; the meshes of one from standard input lie in the current folder.
+/// Reads a scene, and says what was added to it or passed over; the meshes of one from standard input lie in the current folder.
 pub(crate) fn load(path: &Path) -> Result<(Scene, SceneFile)> {
+    let (scene, file) = read(path)?;
+    if let Some(added) = file.added() {
+        say(&printable(added));
+    }
+    file.warnings().iter().for_each(|warning| warn(&printable(warning)));
+    Ok((scene, file))
+}
+
+/// The same without a word about it.
+pub(crate) fn read(path: &Path) -> Result<(Scene, SceneFile)> {
     Ok(if path == Path::new(STANDARD) {
         catoptra_scene::load_from(std::io::stdin().lock(), Path::new("<stdin>"), Path::new(""))?
     } else {
