@@ -99,7 +99,11 @@ impl Found {
                 counted(self.triangles, "triangle"),
                 if self.meshes == 1 { "1 mesh".to_owned() } else { format!("{} meshes", self.meshes) },
                 counted(self.instances as u64, "time"),
-                if self.vertices == 1 { "1 vertex".to_owned() } else { format!("{} vertices", self.vertices) },
+                if self.vertices == 1 {
+                    "1 vertex".to_owned()
+                } else {
+                    format!("{} vertices", self.vertices)
+                },
             ));
         }
         if let Some(bounds) = self.bounds {
@@ -108,7 +112,8 @@ impl Found {
         }
         lines.push(counted(self.materials.len() as u64, "material"));
         for (name, kind, textures) in &self.materials {
-            let painted = if textures.is_empty() { String::new() } else { format!(", {}", textures.join(", ")) };
+            let painted =
+                if textures.is_empty() { String::new() } else { format!(", {}", textures.join(", ")) };
             lines.push(format!("  {name}: {kind}{painted}"));
         }
         lines.push(counted(self.textures.len() as u64, "texture"));
@@ -120,7 +125,8 @@ impl Found {
             lines.push(format!("  {}: {size}", texture.name));
         }
         lines.push(format!("{}{}", counted(total(&self.lights), "light"), list(&self.lights)));
-        let cameras = if self.cameras.is_empty() { String::new() } else { format!(": {}", self.cameras.join(", ")) };
+        let cameras =
+            if self.cameras.is_empty() { String::new() } else { format!(": {}", self.cameras.join(", ")) };
         lines.push(format!("{}{cameras}", counted(self.cameras.len() as u64, "camera")));
         lines.extend(self.added.clone());
         lines.extend(self.warnings.iter().map(|warning| format!("ignored: {warning}")));
@@ -129,7 +135,10 @@ impl Found {
 
     fn as_json(&self) -> String {
         let kinds = |kinds: &[(&'static str, usize)]| kinds.iter().copied().collect::<BTreeMap<_, _>>();
-        let materials = self.materials.iter().map(|(name, kind, textures)| json!({ "name": name, "kind": kind, "textures": textures }));
+        let materials = self
+            .materials
+            .iter()
+            .map(|(name, kind, textures)| json!({ "name": name, "kind": kind, "textures": textures }));
         let textures = self.textures.iter().map(|t| json!({ "name": t.name, "size": t.size }));
         let value = json!({
             "format": self.format,

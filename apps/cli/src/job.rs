@@ -13,7 +13,6 @@ use catoptra_tracer::{
 use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
 
 use crate::args::{JobArgs, STANDARD};
-use catoptra_scene::printable;
 use crate::console::{say, warn};
 use crate::destination::{Input, Output, check_apart};
 use crate::memory;
@@ -21,6 +20,7 @@ use crate::names::{find_backend, find_edges, find_filter, find_instructions, fin
 use crate::pool::{milliseconds_since, new_pool};
 use crate::suggest::unknown;
 use crate::words::thousands;
+use catoptra_scene::printable;
 
 /// How frames are made, whatever they show: the names that need no scene to be looked up.
 #[derive(Clone, Copy)]
@@ -88,7 +88,7 @@ impl Job {
             ..view
         };
         check_grid(&view)?;
-        let meshes = file.mesh_paths().map(|path| ("the mesh", path));
+        let meshes = file.mesh_paths().chain(file.model_paths()).map(|path| ("the mesh", path));
         let profiles = file.profile_paths().map(|path| ("the profile", path));
         let pictures = file.image_paths().map(|path| ("the picture", path));
         let inputs: Vec<Input> = meshes.chain(profiles).chain(pictures).collect();

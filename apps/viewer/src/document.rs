@@ -38,7 +38,9 @@ impl Document {
     /// A report of why it cannot be read, for people.
     pub(crate) fn open(path: &Path) -> Result<Self, String> {
         let (scene, file) = catoptra_scene::load(path).map_err(|e| report(&e))?;
-        file.warnings().iter().for_each(|warning| eprintln!("warning: {}", catoptra_scene::printable(warning)));
+        file.warnings()
+            .iter()
+            .for_each(|warning| eprintln!("warning: {}", catoptra_scene::printable(warning)));
         let kept = file.path().map(Path::to_owned);
         let model = kept.is_none().then(|| path.to_owned());
         Ok(Self { scene, history: History::new(), file, path: kept, model })

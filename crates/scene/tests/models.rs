@@ -27,7 +27,9 @@ fn read(text: &str, folder: &Path) -> (Scene, SceneFile) {
 }
 
 fn refused(text: &str, folder: &Path) -> String {
-    let Err(error) = catoptra_scene::parse(text, "test.kdl", Some(folder)) else { panic!("was read: {text}") };
+    let Err(error) = catoptra_scene::parse(text, "test.kdl", Some(folder)) else {
+        panic!("was read: {text}")
+    };
     error.complaints().iter().map(|c| format!("{c} ({})\n", c.hint().unwrap_or_default())).collect()
 }
 
@@ -38,7 +40,9 @@ fn worn(scene: &Scene, shape: &str) -> String {
 
 /// Everything in a scene by name and without ids, in order.
 fn told(scene: &Scene) -> Vec<String> {
-    let looks = scene.materials().map(|(id, name, m)| format!("{name} {:?} {:?}", m.kind_name(), (m.values(), scene.finish(id))));
+    let looks = scene
+        .materials()
+        .map(|(id, name, m)| format!("{name} {:?} {:?}", m.kind_name(), (m.values(), scene.finish(id))));
     let things = scene.walk().into_iter().map(|id| {
         let parent = scene.parent(id).and_then(|p| scene.name(p));
         let shape = scene.shape(id).map(|s| s.values());
@@ -67,7 +71,10 @@ fn a_model_is_a_group_of_what_its_file_holds() {
     assert_eq!(scene.role(root), Some(Role::Group));
     let names: Vec<_> = scene.children(Some(root)).into_iter().filter_map(|id| scene.name(id)).collect();
     assert_eq!(names, ["chair/Leg", "chair/Seat"]);
-    assert_eq!((worn(&scene, "chair/Leg"), worn(&scene, "chair/Seat")), ("chair/Steel".into(), "chair/Wood".into()));
+    assert_eq!(
+        (worn(&scene, "chair/Leg"), worn(&scene, "chair/Seat")),
+        ("chair/Steel".into(), "chair/Wood".into())
+    );
     let bounds = scene.world_bounds(root).unwrap();
     assert!((bounds.max - DVec3::new(1.5, 1.5, 0.0)).length() < 1e-6, "{bounds:?}");
 }
@@ -91,13 +98,19 @@ fn text_overrides_parts_and_materials() {
 #[test]
 fn a_part_of_a_file_is_a_mesh() {
     let folder = folder();
-    let (scene, _) = read("matte \"m\" { color 0.5 }\nmesh \"leg\" material=\"m\" { file \"chair.obj#Leg\" }\nmesh \"all\" material=\"m\" { file \"chair.obj\" }", folder.path());
+    let (scene, _) = read(
+        "matte \"m\" { color 0.5 }\nmesh \"leg\" material=\"m\" { file \"chair.obj#Leg\" }\nmesh \"all\" material=\"m\" { file \"chair.obj\" }",
+        folder.path(),
+    );
     let triangles = |name: &str| match scene.entity_named(name).and_then(|id| scene.shape(id)) {
         Some(Shape::Mesh(mesh)) => mesh.source().mesh.triangles().len(),
         _ => 0,
     };
     assert_eq!((triangles("leg"), triangles("all")), (1, 2));
-    let message = refused("matte \"m\" { color 0.5 }\nmesh \"leg\" material=\"m\" { file \"chair.obj#Log\" }", folder.path());
+    let message = refused(
+        "matte \"m\" { color 0.5 }\nmesh \"leg\" material=\"m\" { file \"chair.obj#Log\" }",
+        folder.path(),
+    );
     assert!(message.contains("holds no mesh \"Log\"") && message.contains("\"Leg\""), "{message}");
 }
 
@@ -135,13 +148,22 @@ fn nothing_is_lost_or_doubled_by_saving() {
         (|s, p| Edit::Placement(s.entity_named("chair/Leg").unwrap(), p), false),
         (|s, _| Edit::Remove(s.entity_named("chair/Leg").unwrap()), false),
         (|s, _| Edit::Remove(s.entity_named("chair").unwrap()), false),
-        (|s, _| Edit::MaterialOf(s.entity_named("chair/Leg").unwrap(), s.material_named("m").unwrap()), false),
+        (
+            |s, _| Edit::MaterialOf(s.entity_named("chair/Leg").unwrap(), s.material_named("m").unwrap()),
+            false,
+        ),
         (|s, _| Edit::Name(s.entity_named("chair").unwrap(), "sofa".into()), false),
-        (|s, _| Edit::MaterialOf(s.entity_named("ball").unwrap(), s.material_named("chair/Steel").unwrap()), true),
+        (
+            |s, _| {
+                Edit::MaterialOf(s.entity_named("ball").unwrap(), s.material_named("chair/Steel").unwrap())
+            },
+            true,
+        ),
         (
             |s, _| {
                 let m = s.material_named("m").unwrap();
-                let node = Node::new("new", Content::Shape(s.shape(s.entity_named("ball").unwrap()).unwrap(), m));
+                let node =
+                    Node::new("new", Content::Shape(s.shape(s.entity_named("ball").unwrap()).unwrap(), m));
                 Edit::insert(Subtree::new(node).under(s.entity_named("chair").unwrap()))
             },
             true,
@@ -182,7 +204,9 @@ fn a_model_is_a_scene_with_view_and_light() {
         let root = scene.entity_named(name.trim_end_matches(".obj")).unwrap();
         let bounds = scene.world_bounds(root).unwrap();
         let axis = camera.forward();
-        for corner in [bounds.min, bounds.max, bounds.min.with_y(bounds.max.y), bounds.max.with_y(bounds.min.y)] {
+        for corner in
+            [bounds.min, bounds.max, bounds.min.with_y(bounds.max.y), bounds.max.with_y(bounds.min.y)]
+        {
             let ray = (corner - camera.eye()).normalize();
             assert!(ray.angle_between(axis) < 15f64.to_radians(), "{name}: {corner}");
         }
