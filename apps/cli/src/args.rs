@@ -8,6 +8,7 @@ use catoptra_tracer::{Film, Region, Size};
 use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 
+use crate::info::InfoArgs;
 use crate::lab::LabArgs;
 use crate::probe::ProbeArgs;
 
@@ -28,6 +29,8 @@ pub(crate) enum Command {
     Render(RenderArgs),
     /// Say what a scene needs, which kernels run and what work is skipped
     Explain(ExplainArgs),
+    /// Say what a scene or a model file holds
+    Info(InfoArgs),
     /// Measure how much light arrives at points of a scene, or on a plane
     Probe(ProbeArgs),
     /// Measure how far a picture is from a reference
@@ -39,7 +42,7 @@ pub(crate) enum Command {
 /// What a picture is made from: shared by the commands that trace.
 #[derive(Args)]
 pub(crate) struct JobArgs {
-    /// Scene file (.kdl), or - for standard input
+    /// Scene file (.kdl) or model file (.obj, .glb and so on), or - for standard input
     pub(crate) scene: PathBuf,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x480", value_parser = size)]

@@ -13,13 +13,14 @@ use catoptra_tracer::{
 use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
 
 use crate::args::{JobArgs, STANDARD};
-use crate::console::warn;
+use crate::console::{say, warn};
 use crate::destination::{Input, Output, check_apart};
 use crate::memory;
 use crate::names::{find_backend, find_edges, find_filter, find_instructions, find_integrator, find_pattern};
 use crate::pool::{milliseconds_since, new_pool};
 use crate::suggest::unknown;
 use crate::words::thousands;
+use catoptra_scene::printable;
 
 /// How frames are made, whatever they show: the names that need no scene to be looked up.
 #[derive(Clone, Copy)]
@@ -87,7 +88,7 @@ impl Job {
             ..view
         };
         check_grid(&view)?;
-        let meshes = file.mesh_paths().map(|path| ("the mesh", path));
+        let meshes = file.mesh_paths().chain(file.model_paths()).map(|path| ("the mesh", path));
         let profiles = file.profile_paths().map(|path| ("the profile", path));
         let pictures = file.image_paths().map(|path| ("the picture", path));
         let inputs: Vec<Input> = meshes.chain(profiles).chain(pictures).collect();
@@ -169,8 +170,18 @@ pub(crate) struct Frame {
     pub(crate) reached: Option<Reached>,
 }
 
-/// Reads a scene; the meshes of one from standard input lie in the current folder.
+/// Reads a scene, and says what was added to it or passed over; the meshes of one from standard input lie in the current folder.
 pub(crate) fn load(path: &Path) -> Result<(Scene, SceneFile)> {
+    let (scene, file) = read(path)?;
+    if let Some(added) = file.added() {
+        say(&printable(added));
+    }
+    file.warnings().iter().for_each(|warning| warn(&printable(warning)));
+    Ok((scene, file))
+}
+
+/// The same without a word about it.
+pub(crate) fn read(path: &Path) -> Result<(Scene, SceneFile)> {
     Ok(if path == Path::new(STANDARD) {
         catoptra_scene::load_from(std::io::stdin().lock(), Path::new("<stdin>"), Path::new(""))?
     } else {

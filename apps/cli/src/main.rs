@@ -7,6 +7,7 @@ mod compare;
 mod console;
 mod destination;
 mod explain;
+mod info;
 mod input;
 mod interrupt;
 mod job;
@@ -74,6 +75,7 @@ fn run(command: Command) -> Result<Outcome> {
     match command {
         Command::Render(args) => render::run(&args),
         Command::Explain(args) => explain::run(&args),
+        Command::Info(args) => info::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Probe(args) => probe::run(&args),
         Command::Lab(args) => lab::run(&args),

@@ -18,6 +18,8 @@ pub(crate) struct Document {
     history: History,
     file: SceneFile,
     path: Option<PathBuf>,
+    /// The model that the scene was made for.
+    model: Option<PathBuf>,
 }
 
 impl Document {
@@ -27,7 +29,7 @@ impl Document {
     /// A report of what is wrong in its text.
     pub(crate) fn welcome() -> Result<Self, String> {
         let (scene, file) = catoptra_scene::parse(WELCOME, "welcome.kdl", None).map_err(|e| report(&e))?;
-        Ok(Self { scene, history: History::new(), file, path: None })
+        Ok(Self { scene, history: History::new(), file, path: None, model: None })
     }
 
     /// The scene in a file.
@@ -36,7 +38,12 @@ impl Document {
     /// A report of why it cannot be read, for people.
     pub(crate) fn open(path: &Path) -> Result<Self, String> {
         let (scene, file) = catoptra_scene::load(path).map_err(|e| report(&e))?;
-        Ok(Self { scene, history: History::new(), file, path: Some(path.to_owned()) })
+        file.warnings()
+            .iter()
+            .for_each(|warning| eprintln!("warning: {}", catoptra_scene::printable(warning)));
+        let kept = file.path().map(Path::to_owned);
+        let model = kept.is_none().then(|| path.to_owned());
+        Ok(Self { scene, history: History::new(), file, path: kept, model })
     }
 
     /// The scene as it is now.
@@ -46,7 +53,7 @@ impl Document {
 
     /// A short name for titles and file names.
     pub(crate) fn name(&self) -> String {
-        let stem = self.path.as_deref().and_then(Path::file_stem);
+        let stem = self.path.as_deref().or(self.model.as_deref()).and_then(Path::file_stem);
         stem.map_or_else(|| WELCOME_NAME.to_owned(), |stem| stem.to_string_lossy().into_owned())
     }
 
@@ -86,9 +93,10 @@ impl Document {
         self.history.redo(&mut self.scene)
     }
 
-    /// Where the scene is written: to where it is kept, or under a new name in the current folder.
+    /// Where the scene is written: to where it is kept, or under a new name in the folder of its model or the current one.
     pub(crate) fn place(&self) -> PathBuf {
-        self.path.clone().unwrap_or_else(|| free_name(Path::new(""), WELCOME_NAME, "kdl"))
+        let folder = self.model.as_deref().and_then(Path::parent).unwrap_or(Path::new(""));
+        self.path.clone().unwrap_or_else(|| free_name(folder, &self.name(), "kdl"))
     }
 
     /// The folder that the paths in the scene start from.

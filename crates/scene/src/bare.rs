@@ -38,7 +38,7 @@ pub(crate) fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
     let shown = path.display().to_string();
     let (scene, alone) = parse_with(&model, &shown, files.clone())?;
     let bounds = scene.children(None).into_iter().filter_map(|id| scene.world_bounds(id));
-    let bounds = bounds.fold(Aabb::EMPTY, |all, one| all.union(one));
+    let bounds = bounds.fold(Aabb::EMPTY, Aabb::union);
     let dark = scene.lights().is_empty() && scene.materials().all(|(_, _, m)| m.emission().is_none());
     let unseen = scene.entities_of(Role::Camera).next().is_none();
     let missing = match (dark, unseen) {

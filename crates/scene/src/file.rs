@@ -9,7 +9,6 @@ use catoptra_core::scene::Scene;
 use crate::atomic;
 use crate::build::{self, Id};
 use crate::disk::{self, OnDisk};
-use crate::{bare, foreign, model};
 use crate::instance::{self, Instance};
 use crate::outline::{Outline, Sort};
 use crate::printable;
@@ -17,6 +16,7 @@ use crate::read::{self, Files, LONGEST};
 use crate::report::{Complaints, SceneTextError};
 use crate::slip::{self, Mended};
 use crate::write::{self, Splice};
+use crate::{bare, foreign, model};
 
 /// The text of a scene, kept so that saving changes only what has changed.
 ///
@@ -126,7 +126,16 @@ pub(crate) fn parse_with(
         let (scene, ids, models) = build::build(&outline, &mut complaints);
         if complaints.count() == 0 {
             let text = text.to_owned();
-            let file = SceneFile { path: None, stored: String::new(), text, outline, ids, files, models, added: None };
+            let file = SceneFile {
+                path: None,
+                stored: String::new(),
+                text,
+                outline,
+                ids,
+                files,
+                models,
+                added: None,
+            };
             return Ok((scene, file));
         }
     }

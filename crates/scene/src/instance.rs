@@ -86,7 +86,8 @@ pub(crate) fn mesh_named(model: &Model, name: &str) -> Result<Arc<TriangleMesh>,
     match meshes.find(|(known, _)| *known == name) {
         Some((_, mesh)) => Ok(Arc::clone(mesh)),
         None => {
-            let known: Vec<&str> = walk(model).filter(|n| mesh_of(n).is_some()).map(|n| n.name.as_str()).collect();
+            let known: Vec<&str> =
+                walk(model).filter(|n| mesh_of(n).is_some()).map(|n| n.name.as_str()).collect();
             Err(format!("holds no mesh \"{name}\": {}", words::hint(name, &known, "meshes")))
         }
     }
@@ -166,10 +167,12 @@ impl Instance {
             self.materials.push(id);
             return Ok(());
         }
-        let material = (given.material.kind().make)(&self.mapped(&given.material.values())).map_err(|e| e.to_string())?;
+        let material = (given.material.kind().make)(&self.mapped(&given.material.values()))
+            .map_err(|e| e.to_string())?;
         let id = scene.add_material(&name, material).map_err(|e| e.to_string())?;
         if !given.finish.is_plain() {
-            let finish = (Finish::KIND.make)(&self.mapped(&catoptra_core::Part::values(&given.finish))).map_err(|e| e.to_string())?;
+            let finish = (Finish::KIND.make)(&self.mapped(&catoptra_core::Part::values(&given.finish)))
+                .map_err(|e| e.to_string())?;
             scene.apply(Edit::Finish(id, finish)).map_err(|e| e.to_string())?;
         }
         self.materials.push(id);

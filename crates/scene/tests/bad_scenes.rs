@@ -200,7 +200,7 @@ const AFTER_A_MATERIAL: &[Case] = &[
         "none.ply: cannot be read",
         "relative to the folder",
     ),
-    Case("mesh \"m\" material=\"w\" { file \"a.stl\" }", (2, 30), "must end in one of .ply, .obj", ""),
+    Case("mesh \"m\" material=\"w\" { file \"a.off\" }", (2, 30), "must end in one of .ply, .obj", ""),
     Case("mesh \"m\" material=\"w\" { file 3 }", (2, 30), "a path in quotes, not 3", ""),
     Case("mesh \"m\" material=\"w\"", (2, 1), "this mesh needs a file", ""),
     Case(

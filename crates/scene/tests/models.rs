@@ -22,13 +22,15 @@ fn folder() -> tempfile::TempDir {
 fn read(text: &str, folder: &Path) -> (Scene, SceneFile) {
     match catoptra_scene::parse(text, "test.kdl", Some(folder)) {
         Ok(read) => read,
-        Err(error) => panic!("{:?}", error.complaints().map(ToString::to_string).collect::<Vec<_>>()),
+        Err(error) => panic!("{:?}", error.complaints().iter().map(ToString::to_string).collect::<Vec<_>>()),
     }
 }
 
 fn refused(text: &str, folder: &Path) -> String {
-    let Err(error) = catoptra_scene::parse(text, "test.kdl", Some(folder)) else { panic!("was read: {text}") };
-    error.complaints().map(|c| format!("{c} ({})\n", c.hint().unwrap_or_default())).collect()
+    let Err(error) = catoptra_scene::parse(text, "test.kdl", Some(folder)) else {
+        panic!("was read: {text}")
+    };
+    error.complaints().iter().map(|c| format!("{c} ({})\n", c.hint().unwrap_or_default())).collect()
 }
 
 fn worn(scene: &Scene, shape: &str) -> String {
@@ -38,7 +40,9 @@ fn worn(scene: &Scene, shape: &str) -> String {
 
 /// Everything in a scene by name and without ids, in order.
 fn told(scene: &Scene) -> Vec<String> {
-    let looks = scene.materials().map(|(id, name, m)| format!("{name} {:?} {:?}", m.kind_name(), (m.values(), scene.finish(id))));
+    let looks = scene
+        .materials()
+        .map(|(id, name, m)| format!("{name} {:?} {:?}", m.kind_name(), (m.values(), scene.finish(id))));
     let things = scene.walk().into_iter().map(|id| {
         let parent = scene.parent(id).and_then(|p| scene.name(p));
         let shape = scene.shape(id).map(|s| s.values());
@@ -67,7 +71,10 @@ fn a_model_is_a_group_of_what_its_file_holds() {
     assert_eq!(scene.role(root), Some(Role::Group));
     let names: Vec<_> = scene.children(Some(root)).into_iter().filter_map(|id| scene.name(id)).collect();
     assert_eq!(names, ["chair/Leg", "chair/Seat"]);
-    assert_eq!((worn(&scene, "chair/Leg"), worn(&scene, "chair/Seat")), ("chair/Steel".into(), "chair/Wood".into()));
+    assert_eq!(
+        (worn(&scene, "chair/Leg"), worn(&scene, "chair/Seat")),
+        ("chair/Steel".into(), "chair/Wood".into())
+    );
     let bounds = scene.world_bounds(root).unwrap();
     assert!((bounds.max - DVec3::new(1.5, 1.5, 0.0)).length() < 1e-6, "{bounds:?}");
 }
@@ -91,13 +98,19 @@ fn text_overrides_parts_and_materials() {
 #[test]
 fn a_part_of_a_file_is_a_mesh() {
     let folder = folder();
-    let (scene, _) = read("matte \"m\"\nmesh \"leg\" material=\"m\" { file \"chair.obj#Leg\" }\nmesh \"all\" material=\"m\" { file \"chair.obj\" }", folder.path());
+    let (scene, _) = read(
+        "matte \"m\" { color 0.5 }\nmesh \"leg\" material=\"m\" { file \"chair.obj#Leg\" }\nmesh \"all\" material=\"m\" { file \"chair.obj\" }",
+        folder.path(),
+    );
     let triangles = |name: &str| match scene.entity_named(name).and_then(|id| scene.shape(id)) {
         Some(Shape::Mesh(mesh)) => mesh.source().mesh.triangles().len(),
         _ => 0,
     };
     assert_eq!((triangles("leg"), triangles("all")), (1, 2));
-    let message = refused("matte \"m\"\nmesh \"leg\" material=\"m\" { file \"chair.obj#Log\" }", folder.path());
+    let message = refused(
+        "matte \"m\" { color 0.5 }\nmesh \"leg\" material=\"m\" { file \"chair.obj#Log\" }",
+        folder.path(),
+    );
     assert!(message.contains("holds no mesh \"Log\"") && message.contains("\"Leg\""), "{message}");
 }
 
@@ -126,24 +139,31 @@ fn what_is_wrong_is_told() {
 #[test]
 fn nothing_is_lost_or_doubled_by_saving() {
     let folder = folder();
-    let text = "camera \"eye\" { eye 0 0 9; target 0 0 0 }\nmatte \"m\"\nmodel \"chair\" {\n    file \"chair.obj\"\n}\n\
+    let text = "camera \"eye\" { eye 0 0 9; target 0 0 0 }\nmatte \"m\" { color 0.5 }\nmodel \"chair\" {\n    file \"chair.obj\"\n}\n\
         sphere \"ball\" material=\"m\" { radius 1 }\n";
     let moved = Placement::IDENTITY.moved(DVec3::X).unwrap();
     type Change = fn(&Scene, Placement) -> Edit;
-    let id = |scene: &Scene, name: &str| scene.entity_named(name).unwrap();
-    let _ = id;
     let edits: [(Change, bool); 9] = [
-        (|s, p| Edit::Place(s.entity_named("chair").unwrap(), p), true),
-        (|s, p| Edit::Place(s.entity_named("chair/Leg").unwrap(), p), false),
+        (|s, p| Edit::Placement(s.entity_named("chair").unwrap(), p), true),
+        (|s, p| Edit::Placement(s.entity_named("chair/Leg").unwrap(), p), false),
         (|s, _| Edit::Remove(s.entity_named("chair/Leg").unwrap()), false),
         (|s, _| Edit::Remove(s.entity_named("chair").unwrap()), false),
-        (|s, _| Edit::Wear(s.entity_named("chair/Leg").unwrap(), s.material_named("m").unwrap()), false),
-        (|s, _| Edit::Rename(s.entity_named("chair").unwrap(), "sofa".into()), false),
-        (|s, _| Edit::Wear(s.entity_named("ball").unwrap(), s.material_named("chair/Steel").unwrap()), true),
+        (
+            |s, _| Edit::MaterialOf(s.entity_named("chair/Leg").unwrap(), s.material_named("m").unwrap()),
+            false,
+        ),
+        (|s, _| Edit::Name(s.entity_named("chair").unwrap(), "sofa".into()), false),
+        (
+            |s, _| {
+                Edit::MaterialOf(s.entity_named("ball").unwrap(), s.material_named("chair/Steel").unwrap())
+            },
+            true,
+        ),
         (
             |s, _| {
                 let m = s.material_named("m").unwrap();
-                let node = Node::new("new", Content::Shape(s.shape(s.entity_named("ball").unwrap()).unwrap(), m));
+                let node =
+                    Node::new("new", Content::Shape(s.shape(s.entity_named("ball").unwrap()).unwrap(), m));
                 Edit::insert(Subtree::new(node).under(s.entity_named("chair").unwrap()))
             },
             true,
@@ -183,12 +203,14 @@ fn a_model_is_a_scene_with_view_and_light() {
         let camera = scene.world_camera(scene.main_camera().unwrap()).unwrap();
         let root = scene.entity_named(name.trim_end_matches(".obj")).unwrap();
         let bounds = scene.world_bounds(root).unwrap();
-        let axis = (camera.target() - camera.eye()).normalize();
-        for corner in [bounds.min, bounds.max, bounds.min.with_y(bounds.max.y), bounds.max.with_y(bounds.min.y)] {
+        let axis = camera.forward();
+        for corner in
+            [bounds.min, bounds.max, bounds.min.with_y(bounds.max.y), bounds.max.with_y(bounds.min.y)]
+        {
             let ray = (corner - camera.eye()).normalize();
             assert!(ray.angle_between(axis) < 15f64.to_radians(), "{name}: {corner}");
         }
-        assert!(scene.lights().len() >= 2 && camera.eye().y > bounds.max.y.min(camera.target().y));
+        assert!(scene.lights().len() >= 2 && camera.forward().y < 0.0);
     }
     std::fs::write(folder.path().join("bad.obj"), "f 1 2 3\n").unwrap();
     let Err(error) = catoptra_scene::load(&folder.path().join("bad.obj")) else { panic!("was read") };

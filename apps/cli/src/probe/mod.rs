@@ -68,7 +68,7 @@ pub(crate) fn run(args: &ProbeArgs) -> Result<Outcome> {
     let pool = new_pool(args.threads)?;
     let points = args.points.as_deref().map(points::read).transpose()?;
     let (scene, file) = load(&args.scene)?;
-    let meshes = file.mesh_paths().map(|path| ("the mesh", path));
+    let meshes = file.mesh_paths().chain(file.model_paths()).map(|path| ("the mesh", path));
     let profiles = file.profile_paths().map(|path| ("the profile", path));
     let pictures = file.image_paths().map(|path| ("the picture", path));
     let inputs: Vec<Input> = meshes.chain(profiles).chain(pictures).collect();

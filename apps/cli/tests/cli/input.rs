@@ -72,13 +72,11 @@ fn a_cause_is_told_once() {
 fn what_is_no_scene_is_told_in_one_line() {
     let folder = folder();
     let path = folder.path();
-    fs::write(path.join("m.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
-    fs::write(path.join("m.stl"), "solid m\nfacet normal 0 0 1\n").unwrap();
+    fs::write(path.join("m.fbx"), "Kaydara FBX Binary").unwrap();
     fs::write(path.join("a.png"), b"\x89PNG\r\n\x1a\n\0\0").unwrap();
     fs::create_dir(path.join("in")).unwrap();
     for (name, words) in [
-        ("m.obj", &["m.obj: is a mesh, not a scene", "mesh \"NAME\"", "file \"m.obj\""][..]),
-        ("m.stl", &["is a model (.stl)", ".ply or .obj"]),
+        ("m.fbx", &["is a model (.fbx), not a scene", ".obj"][..]),
         ("a.png", &["is a picture, not a scene"]),
         ("in", &["in: is a folder, not a scene"]),
     ] {

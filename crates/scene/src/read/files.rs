@@ -84,9 +84,11 @@ impl Files {
 
     /// What of the models is not shown as their files mean it, in the order of their paths.
     pub(crate) fn warnings(&self) -> Vec<String> {
-        let mut read: Vec<_> = self.models.iter().filter_map(|(path, model)| Some((path, model.as_ref().ok()?))).collect();
+        let mut read: Vec<_> =
+            self.models.iter().filter_map(|(path, model)| Some((path, model.as_ref().ok()?))).collect();
         read.sort_by_key(|(path, _)| *path);
-        let told = |path: &str, warning: &model::Warning| format!("{path}{}: {}", warning.place, warning.message);
+        let told =
+            |path: &str, warning: &model::Warning| format!("{path}{}: {}", warning.place, warning.message);
         read.into_iter().flat_map(|(path, model)| model.warnings.iter().map(move |w| told(path, w))).collect()
     }
 

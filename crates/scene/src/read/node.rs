@@ -90,9 +90,15 @@ impl Reader<'_> {
         for entry in node.entries() {
             match entry.name().map(kdl::KdlIdentifier::value) {
                 None => self.read_name(entry, item),
-                Some(MATERIAL) if matches!(item.sort, Sort::Shape(_) | Sort::Part) => self.read_material(entry, item),
-                Some(FILE) if matches!(item.sort, Sort::Model) => self.read_model(&[entry], span_of(entry.span()), item),
-                Some(REMOVE) if matches!(item.sort, Sort::Part) => self.read_remove(&[entry], span_of(entry.span()), item),
+                Some(MATERIAL) if matches!(item.sort, Sort::Shape(_) | Sort::Part) => {
+                    self.read_material(entry, item);
+                }
+                Some(FILE) if matches!(item.sort, Sort::Model) => {
+                    self.read_model(&[entry], span_of(entry.span()), item);
+                }
+                Some(REMOVE) if matches!(item.sort, Sort::Part) => {
+                    self.read_remove(&[entry], span_of(entry.span()), item);
+                }
                 Some(property) => self.read_property(property, entry, item),
             }
         }
