@@ -1,4 +1,5 @@
 //! Are models that a scene names, or that are given as scenes, read, changed by the text and saved without loss?
+#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 use std::path::Path;
 

@@ -259,7 +259,7 @@ impl<N: Number> Sweep<N> {
         let Some(first) = self.first_head()? else { return Ok(None) };
         let place = self.passages[first].ends[self.passed[first]].root.clone();
         let was_inside = rule.holds(&self.inside);
-        let (mut alone, mut any): (Option<(u32, End<N>)>, Option<(u32, End<N>)>) = (None, None);
+        let (mut alone, mut any) = (None, None);
         let before = self.inside.clone();
         for shape in 0..self.passages.len() {
             // Twice where the line touches the shape.

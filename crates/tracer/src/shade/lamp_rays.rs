@@ -97,8 +97,7 @@ impl<S: Simd> Shader<'_, S> {
         let smooth = self.search.snapshot.columns().smooth;
         let ground = self.chunk.normal[at.slot];
         let normal = if smooth { self.chunk.smooth[at.slot] } else { ground };
-        let sampler = self.block_sampler(at, tile);
-        let count = self.lamp_rays();
+        let (sampler, count) = (self.block_sampler(at, tile), self.lamp_rays());
         let (first, pair) = (self.sample.index.wrapping_mul(count), pair_of_lamp(number, at.depth));
         let may_be_blocked = lamp.shadow && !self.plan.lamps[number].blockers.is_empty();
         let glossy = self.chunk.glossy[at.slot];
