@@ -62,6 +62,27 @@ impl<'a> Comparison<'a> {
         (self.surfaces.len(), self.colors.len())
     }
 
+    /// `Ok` where the same surfaces are seen, as often as they must be, and the means of all channels differ by so small a share.
+    ///
+    /// # Errors
+    /// The count, or the means.
+    pub fn agrees_in_the_mean(&self, rates: Rates, apart: f64) -> Result<(), String> {
+        let Size { width, height } = self.reference.size();
+        if self.surfaces.len() > (rates.surfaces * f64::from(width) * f64::from(height)) as usize {
+            return Err(format!("{}: another surface on {} pixels", self.name, self.surfaces.len()));
+        }
+        let mean = |film: &Film| {
+            let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+            pixels.flat_map(|(x, y)| film.radiance(x, y)).map(f64::from).sum::<f64>()
+        };
+        let (right, found) = (mean(self.reference), mean(self.test));
+        if (found / right - 1.0).abs() <= apart {
+            Ok(())
+        } else {
+            Err(format!("{}: a mean of {found} for {right}", self.name))
+        }
+    }
+
     /// `Ok` where disagreements are as rare as they must be; else what they are, with both pictures and their difference
     /// written as PNG into the folder.
     ///

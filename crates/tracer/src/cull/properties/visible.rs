@@ -158,7 +158,7 @@ fn look_around(stage: &mut Stage<'_>, tally: &mut Tally) {
 fn what_camera_rays_meet_is_among_the_candidates() {
     let mut tally = Tally::default();
     let mut random = Random(11);
-    for _ in 0..6_000 {
+    for _ in 0..11_000 {
         look_around(&mut Stage::new(&mut random, 8), &mut tally);
     }
     assert!(tally.hits > 200_000 && tally.at_border > 200_000 && tally.barely > 500, "{tally:?}");
