@@ -1,4 +1,5 @@
 use super::*;
+use crate::{Value, Values};
 
 fn seed() -> Camera {
     Camera::looking(DVec3::new(0.0, 10.0, 10.0), -DVec3::Z, DVec3::Y, PI / 2.0).unwrap()
