@@ -5,7 +5,6 @@ use glam::{DVec2, DVec3};
 use super::disk::{disk_bounds, meet_disk};
 use super::lateral::{LOWER, Lateral, SIDE, UPPER, WayOut, check_axis, outwards};
 use super::parametrization::{on_disk, turn_about};
-use super::plane::plane_root;
 use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Located, Number, Vector, Verdict};
 use crate::part::Given;
@@ -156,15 +155,10 @@ impl Geometry for Cone {
             }
             out => out,
         };
-        match out {
-            WayOut::Side(root) if piece == SIDE => FacetRoot::on(span, root, SIDE),
-            WayOut::Cap(cap) if piece == cap && cap != left => {
-                let (center, normal, _) = self.cap::<N>(cap);
-                let root = plane_root(center, &normal, own)?;
-                root.map_or(Ok(None), |root| FacetRoot::on(span, root, cap))
-            }
-            WayOut::Side(_) | WayOut::Cap(_) | WayOut::Nowhere => Ok(None),
-        }
+        out.through([piece, left], own, span, |cap| {
+            let (center, normal, _) = self.cap(cap);
+            (center, normal)
+        })
     }
 
     fn crossing(&self, own: &Ray, at: Located, facet: u32) -> Option<Crossing> {

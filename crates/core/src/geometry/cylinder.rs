@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::disk::{disk_bounds, meet_disk};
-use super::lateral::{LOWER, Lateral, SIDE, WayOut, check_axis, outwards};
+use super::lateral::{LOWER, Lateral, SIDE, check_axis, outwards};
 use super::parametrization::{on_disk, turn_about};
 use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Located, Number, Vector, Verdict};
@@ -126,15 +126,7 @@ impl Geometry for Cylinder {
         if runs_out {
             return Ok(None);
         }
-        match lateral.way_out(left)? {
-            WayOut::Side(root) if piece == SIDE => FacetRoot::on(span, root, SIDE),
-            WayOut::Cap(cap) if piece == cap && cap != left => {
-                let (center, normal) = self.cap::<N>(cap);
-                super::plane::plane_root(center, &normal, own)?
-                    .map_or(Ok(None), |root| FacetRoot::on(span, root, cap))
-            }
-            WayOut::Side(_) | WayOut::Cap(_) | WayOut::Nowhere => Ok(None),
-        }
+        lateral.way_out(left)?.through([piece, left], own, span, |cap| self.cap(cap))
     }
 
     fn crossing(&self, own: &Ray, at: Located, facet: u32) -> Option<Crossing> {

@@ -12,6 +12,7 @@ use std::cmp::Ordering;
 use glam::DVec3;
 
 use super::FacetRoot;
+use super::plane::plane_root;
 use crate::exact::{Number, Radical, Root, Vector, Verdict};
 use crate::{Ray, Span};
 
@@ -54,6 +55,27 @@ pub(super) enum WayOut<N> {
     Cap(u32),
     /// Rounding has put its origin beside the solid.
     Nowhere,
+}
+
+impl<N: Number> WayOut<N> {
+    /// The way out as far as it goes through one piece, of a ray that has left another; `cap` is a cap's middle and its normal.
+    pub(super) fn through(
+        self,
+        [piece, left]: [u32; 2],
+        own: &Ray,
+        span: Span,
+        cap: impl FnOnce(u32) -> (DVec3, Vector<N>),
+    ) -> Verdict<Option<FacetRoot<N>>> {
+        let root = match self {
+            Self::Side(root) if piece == SIDE => Some(root),
+            Self::Cap(out) if piece == out && out != left => {
+                let (center, normal) = cap(out);
+                plane_root(center, &normal, own)?
+            }
+            Self::Side(_) | Self::Cap(_) | Self::Nowhere => None,
+        };
+        root.map_or(Ok(None), |root| FacetRoot::on(span, root, piece))
+    }
 }
 
 impl<N: Number> Lateral<N> {
