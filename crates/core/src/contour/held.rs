@@ -13,7 +13,7 @@ pub(super) fn reach(point: DVec3, on: DVec3) -> f64 {
 }
 
 /// Whether two unit vectors are the same or opposite, but for rounding.
-pub(super) fn are_parallel(a: DVec3, b: DVec3) -> bool {
+pub(crate) fn are_parallel(a: DVec3, b: DVec3) -> bool {
     a.cross(b).length() <= HELD_WITHIN
 }
 

@@ -36,6 +36,7 @@ mod view;
 use glam::DVec3;
 
 pub use blocker::Blocker;
+pub(crate) use held::are_parallel;
 pub use held::facet_holds;
 pub use lamp::Lamp;
 pub(crate) use lamp::Outline;

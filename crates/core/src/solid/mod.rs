@@ -14,6 +14,7 @@ use std::sync::Arc;
 
 use smallvec::SmallVec;
 
+use crate::contour::are_parallel;
 use crate::exact::{Bounded, Dyadic, Number, Root, Verdict, decide};
 use crate::geometry::FacetRoot;
 use crate::numeric::HELD_WITHIN;
@@ -93,7 +94,7 @@ impl Solid {
         let normals = [(&self.shapes[left.member as usize], left.facet), (shape, end.facet)]
             .map(|(shape, facet)| shape.crossing_at(ray, here, facet).map(|crossing| crossing.normal));
         let [Some(one), Some(other)] = normals else { return Ok(false) };
-        Ok(one.cross(other).length() <= HELD_WITHIN)
+        Ok(are_parallel(one, other))
     }
 }
 
@@ -136,12 +137,6 @@ impl Member {
     #[must_use]
     pub fn new(solid: Arc<Solid>, number: u32) -> Option<Self> {
         ((number as usize) < solid.shapes.len()).then_some(Self { solid, number })
-    }
-
-    /// The solid.
-    #[must_use]
-    pub fn solid(&self) -> &Arc<Solid> {
-        &self.solid
     }
 
     /// Its number among the shapes of the solid.

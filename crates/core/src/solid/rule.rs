@@ -32,18 +32,6 @@ impl Operation {
     pub fn named(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|operation| operation.word() == word)
     }
-
-    /// What it does, in a sentence.
-    #[must_use]
-    pub fn doc(self) -> &'static str {
-        match self {
-            Self::Union => "A solid that is whatever lies in any of its members.",
-            Self::Intersection => "A solid that is what lies in all of its members.",
-            Self::Difference => {
-                "Its first member without what lies in the others; cut faces look as the others do."
-            }
-        }
-    }
 }
 
 /// A tree of operations over shapes, which are numbered in the order of the tree.
