@@ -11,9 +11,10 @@ use std::collections::HashMap;
 use catoptra_core::{Material as CoreMaterial, MaterialId, TextureUse};
 
 use super::json::{Material, TextureInfo, Whole, entry};
-use super::names::Names;
+use super::names::unique;
 use super::refusal::{Refusal, Within};
 use super::source::Source;
+use crate::model::names::Names;
 use crate::model::{Model, ModelMaterial};
 use painter::Painter;
 
@@ -63,7 +64,7 @@ impl<'a, 's> Looks<'a, 's> {
             None => {
                 let ModelMaterial { name, material, finish } = ModelMaterial::grey()?;
                 let material = if has_colors { self.by_corners(&material, "color")? } else { material };
-                let name = self.names.unique(None, &name);
+                let name = unique(&mut self.names, None, &name);
                 Look {
                     material: self.model.add_material(ModelMaterial { name, material, finish }),
                     uv_set: 0,
@@ -79,7 +80,7 @@ impl<'a, 's> Looks<'a, 's> {
         let material = principled::principled(given, &mut self.painter)?;
         let material = if has_colors { self.by_corners(&material, "base-color")? } else { material };
         let finish = finish::finish(given, &mut self.painter)?;
-        let name = self.names.unique(given.name.as_deref(), "material");
+        let name = unique(&mut self.names, given.name.as_deref(), "material");
         Ok(Look { material: self.model.add_material(ModelMaterial { name, material, finish }), uv_set })
     }
 
@@ -90,10 +91,7 @@ impl<'a, 's> Looks<'a, 's> {
             self.source.warnings.add("colours of corners are left out where a texture gives a colour too");
             return Ok(material.clone());
         }
-        let Some(texture) = self.painter.corner_colors()? else {
-            self.source.warnings.add("colours of corners are kept, but no texture shows them");
-            return Ok(material.clone());
-        };
+        let texture = self.painter.corner_colors()?;
         Ok(material.with(field, color.textured(TextureUse::of(texture)))?)
     }
 

@@ -7,14 +7,15 @@ use std::collections::HashMap;
 
 use catoptra_core::glam::DVec2;
 use catoptra_core::part::make;
-use catoptra_core::texture::{Channel, Encoding, ImageTexture};
+use catoptra_core::texture::{Channel, Encoding, ImageTexture, VertexColorTexture};
 use catoptra_core::{ImageSource, Rgb, Texture, TextureId, TextureUse, Value, Values};
 
 use super::pictures::{Pictures, name_of};
 use crate::model::gltf::json::{Sampler, TextureInfo, TextureTransform, Whole, entry};
-use crate::model::gltf::names::Names;
+use crate::model::gltf::names::unique;
 use crate::model::gltf::refusal::{Refusal, Within};
 use crate::model::gltf::source::Source;
+use crate::model::names::Names;
 
 /// The textures of a file.
 pub(super) struct Painter<'a, 's> {
@@ -120,15 +121,14 @@ impl<'a, 's> Painter<'a, 's> {
         Ok(laid.and_then(|(image, _)| self.pictures.get(image)))
     }
 
-    /// The texture of the colours that corners have; `None` where there is no such kind of texture.
-    pub(super) fn corner_colors(&mut self) -> Result<Option<TextureId>, Refusal> {
-        if self.corner_colors.is_none()
-            && let Some(kind) = Texture::kind_named("vertex-color-texture")
-        {
-            let texture = (kind.make)(&Values::new())?;
-            self.corner_colors = Some(self.keep(Some("colours of corners"), texture)?);
+    /// The texture of the colours that corners have.
+    pub(super) fn corner_colors(&mut self) -> Result<TextureId, Refusal> {
+        if let Some(known) = self.corner_colors {
+            return Ok(known);
         }
-        Ok(self.corner_colors)
+        let texture = self.keep(Some("colours of corners"), VertexColorTexture.into())?;
+        self.corner_colors = Some(texture);
+        Ok(texture)
     }
 
     /// Adds a picture as a texture.
@@ -144,7 +144,7 @@ impl<'a, 's> Painter<'a, 's> {
     }
 
     fn keep(&mut self, name: Option<&str>, texture: Texture) -> Result<TextureId, Refusal> {
-        self.textures.push((self.names.unique(name, "texture"), texture));
+        self.textures.push((unique(&mut self.names, name, "texture"), texture));
         let number = u32::try_from(self.textures.len()).ok();
         number.and_then(TextureId::from_index).ok_or_else(|| Refusal::new("the file has too many textures"))
     }

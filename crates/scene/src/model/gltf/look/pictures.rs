@@ -22,8 +22,11 @@ impl<'a, 's> Pictures<'a, 's> {
         Self { source, known: HashMap::new() }
     }
 
-    /// The picture of that number. What cannot be shown is warned of once.
+    /// The picture of that number. What cannot be shown is warned of once; nothing is shown to who wants shapes alone.
     pub(super) fn get(&mut self, index: Whole) -> Option<ImageSource> {
+        if !self.source.folder.wants_materials() {
+            return None;
+        }
         if let Some(known) = self.known.get(&index) {
             return known.clone();
         }

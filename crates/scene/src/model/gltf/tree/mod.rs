@@ -23,9 +23,10 @@ use super::geometry::Meshes;
 use super::json::{self, Whole};
 use super::limits::{MOST_GROUPS, MOST_NODES};
 use super::look::Looks;
-use super::names::Names;
+use super::names::unique;
 use super::refusal::{Refusal, Within};
 use super::source::Source;
+use crate::model::names::Names;
 use frame::{Frame, Local};
 use skeleton::Skeleton;
 
@@ -121,13 +122,13 @@ impl<'a, 's> Tree<'a, 's> {
         };
         let (of_content, kind) = self.naming(given);
         let own = given.name.as_deref().filter(|name| !name.trim().is_empty());
-        let name = self.names.unique(own.or(of_content), kind);
+        let name = unique(&mut self.names, own.or(of_content), kind);
         let inner = outer.holding(&frame).within(path)?;
         let mut parts = self.shapes(index, &name, inner)?;
         parts.extend(self.others(given, &name, inner).within(path)?);
         let is_alone = parts.len() == 1 && given.children.is_empty();
         for part in &mut parts {
-            let own = if is_alone { name.clone() } else { self.names.unique(Some(&part.name), "part") };
+            let own = if is_alone { name.clone() } else { unique(&mut self.names, Some(&part.name), "part") };
             part.name = own;
         }
         for child in &given.children {

@@ -12,6 +12,7 @@ use super::frame::{Frame, Rest};
 use super::{Outer, Tree, cameras, instances, lights};
 use crate::model::gltf::geometry::{Pose, Which, is_skinned, joints, topology};
 use crate::model::gltf::json::{self, Mesh as MeshJson, Whole, entry};
+use crate::model::gltf::names::unique;
 use crate::model::gltf::refusal::{Refusal, Within};
 
 impl Tree<'_, '_> {
@@ -29,7 +30,8 @@ impl Tree<'_, '_> {
             let mut shapes = self.primitives(mesh, &pose, owner)?;
             let is_all = shapes.len() == 1 && given.children.is_empty() && !has_others(given);
             for shape in &mut shapes {
-                shape.name = if is_all { owner.to_owned() } else { self.names.unique(Some(owner), "mesh") };
+                shape.name =
+                    if is_all { owner.to_owned() } else { unique(&mut self.names, Some(owner), "mesh") };
             }
             self.free.append(&mut shapes);
             return Ok(Vec::new());
