@@ -7,7 +7,7 @@ use std::sync::Arc;
 use catoptra_core::glam::DVec2;
 use catoptra_core::texture::{ImageTexture, TexturePoint};
 use catoptra_core::{Image, Rgb, Texture, TextureId, Value, srgb_decoded};
-use catoptra_scene::model::{Folder, Model, read, read_bytes};
+use catoptra_scene::model::{Folder, Model, read, read_bytes, read_mesh_bytes};
 use serde_json::{Value as Json, json};
 
 use crate::builder::{Builder, base64, only, warnings};
@@ -230,6 +230,9 @@ fn another_set_of_coordinates_becomes_the_meshs_own() {
     let model = file.read();
     assert_eq!(only(&model).uvs().unwrap()[0], [0.5, 0.75]);
     assert!(warnings(&model).is_empty());
+    // Who wants the mesh alone has the same, without a look at the picture.
+    let mesh = read_mesh_bytes(&file.glb(), Path::new("made.glb")).unwrap();
+    assert_eq!(mesh, *only(&model));
     // A transform has the last word; of two sets in one material the colour's is taken.
     file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] =
         json!({ "KHR_texture_transform": { "texCoord": 0 } });
