@@ -16,9 +16,7 @@ use crate::cull::own_shape;
 use crate::film::BLOCK;
 use crate::kernel::Leaving;
 use crate::lamps::{Half, half_of_ray, pair_of_lamp, share_seen};
-use crate::lanes::{
-    D, D3, F, F3, M, MOST_LANES, U, magnitude, narrow3, outlined, share_of_one, splat_wide, widen3,
-};
+use crate::lanes::{D, D3, F, F3, M, U, magnitude, narrow3, outlined, share_of_one, splat_wide, widen3};
 use crate::numeric::DIRECTION_ERROR;
 use crate::sampler::Sampler;
 use crate::search::ToPoints;
@@ -175,11 +173,6 @@ impl<S: Simd> Shader<'_, S> {
     #[inline(always)]
     fn block_sampler(&self, at: &LitPacket<S>, tile: &Tile) -> Sampler<U<S>> {
         let side = if self.gathers.paths { 1 } else { BLOCK };
-        let (mut columns, mut rows) = ([0; MOST_LANES], [0; MOST_LANES]);
-        for lane in self.chunk.lit[at.slot].lanes() {
-            let [x, y] = tile.place_of(at.pixels.lane(lane) as usize);
-            (columns[lane], rows[lane]) = (x / side, y / side);
-        }
-        self.sample.sampler(U::load(self.s, &columns), U::load(self.s, &rows))
+        self.sampler_of(at.pixels, self.chunk.lit[at.slot], side, tile)
     }
 }

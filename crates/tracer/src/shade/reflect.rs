@@ -5,7 +5,8 @@ use fearless_simd::Simd;
 
 use super::Shader;
 use super::rules::{MirrorNormals, continues, mirror_direction};
-use crate::lanes::{F3, M, U, narrow3, outlined};
+use crate::lanes::{D3, F3, M, U, narrow3, outlined};
+use crate::search::{Packet, PreciseRays, Refined};
 use crate::stream::{Batch, QueuedRays};
 
 impl<S: Simd> Shader<'_, S> {
@@ -55,14 +56,7 @@ impl<S: Simd> Shader<'_, S> {
         let packet = &self.packet_of(batch, slot);
         let best = self.chunk.best[slot];
         let refined = self.search.refine_every(packet, &best, lanes);
-        let (_, d) = packet.precise_unit(self.s);
-        let smooth = self.search.snapshot.columns().smooth;
-        let normals = MirrorNormals {
-            geometric: refined.normal,
-            shading: smooth.then_some(refined.shading),
-            facing: self.chunk.normal[slot],
-        };
-        let direction = mirror_direction(d, &normals);
+        let direction = self.mirrored(packet, &refined, slot);
         self.sent.add(lanes, best.prim, &[narrow3(refined.point), narrow3(direction)]);
         let rays = QueuedRays {
             origin: refined.point,
@@ -74,6 +68,24 @@ impl<S: Simd> Shader<'_, S> {
             alone: M::splat(self.s, true),
         };
         self.next.push(lanes, &rays);
+    }
+
+    /// The directions in which the rays of a packet are mirrored.
+    #[inline(always)]
+    pub(super) fn mirrored<P: PreciseRays<S>>(
+        &self,
+        packet: &Packet<'_, S, P>,
+        refined: &Refined<S>,
+        slot: usize,
+    ) -> D3<S> {
+        let (_, arriving) = packet.precise_unit(self.s);
+        let smooth = self.search.snapshot.columns().smooth;
+        let normals = MirrorNormals {
+            geometric: refined.normal,
+            shading: smooth.then_some(refined.shading),
+            facing: self.chunk.normal[slot],
+        };
+        mirror_direction(arriving, &normals)
     }
 
     /// The lanes whose reflected rays may meet anything; others are counted.

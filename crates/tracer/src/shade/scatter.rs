@@ -4,9 +4,8 @@ use catoptra_core::lobe::Diffuse;
 use catoptra_core::{Constant3, Lane, LaneMask, Material, Rgb};
 use fearless_simd::Simd;
 
-use super::rules::{MirrorNormals, mirror_direction, survival};
+use super::rules::survival;
 use super::{Gathers, Shader, dark};
-use crate::film::NOTHING;
 use crate::lanes::{F, F3, M, MOST_LANES, U, Word, outlined, pick3, share_of_one, widen3};
 use crate::sampler::{Sampler, pairs};
 use crate::snapshot::MaterialRow;
@@ -75,7 +74,7 @@ impl<S: Simd> Shader<'_, S> {
             return;
         }
         let pixels = batch.pixels(s, self.chunk.at[slot]);
-        let sampler = self.sampler_of(pixels, sending, tile);
+        let sampler = self.sampler_of(pixels, sending, 1, tile);
         let sample = pixels.of(self.sample.index);
         let [choose, survive] = sampler.pair(sample, pairs::bounce(depth, 0)).map(share_of_one);
         let u = sampler.pair(sample, pairs::bounce(depth, 1)).map(share_of_one);
@@ -135,17 +134,10 @@ impl<S: Simd> Shader<'_, S> {
         let (scattered, _) = Diffuse::direction(normal, u);
         let mut direction = widen3(scattered);
         // What would run into the surface ends there.
-        let mut sent = sent & !(is_diffuse & !F::splat(self.s, 0.0).less(scattered.dot(ground)));
+        let sent = sent & !(is_diffuse & !F::splat(self.s, 0.0).less(scattered.dot(ground)));
         if (sent & !is_diffuse).any() {
-            let (_, arriving) = packet.precise_unit(self.s);
-            let normals = MirrorNormals {
-                geometric: refined.normal,
-                shading: smooth.then_some(refined.shading),
-                facing: ground,
-            };
-            direction = pick3(is_diffuse, direction, mirror_direction(arriving, &normals));
+            direction = pick3(is_diffuse, direction, self.mirrored(packet, &refined, slot));
         }
-        sent = sent & packet.live;
         let rays = QueuedRays {
             origin: refined.point,
             direction,
@@ -158,12 +150,13 @@ impl<S: Simd> Shader<'_, S> {
         self.next.push(sent, &rays);
     }
 
-    /// The random numbers of the lanes' pixels.
+    /// The random numbers of the squares of the film, so many pixels wide, that the lanes' pixels lie in.
     #[inline(always)]
-    fn sampler_of(&self, pixels: U<S>, lanes: M<S>, tile: &Tile) -> Sampler<U<S>> {
+    pub(super) fn sampler_of(&self, pixels: U<S>, lanes: M<S>, side: u32, tile: &Tile) -> Sampler<U<S>> {
         let (mut columns, mut rows) = ([0; MOST_LANES], [0; MOST_LANES]);
         for lane in lanes.lanes() {
-            [columns[lane], rows[lane]] = tile.place_of(pixels.lane(lane) as usize);
+            let [x, y] = tile.place_of(pixels.lane(lane) as usize);
+            (columns[lane], rows[lane]) = (x / side, y / side);
         }
         self.sample.sampler(U::load(self.s, &columns), U::load(self.s, &rows))
     }
@@ -188,7 +181,7 @@ impl<S: Simd> Shader<'_, S> {
         let areas = &self.search.snapshot.lamps().areas;
         let mut counted = alone;
         for (prim, lanes) in self.chunk.best[slot].prim.groups(mask & !alone) {
-            if prim == NOTHING || !areas.contains_key(&prim) {
+            if !areas.contains_key(&prim) {
                 counted = counted | lanes;
             }
         }

@@ -92,20 +92,8 @@ impl Snapshot {
 
     /// As [`nearest_of_all`](Self::nearest_of_all).
     pub(crate) fn nearest_of_all_on(&self, segment: &RaySegment<'_>) -> Option<Hit> {
-        (0..self.prims.len() as u32).fold(None, |best, prim| {
-            let within = segment.until(best);
-            let crossing = match self.member(&within, prim) {
-                Some(member) => member.cross(within.ray, within.span, self.left(prim, within.leaving)),
-                None => self.shape(&within, prim).cross(
-                    within.ray,
-                    within.span,
-                    leaving_facet(prim, within.leaving),
-                ),
-            };
-            let hit =
-                crossing.map(|crossing| Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing });
-            self.closer(segment, best, hit)
-        })
+        (0..self.prims.len() as u32)
+            .fold(None, |best, prim| self.closer(segment, best, self.cross_whole(prim, &segment.until(best))))
     }
 
     /// The ray of a segment relative to the origin, rounded: for boxes, which are wide enough for that.
@@ -189,8 +177,7 @@ impl Snapshot {
         let Some(facet) = facet else {
             return self.cross(prim, &RaySegment::new(ray, span, leaving));
         };
-        let crossing = shape.cross_part(facet, ray, span, leaving_facet(prim, leaving))?;
-        Some(Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing })
+        hit_on(prim, shape.cross_part(facet, ray, span, leaving_facet(prim, leaving)))
     }
 
     /// The mesh that a shape is, if it is one.
@@ -200,21 +187,29 @@ impl Snapshot {
 
     /// Where a ray crosses one shape; meshes by their tree.
     pub(super) fn cross(&self, prim: u32, segment: &RaySegment<'_>) -> Option<Hit> {
-        if let Some(member) = self.member(segment, prim) {
-            let crossing = member.cross(segment.ray, segment.span, self.left(prim, segment.leaving))?;
-            return Some(Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing });
-        }
-        let leaving = leaving_facet(prim, segment.leaving);
+        let Some(tree) = self.prims[prim as usize].mesh else { return self.cross_whole(prim, segment) };
         let shape = self.shape(segment, prim);
-        let crossing = match (shape.as_mesh(), self.prims[prim as usize].mesh) {
-            (Some(mesh), Some(tree)) => {
-                let tree = &self.index.meshes[tree as usize].tree;
-                cross_mesh(mesh, tree, &mesh.own_ray(segment.ray), segment.span, leaving)
-            }
-            _ => shape.cross(segment.ray, segment.span, leaving),
-        }?;
-        Some(Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing })
+        let (mesh, tree) = (shape.as_mesh()?, &self.index.meshes[tree as usize].tree);
+        let leaving = leaving_facet(prim, segment.leaving);
+        hit_on(prim, cross_mesh(mesh, tree, &mesh.own_ray(segment.ray), segment.span, leaving))
     }
+
+    /// Where a ray crosses one shape, each of its pieces being tried; of a part of a solid, what is the solid's surface.
+    fn cross_whole(&self, prim: u32, segment: &RaySegment<'_>) -> Option<Hit> {
+        let RaySegment { ray, span, leaving, .. } = *segment;
+        hit_on(
+            prim,
+            match self.member(segment, prim) {
+                Some(member) => member.cross(ray, span, self.left(prim, leaving)),
+                None => self.shape(segment, prim).cross(ray, span, leaving_facet(prim, leaving)),
+            },
+        )
+    }
+}
+
+/// A crossing as a hit on a shape.
+fn hit_on(prim: u32, crossing: Option<Crossing>) -> Option<Hit> {
+    crossing.map(|crossing| Hit { surface: SurfaceId { prim, facet: crossing.facet }, crossing })
 }
 
 /// A ray, the stretch of it that counts, and the surface that it leaves.
