@@ -140,7 +140,7 @@ fn a_furnace_shows_what_it_is_lined_with() {
 
 #[test]
 fn a_white_room_holds_the_light_that_theory_says() {
-    for albedo in [0.05, 0.5, 0.9] {
+    for albedo in [0.05, 0.5, 0.9, 0.95] {
         let scene = parsed(&format!(
             "camera \"c\" {{ eye 0 0 0; target 1 0 0 }}\nmatte \"m\" {{ color {albedo} }}\n\
              box \"room\" material=\"m\" {{ min -2 -2 -2; max 2 2 2 }}\npoint-light \"lamp\" {{ position 0 0 0; intensity {} }}",

@@ -114,6 +114,10 @@ pub(crate) struct RenderArgs {
     /// Sample for so many seconds, or until --max-error is reached
     #[arg(long, value_name = "S", value_parser = seconds)]
     pub(crate) time: Option<Duration>,
+    /// Keep samples in this file and go on from those it holds, up to --samples or for --time; an interrupted render goes on with the
+    /// same command
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["repeat", "max_error"])]
+    pub(crate) film: Option<PathBuf>,
     /// Time N frames after a warm-up: from snapshot to film, without files and parsing
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) repeat: Option<u32>,

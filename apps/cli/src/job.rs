@@ -1,6 +1,6 @@
 //! What is to be traced? A scene file, a camera of it, a backend and threads, ready for frames.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -49,6 +49,9 @@ impl Means {
 pub(crate) struct Job {
     pub(crate) scene: Scene,
     pub(crate) scene_name: String,
+    pub(crate) scene_text: String,
+    /// All other files that it was made from.
+    pub(crate) files: Vec<PathBuf>,
     pub(crate) camera_name: String,
     pub(crate) snapshot: Arc<Snapshot>,
     /// How long it took to make the snapshot from the scene, trees included.
@@ -98,11 +101,14 @@ impl Job {
         let build_ms = milliseconds_since(started);
         warn_of_lamps(&scene, &snapshot);
         let camera_name = scene.name(camera_id).unwrap_or_default();
-        let scene_name = file_name(&args.scene);
+        let (scene_name, scene_text) = (file_name(&args.scene), file.text());
+        let files = inputs.into_iter().map(|(_, path)| path).collect();
         let (tile, backend) = (args.tile, means.backend);
         Ok(Self {
             scene,
             scene_name,
+            scene_text,
+            files,
             camera_name,
             snapshot,
             build_ms,

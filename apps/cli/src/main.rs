@@ -7,6 +7,7 @@ mod compare;
 mod console;
 mod destination;
 mod explain;
+mod film;
 mod info;
 mod input;
 mod interrupt;

@@ -10,6 +10,7 @@ use miette::{Result, miette};
 use crate::args::{RenderArgs, STDOUT};
 use crate::console::{check_heard, print, say, warn};
 use crate::destination::{Output, check_apart, check_writable};
+use crate::film::KeptFilm;
 use crate::job::{Frame, Job, Means, scene_input};
 use crate::output::{Format, write_film};
 use crate::stats::{FrameTimes, write_stats};
@@ -28,9 +29,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome> {
     job.target = find_target(args, &job, tone)?;
     job.warn_of_idle(&args.job);
     let control = interrupt::control();
-    let mut film = job.film()?;
-    let Ok((times, frame)) = frames(&job, args.repeat, &mut film, &control) else {
-        say("interrupted: nothing is written");
+    let Some((film, times, frame)) = trace(args, &job, &control)? else {
         return Ok(Outcome::Interrupted);
     };
     if let (Some(target), Some(reached)) = (&job.target, &frame.reached) {
@@ -54,11 +53,27 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Outcome> {
     Ok(Outcome::Done)
 }
 
+/// Traces what is asked for; `None` where that was interrupted, and said so.
+fn trace(args: &RenderArgs, job: &Job, control: &Control) -> Result<Option<(Film, FrameTimes, Frame)>> {
+    if let Some(path) = &args.film {
+        let mut kept = KeptFilm::open(job, path, args.time)?;
+        let done = kept.go_on(control)?;
+        return Ok(done.map(|(time, frame)| (kept.film, FrameTimes::of(vec![time]), frame)));
+    }
+    let mut film = job.film()?;
+    let Ok((times, frame)) = frames(job, args.repeat, &mut film, control) else {
+        say("interrupted: nothing is written");
+        return Ok(None);
+    };
+    Ok(Some((film, times, frame)))
+}
+
 /// The files that are to be written.
 fn outputs(args: &RenderArgs) -> Vec<Output<'_>> {
     let picture = args.output.as_deref().map(|path| ("--output", path));
     let stats = args.stats.as_deref().map(|path| ("--stats", path));
-    picture.into_iter().chain(stats).collect()
+    let film = args.film.as_deref().map(|path| ("--film", path));
+    picture.into_iter().chain(stats).chain(film).collect()
 }
 
 /// Refuses what cannot end well before any work is done.
@@ -91,7 +106,10 @@ fn find_display(name: Option<&str>) -> Result<Display> {
 /// How sure pixels are to be, by the options and the scene's settings; `None` for as many samples as are asked for.
 fn find_target(args: &RenderArgs, job: &Job, tone: Tone) -> Result<Option<Target>> {
     let max_error = args.max_error.or(job.scene.settings().max_error());
-    if max_error.is_none() && args.time.is_none() {
+    if args.film.is_some() && max_error.is_some() {
+        warn("--film samples all pixels alike: the scene's max-error changes nothing");
+    }
+    if args.film.is_some() || (max_error.is_none() && args.time.is_none()) {
         return Ok(None);
     }
     if args.job.pattern.is_some() && job.view.pattern != Pattern::Owen {

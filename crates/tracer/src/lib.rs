@@ -63,7 +63,7 @@ pub use accel::{MeshTree, Preset};
 pub use backend::{Backend, backend_named, backends};
 pub use control::{Control, Progress};
 pub use display::{Display, Tone};
-pub use film::{Film, NoRoom, Tile};
+pub use film::{Film, NoRoom, StoredFilmError, Tile};
 pub use filter::Filter;
 pub use frame::Frame;
 pub use instructions::Instructions;

@@ -1,9 +1,11 @@
 //! How a picture is shared out among threads.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use crate::edges::EdgeList;
-use crate::{Backend, Control, Film, Frame, Pool, Snapshot, Stats, View};
+use crate::{Backend, Control, Film, Frame, Pool, Snapshot, Stats, Tile, View};
 
 /// The render was asked to stop; the film holds some new tiles and some old ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -19,7 +21,7 @@ pub struct Cancelled;
 ///
 /// # Panics
 /// A film of another part of the picture than the view's, or without the samples that the view [goes on](View::range)
-/// from.
+/// from: tiles that hold those and the view's own already are left as they are.
 pub fn render(
     backend: &dyn Backend,
     snapshot: &Snapshot,
@@ -29,17 +31,22 @@ pub fn render(
     control: &Control,
 ) -> Result<Stats, Cancelled> {
     assert_eq!(film.region(), view.region(), "the film holds what the view shows");
-    let first = view.traced_samples().start;
-    let goes_on = first == 0 || film.tiles_mut().iter().all(|tile| tile.holds(first));
+    let Range { start: first, end } = view.traced_samples();
+    let is_done = |tile: &Tile| first > 0 && tile.holds_evenly(end);
+    let goes_on = first == 0 || film.tiles_mut().iter().all(|tile| tile.holds(first) || is_done(tile));
     assert!(goes_on, "the film holds the samples before number {first}");
     let frame = Frame::new(snapshot, view);
     let edges = EdgeList::for_view(snapshot, view, &frame.raster);
     let frame = Frame { edges: edges.as_ref(), ..frame };
     let tiles = film.tiles_mut();
     control.start(tiles.len());
-    let trace = |tile: &mut crate::Tile| {
+    let trace = |tile: &mut Tile| {
         if control.is_cancelled() {
             return Err(Cancelled);
+        }
+        if is_done(tile) {
+            control.advance();
+            return Ok(Stats::default());
         }
         tile.begin(snapshot.entities(), view);
         let stats = Stats::with_exact(|| backend.trace(&frame, tile));

@@ -4,6 +4,7 @@ mod compare;
 mod explain;
 #[cfg(unix)]
 mod files;
+mod film;
 mod input;
 mod lab;
 #[cfg(unix)]

@@ -68,6 +68,15 @@ impl Part for Mesh {
     }
 }
 
+impl Mesh {
+    /// How much each corner of a triangle counts at a point.
+    fn weights_at(&self, point: DVec3, triangle: u32) -> [f64; 3] {
+        let own = self.to_object.point(point);
+        let of_corners = in_triangle(&self.source.mesh.corners(triangle), BARYCENTRIC, own).uv;
+        [1.0 - of_corners.x - of_corners.y, of_corners.x, of_corners.y]
+    }
+}
+
 impl Geometry for Mesh {
     fn pieces(&self) -> u32 {
         self.source.mesh.triangles().len() as u32
@@ -129,9 +138,12 @@ impl Geometry for Mesh {
     fn color_at(&self, point: DVec3, triangle: u32) -> Option<Rgb> {
         let mesh = &self.source.mesh;
         mesh.colors()?;
-        let own = self.to_object.point(point);
-        let of_corners = in_triangle(&mesh.corners(triangle), BARYCENTRIC, own).uv;
-        mesh.color_at(triangle, [1.0 - of_corners.x - of_corners.y, of_corners.x, of_corners.y])
+        mesh.color_at(triangle, self.weights_at(point, triangle))
+    }
+
+    fn tangents(&self, point: DVec3, triangle: u32) -> Option<[DVec3; 2]> {
+        let along = self.source.mesh.tangents_at(triangle, self.weights_at(point, triangle))?;
+        Some(along.map(|v| self.to_world.vector(v)))
     }
 
     fn is_closed(&self) -> bool {

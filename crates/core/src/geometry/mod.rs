@@ -21,6 +21,7 @@ mod polyhedron;
 mod prism;
 mod rectangle;
 mod sphere;
+mod tangents;
 mod tetrahedron;
 mod triangle;
 mod triangle_mesh;
@@ -183,6 +184,13 @@ pub trait Geometry {
         None
     }
 
+    /// Which way normal maps and brushed metal lie at a point of a facet: where texture coordinates u and v grow, smoothly from
+    /// facet to facet, in place of how they run on the facet itself. `None` where that is smooth. Point and space as for
+    /// [`parametrization`](Self::parametrization).
+    fn tangents(&self, _point: DVec3, _facet: u32) -> Option<[DVec3; 2]> {
+        None
+    }
+
     /// Whether it encloses a volume: a ray from outside that enters it leaves it again.
     fn is_closed(&self) -> bool;
 
@@ -336,6 +344,12 @@ impl Shape {
     #[must_use]
     pub fn color_at(&self, point: DVec3, facet: u32) -> Option<Rgb> {
         each_shape!(self, shape => shape.color_at(point, facet))
+    }
+
+    /// See [`Geometry::tangents`].
+    #[must_use]
+    pub fn tangents(&self, point: DVec3, facet: u32) -> Option<[DVec3; 2]> {
+        each_shape!(self, shape => shape.tangents(point, facet))
     }
 
     /// See [`Geometry::bounds`].

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::parametrization::BARYCENTRIC;
+use super::tangents::Tangents;
 use crate::{Aabb, InvalidPart, Rgb};
 
 /// Triangles over shared corners, with optional normals, texture coordinates and colours per corner.
@@ -17,6 +18,8 @@ pub struct TriangleMesh {
     normals: Option<Vec<[f32; 3]>>,
     uvs: Option<Vec<[f32; 2]>>,
     colors: Option<Vec<[f32; 3]>>,
+    given_tangents: Option<Vec<[f32; 4]>>,
+    tangents: Tangents,
     offset: DVec3,
     bounds: Aabb,
 }
@@ -52,7 +55,17 @@ impl TriangleMesh {
             Some(normals) => wound_by(normals, &positions, triangles),
             None => triangles,
         };
-        Ok(Self { positions, triangles, normals, uvs, colors: None, offset: DVec3::ZERO, bounds })
+        Ok(Self {
+            positions,
+            triangles,
+            normals,
+            uvs,
+            colors: None,
+            given_tangents: None,
+            tangents: Tangents::default(),
+            offset: DVec3::ZERO,
+            bounds,
+        })
     }
 
     /// With colours (linear Rec. 709), as many as corners; a `vertex-color-texture` shows them.
@@ -62,6 +75,16 @@ impl TriangleMesh {
     pub fn with_colors(self, colors: Vec<[f32; 3]>) -> Result<Self, InvalidPart> {
         check_finite("colors", &colors, self.positions.len())?;
         Ok(Self { colors: Some(colors), ..self })
+    }
+
+    /// With tangents, as many as corners: where texture coordinate u grows, and 1 or −1 for the side of the normal and the tangent on
+    /// which v does. Without them they are made as `MikkTSpace` does.
+    ///
+    /// # Errors
+    /// Tangents that are not finite or not as many as the positions.
+    pub fn with_tangents(self, tangents: Vec<[f32; 4]>) -> Result<Self, InvalidPart> {
+        check_finite("tangents", &tangents, self.positions.len())?;
+        Ok(Self { given_tangents: Some(tangents), ..self })
     }
 
     /// The same, round a point: of corners far from zero, `f32` keeps what lies between them and `f64` where they stand.
@@ -169,6 +192,26 @@ impl TriangleMesh {
         let sum: DVec3 = (0..3).map(|k| widen(colors[corners[k] as usize]) * weights[k]).sum();
         Some(Rgb::new(sum.x, sum.y, sum.z).map(|v| v.max(0.0)))
     }
+
+    /// Where texture coordinates u and v grow at a point given by corner weights, smoothly from triangle to triangle; not
+    /// normalised. `None` without texture coordinates.
+    ///
+    /// # Panics
+    /// A triangle number out of range.
+    #[must_use]
+    pub fn tangents_at(&self, triangle: u32, weights: [f64; 3]) -> Option<[DVec3; 2]> {
+        let of_corners = match &self.given_tangents {
+            Some(given) => self.triangles[triangle as usize].map(|i| given[i as usize]),
+            None if self.uvs.is_some() => self.tangents.of(self, triangle),
+            None => return None,
+        };
+        let tangent: DVec3 = (0..3).map(|k| widen_tangent(of_corners[k]) * weights[k]).sum();
+        let normal = self.normal_at(triangle, weights).unwrap_or_else(|| {
+            let [a, b, c] = self.corners(triangle);
+            (b - a).cross(c - a)
+        });
+        Some([tangent, normal.cross(tangent) * f64::from(of_corners[0][3])])
+    }
 }
 
 /// Triangles with two corners swapped where they are wound against the sum of their corners' normals.
@@ -185,6 +228,10 @@ fn wound_by(normals: &[[f32; 3]], positions: &[[f32; 3]], mut triangles: Vec<[u3
 
 fn widen(p: [f32; 3]) -> DVec3 {
     DVec3::from(p.map(f64::from))
+}
+
+fn widen_tangent([x, y, z, _]: [f32; 4]) -> DVec3 {
+    widen([x, y, z])
 }
 
 fn check_finite<const N: usize>(
@@ -233,6 +280,35 @@ mod tests {
         assert_eq!(wound([0, 1, 2], [-1.0, 0.6, 0.6]), [0, 1, 2]);
         assert_eq!(wound([0, 1, 2], [1.0, -0.6, -0.6]), [0, 2, 1]);
         assert_eq!(wound([0, 2, 1], [0.0; 3]), [0, 2, 1]);
+    }
+
+    #[test]
+    fn tangents_are_those_given_or_follow_the_coordinates() {
+        let uvs = [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]];
+        let bare = TriangleMesh::new(CORNERS.to_vec(), vec![[0, 1, 2]], None, None).unwrap();
+        assert_eq!(bare.tangents_at(0, [1.0, 0.0, 0.0]), None);
+        let mesh = TriangleMesh::new(CORNERS.to_vec(), vec![[0, 1, 2]], None, Some(uvs.to_vec())).unwrap();
+        // u grows along y and v along x, which is on the other side than where a corner turned to the left has it.
+        let [u, v] = mesh.tangents_at(0, [0.2, 0.3, 0.5]).unwrap();
+        assert!((u - DVec3::Y).length() < 1e-6 && (v.normalize() - DVec3::X).length() < 1e-6, "{u} {v}");
+        let given = mesh.with_tangents(vec![[1.0, 0.0, 0.0, 1.0]; 3]).unwrap();
+        let [u, v] = given.tangents_at(0, [0.2, 0.3, 0.5]).unwrap();
+        assert!((u - DVec3::X).length() < 1e-12 && (v.normalize() - DVec3::Y).length() < 1e-12, "{u} {v}");
+    }
+
+    #[test]
+    fn tangents_are_smooth_over_an_edge() {
+        let (bend, uvs) = ([0.0, 1.0, 1.0], vec![[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0]]);
+        let positions = vec![[0.0; 3], [0.0, 1.0, 0.0], [1.0, 0.0, -0.3], [-1.0, 0.0, -0.3]];
+        let normals = vec![bend, bend, [0.2, 0.0, 1.0], [-0.2, 0.0, 1.0]];
+        let mesh =
+            TriangleMesh::new(positions, vec![[0, 2, 1], [0, 1, 3]], Some(normals), Some(uvs)).unwrap();
+        let [left, right] = [1, 0].map(|triangle| {
+            let at_start = mesh.triangles()[triangle].map(|corner| f64::from(u8::from(corner == 0)));
+            mesh.tangents_at(triangle as u32, at_start).unwrap()[0]
+        });
+        assert!((left - right).length() < 1e-6, "{left} {right}");
+        assert!((left - DVec3::X).length() < 1e-6, "{left}");
     }
 
     #[test]

@@ -68,6 +68,11 @@ pub trait Surface {
         Bsdf::from_lobes(&self.lobes(&at.shading), at)
     }
 
+    /// Whether its look depends on which way texture coordinates run.
+    fn is_anisotropic(&self) -> bool {
+        false
+    }
+
     /// What fills a solid of it, if light goes through.
     fn medium(&self) -> Option<Medium> {
         None
@@ -214,6 +219,12 @@ impl Material {
     #[must_use]
     pub fn bsdf(&self, at: &SurfacePoint) -> Bsdf {
         each_material!(self, material => material.bsdf(at))
+    }
+
+    /// See [`Surface::is_anisotropic`].
+    #[must_use]
+    pub fn is_anisotropic(&self) -> bool {
+        each_material!(self, material => material.is_anisotropic())
     }
 
     /// See [`Surface::medium`].

@@ -180,6 +180,10 @@ impl Surface for Principled {
         self.look.is_solid().then_some(Medium { ior: self.look.ior, absorption, priority: self.priority })
     }
 
+    fn is_anisotropic(&self) -> bool {
+        self.look.anisotropy.base() > 0.0
+    }
+
     fn emission(&self) -> Option<Emission> {
         let radiance = self.look.emission.rgb();
         (radiance != Rgb::BLACK && !self.unlit).then_some(Emission { radiance, two_sided: false })

@@ -4,6 +4,7 @@
 //! that is the `f32` column that it was traced into.
 
 mod replicates;
+mod stored;
 mod sums;
 mod tile;
 
@@ -11,6 +12,7 @@ use catoptra_core::EntityId;
 
 use crate::{Region, Size};
 pub(crate) use replicates::SEQUENCES;
+pub use stored::StoredFilmError;
 pub(crate) use sums::store_finite;
 pub use tile::Tile;
 

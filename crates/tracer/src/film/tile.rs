@@ -25,8 +25,8 @@ pub struct Tile {
     pub(crate) depth: Column<f32>,
     pub(crate) surface: Column<u32>,
     /// The light of all samples of a pixel, where there may be more than one.
-    totals: Option<[Column<f64>; 3]>,
-    counts: Counts,
+    pub(super) totals: Option<[Column<f64>; 3]>,
+    pub(super) counts: Counts,
     /// Up to which number the samples of a pixel are traced, where each has a number of its own.
     goals: Option<Column<u32>>,
     /// The light of each of several sequences of samples, where it is kept apart.
@@ -36,7 +36,7 @@ pub struct Tile {
     /// What the surfaces are called.
     entities: Arc<[EntityId]>,
     /// The one light that all pixels show, where it is known that none shows a surface.
-    blank: Option<Light>,
+    pub(super) blank: Option<Light>,
     /// The same before the trace under way.
     before: Option<Light>,
     /// Pixels of the picture that single rays go through, where it holds those.
@@ -155,6 +155,11 @@ impl Tile {
     /// Whether every pixel holds so many samples, or as many as its own goal says.
     pub(crate) fn holds(&self, samples: u32) -> bool {
         self.goals.is_some() || matches!(self.counts, Counts::Uniform(count) if count == samples)
+    }
+
+    /// Whether every pixel holds so many samples, and none has a goal of its own.
+    pub(crate) fn holds_evenly(&self, samples: u32) -> bool {
+        self.goals.is_none() && self.holds(samples)
     }
 
     /// Whether samples are traced for some pixels only.
@@ -288,7 +293,13 @@ impl Tile {
     /// Where a pixel of the tile lies in its columns.
     #[inline]
     pub(crate) fn index(&self, x: u32, y: u32) -> usize {
-        let block = (y / BLOCK) * self.blocks_across() + x / BLOCK;
+        Self::index_in(self.blocks_across(), x, y)
+    }
+
+    /// The same in a tile of so many blocks across.
+    #[inline]
+    pub(super) fn index_in(blocks_across: u32, x: u32, y: u32) -> usize {
+        let block = (y / BLOCK) * blocks_across + x / BLOCK;
         block as usize * BLOCK_PIXELS + ((y % BLOCK) * BLOCK + x % BLOCK) as usize
     }
 
@@ -386,7 +397,7 @@ impl Tile {
         self.blank = None;
     }
 
-    fn sum(&self, i: usize) -> Sum {
+    pub(super) fn sum(&self, i: usize) -> Sum {
         let light = match &self.totals {
             Some(totals) => [0, 1, 2].map(|c| totals[c][i]),
             None => [0, 1, 2].map(|c| f64::from(self.sums[c][i])),

@@ -65,7 +65,6 @@ impl<S: Simd> Shader<'_, S> {
             pixel: batch.pixels(self.s, self.chunk.at[slot]),
             prim: best.prim,
             facet: best.facet,
-            alone: M::splat(self.s, true),
         };
         self.next.push(lanes, &rays);
     }

@@ -145,9 +145,8 @@ impl<S: Simd> Shader<'_, S> {
             pixel,
             prim: best.prim,
             facet: best.facet,
-            alone: !is_diffuse,
         };
-        self.next.push(sent, &rays);
+        self.next.push_chosen(sent, &rays, !is_diffuse);
     }
 
     /// The random numbers of the squares of the film, so many pixels wide, that the lanes' pixels lie in.

@@ -14,6 +14,8 @@ use super::extraction::OwnShape;
 pub(crate) struct MatterRow {
     pub(crate) finish: Finish,
     pub(crate) is_textured: bool,
+    /// Whether it matters which way texture coordinates run.
+    pub(crate) is_directed: bool,
     /// What fills a solid of it.
     pub(crate) medium: Option<Medium>,
     /// The same without an inside, for surfaces that enclose nothing.
@@ -24,7 +26,13 @@ impl MatterRow {
     fn new(material: &Material, finish: Finish) -> Self {
         let medium = material.medium();
         let thin = || material.with("thin", catoptra_core::Value::Flag(true)).ok();
-        Self { finish, is_textured: material.is_textured(), medium, thin: medium.and_then(|_| thin()) }
+        Self {
+            finish,
+            is_textured: material.is_textured(),
+            is_directed: finish.normal_map().is_some() || material.is_anisotropic(),
+            medium,
+            thin: medium.and_then(|_| thin()),
+        }
     }
 
     /// Whether any light goes straight through.

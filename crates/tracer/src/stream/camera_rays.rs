@@ -86,7 +86,8 @@ pub(crate) struct CameraPackets<'a, S: Simd> {
     /// Columns and rows of the lanes of each part of a block, in pixels from the block's corner.
     within: [(D<S>, D<S>); BLOCK_PIXELS / 4],
     raster: Raster,
-    start: StartLanes<S>,
+    /// `None` for the eye.
+    start: Option<StartLanes<S>>,
     sample: Sample,
     /// Whether places are kept in columns.
     own: bool,
@@ -100,40 +101,36 @@ pub(crate) struct CameraPackets<'a, S: Simd> {
     pub(crate) sides: Option<[DVec3; 2]>,
 }
 
-/// Where rays start, in registers.
-enum StartLanes<S: Simd> {
-    Eye,
-    Lens(LensLanes<S>),
-    Window(WindowLanes<S>),
-}
-
-struct LensLanes<S: Simd> {
+/// Where rays start that do not start at the eye, in registers: from there `base`, and so far along `right` and `up`.
+struct StartLanes<S: Simd> {
+    base: D3<S>,
     right: D3<S>,
     up: D3<S>,
-    /// −1 over the distance at which things are sharp.
+    /// Minus 1 over the distance at which rays through one pixel meet; 0 where they are parallel.
     inverse_focus: D<S>,
-}
-
-struct WindowLanes<S: Simd> {
-    corner: D3<S>,
-    across: D3<S>,
-    down: D3<S>,
+    /// Whether how far is kept in columns, as on a lens; else it is the place in the picture.
+    on_lens: bool,
 }
 
 impl<S: Simd> StartLanes<S> {
     #[inline(always)]
-    fn new(s: S, start: &RayStart) -> Self {
+    fn new(s: S, start: &RayStart) -> Option<Self> {
+        let splat = |v| splat_wide(s, v);
         match start {
-            RayStart::Eye => Self::Eye,
-            RayStart::Lens(lens) => Self::Lens(LensLanes {
-                right: splat_wide(s, lens.right),
-                up: splat_wide(s, lens.up),
+            RayStart::Eye => None,
+            RayStart::Lens(lens) => Some(Self {
+                base: splat(DVec3::ZERO),
+                right: splat(lens.right),
+                up: splat(lens.up),
                 inverse_focus: D::splat(s, -lens.inverse_focus),
+                on_lens: true,
             }),
-            RayStart::Window(window) => Self::Window(WindowLanes {
-                corner: splat_wide(s, window.corner),
-                across: splat_wide(s, window.across),
-                down: splat_wide(s, window.down),
+            RayStart::Window(window) => Some(Self {
+                base: splat(window.corner),
+                right: splat(window.across),
+                up: splat(window.down),
+                inverse_focus: D::splat(s, 0.0),
+                on_lens: false,
             }),
         }
     }
@@ -275,7 +272,7 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
         let [right_column, down_column] = &mut self.rays.place;
         right.store(&mut right_column[at..]);
         down.store(&mut down_column[at..]);
-        if matches!(self.start, StartLanes::Lens(_)) {
+        if self.start.as_ref().is_some_and(|start| start.on_lens) {
             let [first, second] = sampler.pair(index, pairs::LENS);
             let [right, up] = point_of_disk([share_of_one(first), share_of_one(second)]);
             let [right_column, up_column] = &mut self.rays.on_lens;
@@ -321,22 +318,18 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
         (columns + F::load(s, &right[at..]).widen(), rows + F::load(s, &down[at..]).widen())
     }
 
-    /// From the eye to where the pixels of the packet at an index of the tile's columns have their places.
+    /// From the eye to where the rays of the packet at an index of the tile's columns start.
     #[inline(always)]
-    fn through_window(&self, s: S, at: usize, window: &WindowLanes<S>) -> D3<S> {
-        let (x, y, _) = self.corner_of(at);
-        let (columns, rows) = self.within_block(s, at);
-        let along = |first: u32, within: D<S>| within + D::splat(s, f64::from(first));
-        let row = window.down.scale_add(along(self.y + y, rows), window.corner);
-        window.across.scale_add(along(self.x + x, columns), row)
-    }
-
-    /// From the eye to where the rays of the packet at an index of the tile's columns start on the lens.
-    #[inline(always)]
-    fn aside(&self, s: S, at: usize, lens: &LensLanes<S>) -> D3<S> {
-        let [right, up] = &self.rays.on_lens;
-        let [right, up] = [F::load(s, &right[at..]).widen(), F::load(s, &up[at..]).widen()];
-        lens.right.scale_add(right, lens.up.scale(up))
+    fn aside(&self, s: S, at: usize, start: &StartLanes<S>) -> D3<S> {
+        let (right, up) = if start.on_lens {
+            let [right, up] = &self.rays.on_lens;
+            (F::load(s, &right[at..]).widen(), F::load(s, &up[at..]).widen())
+        } else {
+            let ((x, y, _), (columns, rows)) = (self.corner_of(at), self.within_block(s, at));
+            let along = |first: u32, within: D<S>| within + D::splat(s, f64::from(first));
+            (along(self.x + x, columns), along(self.y + y, rows))
+        };
+        start.right.scale_add(right, start.up.scale_add(up, start.base))
     }
 
     /// Origins, relative to the snapshot's, and directions of the packet at an index of the tile's columns: those of
@@ -345,12 +338,11 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
     fn precise_rays(&self, s: S, at: usize) -> (D3<S>, D3<S>) {
         let direction = self.directions(s, at);
         match &self.start {
-            StartLanes::Eye => (self.eye, direction),
-            StartLanes::Lens(lens) => {
-                let aside = self.aside(s, at, lens);
-                (self.eye + aside, aside.scale_add(lens.inverse_focus, direction))
+            None => (self.eye, direction),
+            Some(start) => {
+                let aside = self.aside(s, at, start);
+                (self.eye + aside, aside.scale_add(start.inverse_focus, direction))
             }
-            StartLanes::Window(window) => (self.eye + self.through_window(s, at, window), direction),
         }
     }
 
@@ -388,14 +380,12 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
     #[inline(always)]
     pub(crate) fn packet_at(&self, s: S, at: usize) -> Packet<'_, S, Self> {
         let direction = load3(s, &self.rays.direction, at);
-        let elsewhere = |aside: D3<S>| {
-            let origin = narrow3(self.eye + aside);
-            (origin, magnitude(origin) + F::splat(s, self.drift))
-        };
         let (origin, reach) = match &self.start {
-            StartLanes::Eye => (self.eye32, self.reach),
-            StartLanes::Lens(lens) => elsewhere(self.aside(s, at, lens)),
-            StartLanes::Window(window) => elsewhere(self.through_window(s, at, window)),
+            None => (self.eye32, self.reach),
+            Some(start) => {
+                let origin = narrow3(self.eye + self.aside(s, at, start));
+                (origin, magnitude(origin) + F::splat(s, self.drift))
+            }
         };
         Packet {
             precise: self,
@@ -436,9 +426,9 @@ impl<S: Simd> PreciseRays<S> for CameraPackets<'_, S> {
         };
         let (right, down) =
             (along(self.x + x, within % BLOCK, share[0]), along(self.y + y, within / BLOCK, share[1]));
-        match self.start {
-            StartLanes::Eye | StartLanes::Window(_) => self.raster.ray(right, down),
-            StartLanes::Lens(_) => self.raster.ray_from(right, down, of(&self.rays.on_lens)),
+        match &self.start {
+            Some(start) if start.on_lens => self.raster.ray_from(right, down, of(&self.rays.on_lens)),
+            _ => self.raster.ray(right, down),
         }
     }
 

@@ -49,8 +49,6 @@ pub(crate) struct QueuedRays<S: Simd> {
     pub(crate) pixel: U<S>,
     pub(crate) prim: U<S>,
     pub(crate) facet: U<S>,
-    /// Lanes whose direction was the only one there was.
-    pub(crate) alone: M<S>,
 }
 
 impl Queue {
@@ -91,7 +89,6 @@ impl Queue {
                 pixel: U::counted(s, at as u32),
                 prim: U::splat(s, NOTHING),
                 facet: U::splat(s, 0),
-                alone: M::splat(s, true),
             };
             let left = (count - at).min(F::<S>::LANES);
             self.push(M::from_bits(s, u64::MAX >> (64 - left)), &rays);
@@ -120,8 +117,6 @@ impl Queue {
         self.make_room(F::<S>::LANES);
         let (at, count) = (self.length, mask.count() as usize);
         self.length += count;
-        let (one, none) = (rays.pixel.of(1), rays.pixel.of(0));
-        let alone = U::pick(rays.alone, one, none);
         if count == F::<S>::LANES {
             store_wide3(rays.origin, &mut self.origin, at);
             store_wide3(rays.direction, &mut self.direction, at);
@@ -129,7 +124,6 @@ impl Queue {
             rays.pixel.store(&mut self.pixel[at..]);
             rays.prim.store(&mut self.prim[at..]);
             rays.facet.store(&mut self.facet[at..]);
-            alone.store(&mut self.alone[at..]);
         } else {
             compress_wide3(rays.origin, mask, &mut self.origin, at);
             compress_wide3(rays.direction, mask, &mut self.direction, at);
@@ -137,8 +131,16 @@ impl Queue {
             rays.pixel.compressed(mask).store(&mut self.pixel[at..]);
             rays.prim.compressed(mask).store(&mut self.prim[at..]);
             rays.facet.compressed(mask).store(&mut self.facet[at..]);
-            alone.compressed(mask).store(&mut self.alone[at..]);
         }
+    }
+
+    /// The same, and says which lanes have the only direction there was: asked of [paths](crate::shade::Gathers::paths) alone.
+    #[inline(always)]
+    pub(crate) fn push_chosen<S: Simd>(&mut self, mask: M<S>, rays: &QueuedRays<S>, alone: M<S>) {
+        let at = self.length;
+        self.push(mask, rays);
+        let (one, none) = (rays.pixel.of(1), rays.pixel.of(0));
+        U::pick(alone, one, none).compressed(mask).store(&mut self.alone[at..]);
     }
 
     /// Appends a ray of the snapshot's frame, whose direction has unit length.

@@ -161,7 +161,10 @@ impl<'a, S: Search> Walker<'a, S> {
         };
         let position = own.to_own.point(surface.point + snapshot.frame());
         let place = own.shape.parametrization(position, surface.hit.surface.facet);
-        (at.uv, at.tangent) = (place.uv, own.to_world.vector(place.along_u));
+        let facet = surface.hit.surface.facet;
+        let smooth = if row.is_directed { own.shape.tangents(position, facet) } else { None };
+        let [along_u, along_v] = smooth.unwrap_or([place.along_u, place.along_v]);
+        (at.uv, at.tangent) = (place.uv, own.to_world.vector(along_u));
         let spread = path.spread.on_surface(&surface.ray, surface.hit.crossing.t, surface.normal);
         let spread = spread.map(|side| own.to_own.vector(side));
         let point = TexturePoint {
@@ -181,7 +184,7 @@ impl<'a, S: Search> Walker<'a, S> {
                 (at.tangent - normal * at.tangent.dot(normal)).normalize_or(normal.any_orthonormal_vector());
             // On the side where v grows, which mirrored coordinates turn round.
             let across = normal.cross(right);
-            let up = if across.dot(own.to_world.vector(place.along_v)) < 0.0 { -across } else { across };
+            let up = if across.dot(own.to_world.vector(along_v)) < 0.0 { -across } else { across };
             let [x, y, z] = map.normal(matter, &point).to_array();
             let bent = (right * x + up * y + normal * z).normalize_or(normal);
             at.shading.normal = towards_viewer(bent, at.to_viewer(), normal).into();

@@ -150,7 +150,6 @@ impl<S: Simd> OcclusionTracer<'_, S> {
                 pixel: U::counted(s, packet.at as u32),
                 prim: best.prim,
                 facet: best.facet,
-                alone: M::splat(s, true),
             },
         );
     }

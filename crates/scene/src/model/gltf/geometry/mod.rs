@@ -110,8 +110,8 @@ impl Meshes {
     }
 }
 
-/// Bytes of a corner or a triangle at most: position, normal, texture coordinates, colour.
-const ROW: usize = size_of::<[f32; 11]>();
+/// Bytes of a corner or a triangle at most: position, normal, texture coordinates, colour, tangent.
+const ROW: usize = size_of::<[f32; 15]>();
 
 fn read(
     accessors: &Accessors,
@@ -128,10 +128,14 @@ fn read(
         let carried = skin::apply(corners, &primitive.attributes, joints, source)?;
         (corners, offset) = (carried.corners, carried.offset);
     }
-    let Corners { positions, triangles, normals, uvs, colors, .. } = corners;
+    let Corners { positions, triangles, normals, uvs, colors, tangents, .. } = corners;
     let mesh = TriangleMesh::new(positions, triangles, normals, uvs).map(|mesh| mesh.with_offset(offset));
     let mesh = mesh.and_then(|mesh| match colors {
         Some(colors) => mesh.with_colors(colors),
+        None => Ok(mesh),
+    });
+    let mesh = mesh.and_then(|mesh| match tangents {
+        Some(tangents) => mesh.with_tangents(tangents),
         None => Ok(mesh),
     });
     Ok(Some(Arc::new(mesh?)))

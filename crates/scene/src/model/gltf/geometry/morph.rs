@@ -21,6 +21,8 @@ pub(crate) fn apply(
 ) -> Result<(), Refusal> {
     for (i, (target, &weight)) in targets.iter().zip(weights).enumerate() {
         if weight != 0.0 {
+            // What is bent has other tangents.
+            corners.tangents = None;
             apply_one(corners, target, weight, source).within(|| format!("targets[{i}]"))?;
         }
     }

@@ -15,6 +15,7 @@ pub(crate) struct Accessors {
     pub(crate) normals: Option<Whole>,
     pub(crate) uvs: Option<Whole>,
     pub(crate) colors: Option<Whole>,
+    pub(crate) tangents: Option<Whole>,
     indices: Option<Whole>,
     topology: Topology,
 }
@@ -29,6 +30,8 @@ pub(crate) struct Corners {
     pub(crate) uvs: Option<Vec<[f32; 2]>>,
     /// Linear Rec. 709.
     pub(crate) colors: Option<Vec<[f32; 3]>>,
+    /// With the side of the bitangent.
+    pub(crate) tangents: Option<Vec<[f32; 4]>>,
     /// Which rows of the accessors they are; `None` for all.
     chosen: Option<Vec<u32>>,
     /// How many rows the accessors have.
@@ -40,7 +43,7 @@ const POSITION: &str = "POSITION";
 const TRIANGLES: u64 = 4;
 
 /// Bytes that a corner takes at most: position, normal, texture coordinates, colour.
-const CORNER: usize = size_of::<[f32; 11]>();
+const CORNER: usize = size_of::<[f32; 15]>();
 const TRIANGLE: usize = size_of::<[u32; 3]>();
 
 /// How the corners of a primitive are joined; `None` where it has no surface.
@@ -68,8 +71,8 @@ impl Accessors {
         refuse_packed(primitive, positions, source)?;
         let named = |name: &str| primitive.attributes.get(name).copied();
         let uvs = named(&format!("TEXCOORD_{uv_set}"));
-        let (normals, colors) = (named("NORMAL"), named("COLOR_0"));
-        Ok(Some(Self { positions, normals, uvs, colors, indices: primitive.indices, topology }))
+        let (normals, colors, tangents) = (named("NORMAL"), named("COLOR_0"), named("TANGENT"));
+        Ok(Some(Self { positions, normals, uvs, colors, tangents, indices: primitive.indices, topology }))
     }
 }
 
@@ -99,8 +102,16 @@ impl Corners {
         let chosen = chosen(&mut triangles, rows, source)?;
         let count = chosen.as_ref().map_or(rows, Vec::len);
         source.limits.take(count, CORNER)?;
-        let mut corners =
-            Self { positions: Vec::new(), triangles, normals: None, uvs: None, colors: None, chosen, rows };
+        let mut corners = Self {
+            positions: Vec::new(),
+            triangles,
+            normals: None,
+            uvs: None,
+            colors: None,
+            tangents: None,
+            chosen,
+            rows,
+        };
         corners.positions =
             positions.floats(3, corners.which()).within(|| "attributes.POSITION".to_owned())?;
         corners.refuse_infinite(&corners.positions)?;
@@ -110,6 +121,9 @@ impl Corners {
         let colors: Option<Vec<[f32; 4]>> = corners.attribute(from.colors, "COLOR_0", 3, source)?;
         corners.colors =
             colors.map(|colors| colors.into_iter().map(|c| [c[0], c[1], c[2]].map(|v| v.max(0.0))).collect());
+        // Tangents say nothing without normals.
+        let tangents = from.tangents.filter(|_| corners.normals.is_some());
+        corners.tangents = corners.attribute(tangents, "TANGENT", 4, source)?;
         Ok(Some(corners))
     }
 

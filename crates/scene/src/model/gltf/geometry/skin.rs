@@ -72,6 +72,7 @@ pub(crate) fn apply(
             normals[i] = normal.normalize_or_zero().as_vec3().to_array();
         }
     }
+    corners.tangents = None;
     let offset = offset_of(&places);
     for (position, place) in corners.positions.iter_mut().zip(&places) {
         *position = (place - offset).as_vec3().to_array();
