@@ -31,6 +31,7 @@ mod scatter_checks;
 mod sheen;
 mod smooth_interface;
 mod smooth_reflection;
+mod terminator;
 mod thin_wall;
 
 pub use boundary::{Boundary, Roughness};
@@ -51,6 +52,7 @@ pub use rough_interface::RoughInterface;
 pub use sheen::Sheen;
 pub use smooth_interface::SmoothInterface;
 pub use smooth_reflection::SmoothReflection;
+pub use terminator::soft_terminator;
 pub use thin_wall::ThinWall;
 
 use crate::{Lane, Triple};

@@ -58,7 +58,8 @@ impl<S: Search> Walker<'_, S> {
             return Rgb::BLACK;
         }
         let brought = lamp.irradiance(&arrival);
-        let light = shown * Rgb::new(brought.x, brought.y, brought.z);
+        let share = self.faced_share(&vertex.surface, arrival.direction);
+        let light = shown * Rgb::new(brought.x, brought.y, brought.z) * share;
         if !lamp.shadow() {
             self.stats.skipped.shadow_off += 1;
             return light;
