@@ -67,7 +67,7 @@ impl Nodes {
         lines.extend(placement::steps(&state.placement));
         let members: Vec<EntityId> = match id {
             Id::Entity(group) => scene.children(Some(group)).into_iter().filter(|&m| is_new(m)).collect(),
-            Id::Texture(_) | Id::Material(_) | Id::Settings | Id::Part(_) => Vec::new(),
+            _ => Vec::new(),
         };
         self.lines.push_str(&format!("{outer}{}", head(&state)));
         if lines.is_empty() && members.is_empty() {

@@ -2,7 +2,6 @@
 //! goes out.
 
 use std::collections::{HashMap, HashSet};
-use std::ops::Range;
 
 use catoptra_core::scene::{EntityId, Scene, Settings};
 
@@ -19,7 +18,7 @@ pub(crate) fn remove(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -
     let mut splices: Vec<Splice> = Vec::new();
     for (item, &id) in outline.items.iter().zip(ids) {
         let inside = splices.last().is_some_and(|s| s.range.contains(&item.span.start));
-        if !inside && !matches!(id, Id::Part(_)) && State::of(scene, id).is_none() {
+        if !inside && !matches!(id, Id::Part(..) | Id::Repeated(_)) && State::of(scene, id).is_none() {
             splices.push(Splice::new(layout::whole_node(text, &item.span), ""));
         }
     }
@@ -45,7 +44,7 @@ pub(crate) fn arrange(
         .add_shared(scene.materials().map(|(id, ..)| Id::Material(id)), |id| matches!(id, Id::Material(_)));
     arranging.arrange_members(None);
     for (i, &id) in ids.iter().enumerate() {
-        if let Id::Entity(entity) = id
+        if let Id::Entity(entity) | Id::Part(Some(entity), _) = id
             && scene.contains(entity)
         {
             arranging.arrange_members(Some((entity, i)));
@@ -170,18 +169,12 @@ impl Arranging<'_> {
                 continue;
             }
             let text = gap.fill(self.text, &dedented(self.text, item, &cut));
-            let ids = self.subtree(place).map(|p| self.ids[p]).collect();
+            let inside = self.outline.inside(place);
+            let ids = std::iter::once(place).chain(inside).map(|p| self.ids[p]).collect();
             self.splices.push(Splice { range: gap.at..gap.at, text, ids });
             self.splices.push(Splice::new(cut.clone(), ""));
             cuts.push(cut);
         }
-    }
-
-    /// An item and all that lies in it.
-    fn subtree(&self, place: usize) -> Range<usize> {
-        let end = self.outline.items[place].span.end;
-        let inside = self.outline.items[place..].iter().take_while(|item| item.span.start < end).count();
-        place..place + inside
     }
 }
 

@@ -8,6 +8,8 @@ use catoptra_core::scene::{Content, Edit, Node, Role, Scene, Subtree};
 use catoptra_core::{Placement, Shape};
 use catoptra_scene::SceneFile;
 
+mod parts;
+
 /// Two triangles of two materials; the second stands 2 m beside the first.
 const OBJ: &str = "mtllib chair.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 3 0 0\nv 2 1 0\n\
     o Leg\nusemtl Steel\nf 1 2 3\no Seat\nusemtl Wood\nf 4 5 6\n";
@@ -146,13 +148,10 @@ fn nothing_is_lost_or_doubled_by_saving() {
     type Change = fn(&Scene, Placement) -> Edit;
     let edits: [(Change, bool); 9] = [
         (|s, p| Edit::Placement(s.entity_named("chair").unwrap(), p), true),
-        (|s, p| Edit::Placement(s.entity_named("chair/Leg").unwrap(), p), false),
-        (|s, _| Edit::Remove(s.entity_named("chair/Leg").unwrap()), false),
+        (|s, p| Edit::Placement(s.entity_named("chair/Leg").unwrap(), p), true),
+        (|s, _| Edit::Remove(s.entity_named("chair/Leg").unwrap()), true),
         (|s, _| Edit::Remove(s.entity_named("chair").unwrap()), false),
-        (
-            |s, _| Edit::MaterialOf(s.entity_named("chair/Leg").unwrap(), s.material_named("m").unwrap()),
-            false,
-        ),
+        (|s, _| Edit::MaterialOf(s.entity_named("chair/Leg").unwrap(), s.material_named("m").unwrap()), true),
         (|s, _| Edit::Name(s.entity_named("chair").unwrap(), "sofa".into()), false),
         (
             |s, _| {
