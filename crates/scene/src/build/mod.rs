@@ -59,8 +59,9 @@ pub(crate) fn build(outline: &Outline, complaints: &mut Complaints) -> Built {
     };
     builder.check_names(outline);
     builder.add_textures(outline);
+    builder.add_textures_of_models(outline);
     builder.add_materials(outline);
-    builder.add_models(outline);
+    builder.add_materials_of_models(outline);
     builder.add_entities(outline);
     let scene = &builder.scene;
     builder.models.iter_mut().for_each(|model| model.note(scene));

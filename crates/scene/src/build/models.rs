@@ -5,24 +5,39 @@ use catoptra_core::scene::{Content, Role};
 use super::{Builder, Id};
 use crate::instance::{self, Instance, Override, Overrides};
 use crate::model::Model;
-use crate::outline::{Outline, Sort};
+use crate::outline::{Outline, Sort, Word};
 use crate::words;
 
 impl Builder<'_> {
-    /// Adds the textures and materials of all models: shapes may wear them wherever they stand.
-    pub(super) fn add_models(&mut self, outline: &Outline) {
+    /// Adds the textures of all models: materials may be painted with them wherever these stand.
+    pub(super) fn add_textures_of_models(&mut self, outline: &Outline) {
         for item in &outline.items {
             let (Some(source), Some(name)) = (&item.model, &item.name) else { continue };
-            match Instance::add_looks(&mut self.scene, &name.value, source) {
-                Ok(instance) => {
-                    self.names.extend(instance.material_names(source));
-                    self.models.push(instance);
-                }
-                Err(error) if self.complaints.count() == 0 => {
-                    self.complaints.add(name.span.clone(), error);
-                }
-                Err(_) => {}
+            match Instance::add_textures(&mut self.scene, &name.value, source, &outline.textures) {
+                Ok(instance) => self.models.push(instance),
+                Err(error) => self.refused_in_model(name, error),
             }
+        }
+    }
+
+    /// Adds the materials of all models: shapes may wear them wherever they stand.
+    pub(super) fn add_materials_of_models(&mut self, outline: &Outline) {
+        for item in &outline.items {
+            let (Some(source), Some(name)) = (&item.model, &item.name) else { continue };
+            let Some(model) = self.models.iter_mut().find(|model| model.name() == name.value) else {
+                continue;
+            };
+            match model.add_materials(&mut self.scene, source) {
+                Ok(()) => self.names.extend(model.material_names(source)),
+                Err(error) => self.refused_in_model(name, error),
+            }
+        }
+    }
+
+    /// Passes on what the scene refuses, unless the text was complained about already.
+    fn refused_in_model(&mut self, name: &Word, error: String) {
+        if self.complaints.count() == 0 {
+            self.complaints.add(name.span.clone(), error);
         }
     }
 

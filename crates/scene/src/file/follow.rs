@@ -11,7 +11,7 @@ use crate::outline::Sort;
 use crate::read;
 use crate::repeated::Repeated;
 use crate::report::Complaints;
-use crate::write::{self, Splice};
+use crate::write::{self, Brought, Splice};
 
 impl SceneFile {
     /// A changed text is read again, but the files that it names are not.
@@ -31,14 +31,15 @@ impl SceneFile {
 
     /// Writes out in full those models and repeats of which their nodes cannot tell any more.
     pub(super) fn write_out(&mut self, scene: &Scene) {
-        let models = std::mem::take(&mut self.models);
+        let mut models = std::mem::take(&mut self.models);
+        models.append(&mut self.resting);
         self.repeats.retain(|repeat| repeat.is_intact(scene, &models));
         let repeats = &self.repeats;
-        let is_kept = |model: &Instance| match model.root() {
-            Some(_) => model.now(scene).is_some(),
+        let (kept, resting) = models.into_iter().partition(|model| match model.root() {
+            Some(root) => model.now(scene).is_some() && !self.is_other_node(root),
             None => repeats.iter().any(|repeat| repeat.holds(model.name())),
-        };
-        self.models = models.into_iter().filter(is_kept).collect();
+        });
+        (self.models, self.resting) = (kept, resting);
         let kept: HashSet<EntityId> =
             self.models.iter().filter_map(Instance::root).chain(repeats.iter().map(Repeated::root)).collect();
         let mut splices: Vec<Splice> = Vec::new();
@@ -48,40 +49,59 @@ impl SceneFile {
             let is_such = matches!(item.sort, Sort::Model | Sort::Repeat);
             if is_such && !inside && !kept.contains(&root) && scene.contains(root) {
                 let whole = (place, root);
-                splices.push(write::in_full(&self.text, &self.outline, &self.ids, scene, whole));
+                let models = (scene, self.models.as_slice());
+                splices.push(write::in_full(&self.text, &self.outline, &self.ids, models, whole));
             }
         }
         let _ = self.splice(scene, splices);
-        self.forget_roots_without_node();
+        self.forget_repeats_without_node();
     }
 
-    /// A model or a repeat whose node is gone with one that was written out is written out with it.
-    fn forget_roots_without_node(&mut self) {
+    /// Whether the text has a node for a group which is not that of a model.
+    fn is_other_node(&self, root: EntityId) -> bool {
+        let place = self.ids.iter().position(|id| *id == Id::Entity(root));
+        place.is_some_and(|place| !matches!(self.outline.items[place].sort, Sort::Model))
+    }
+
+    /// A repeat whose node is gone with one that was written out is written out with it.
+    fn forget_repeats_without_node(&mut self) {
         let nodes = self.outline.items.iter().zip(&self.ids);
-        let is_such = |sort: Sort| matches!(sort, Sort::Model | Sort::Repeat);
-        let there: HashSet<Id> = nodes.filter(|(item, _)| is_such(item.sort)).map(|(_, id)| *id).collect();
+        let nodes = nodes.filter(|(item, _)| matches!(item.sort, Sort::Repeat));
+        let there: HashSet<Id> = nodes.map(|(_, id)| *id).collect();
         self.repeats.retain(|repeat| there.contains(&Id::Entity(repeat.root())));
         let repeats = &self.repeats;
-        self.models.retain(|model| match model.root() {
-            Some(root) => there.contains(&Id::Entity(root)),
-            None => repeats.iter().any(|repeat| repeat.holds(model.name())),
-        });
+        let stays = |model: &mut Instance| {
+            model.root().is_some() || repeats.iter().any(|repeat| repeat.holds(model.name()))
+        };
+        self.models.retain_mut(stays);
     }
 
     pub(super) fn follow(&mut self, scene: &Scene) -> Option<()> {
         self.splice(scene, write::edit(&self.text, &self.outline, &self.ids, scene))?;
+        let is_new = self.models.iter().any(|model| model.root().is_some() && self.place_of(model).is_none());
         self.follow_parts(scene)?;
+        self.arrange(scene)?;
+        if is_new {
+            // Now there are nodes of models to be filled.
+            self.follow_parts(scene)?;
+            self.arrange(scene)?;
+        }
+        self.splice(scene, write::remove(&self.text, &self.outline, &self.ids, scene))?;
+        self.remove_parts(scene)
+    }
+
+    fn arrange(&mut self, scene: &Scene) -> Option<()> {
         let hidden = self.hidden(scene);
         // Every call settles at least one node.
         for _ in 0..=self.ids.len() + scene.entities().len() + 2 {
-            let splices = write::arrange(&self.text, &self.outline, &self.ids, scene, &hidden);
+            let brought = Brought { models: &self.models, hidden: &hidden };
+            let splices = write::arrange(&self.text, &self.outline, &self.ids, scene, brought);
             if splices.is_empty() {
                 break;
             }
             self.splice(scene, splices)?;
         }
-        self.splice(scene, write::remove(&self.text, &self.outline, &self.ids, scene))?;
-        self.remove_parts(scene)
+        Some(())
     }
 
     /// What nodes of the text need not stand for, because models and repeats bring it with them.

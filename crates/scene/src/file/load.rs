@@ -29,7 +29,9 @@ pub fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
     if is_device(&found) && !input.is_terminal() {
         return Err(SceneTextError::unusable(path, "is a device, not a scene".to_owned()));
     }
-    if found.is_file() && model::is_named_so(path) {
+    let is_named_scene = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("kdl"));
+    let is_model = model::is_named_so(path) || (!is_named_scene && model::begins_as_one(path));
+    if found.is_file() && is_model {
         return bare::load(path);
     }
     let lies_in_folder = found.is_file() && !atomic::is_descriptor(path);
@@ -102,6 +104,7 @@ pub(crate) fn parse_with(
                 ids,
                 files,
                 models,
+                resting: Vec::new(),
                 repeats,
                 added: None,
             };

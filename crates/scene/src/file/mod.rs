@@ -2,6 +2,7 @@
 
 mod follow;
 mod load;
+mod models;
 
 use std::path::{Path, PathBuf};
 
@@ -33,6 +34,8 @@ pub struct SceneFile {
     files: Files,
     /// What came from model files and is as they and the text say.
     models: Vec<Instance>,
+    /// What came from model files and is not there any more, or not so; an undone edit may bring it back.
+    resting: Vec<Instance>,
     /// Repeats that are as the text says.
     repeats: Vec<Repeated>,
     added: Option<String>,
@@ -64,6 +67,7 @@ impl SceneFile {
             ids: Vec::new(),
             files: Files::new(None),
             models: Vec::new(),
+            resting: Vec::new(),
             repeats: Vec::new(),
             added: None,
         };
@@ -133,6 +137,7 @@ impl SceneFile {
             self.outline = Outline::default();
             self.ids.clear();
             self.models.clear();
+            self.resting.clear();
             self.repeats.clear();
             let _ = self.follow(scene);
         }

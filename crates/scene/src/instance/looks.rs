@@ -1,5 +1,6 @@
 //! How do the textures and materials of a model come into a scene?
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use catoptra_core::scene::{Edit, Scene, TextureId};
@@ -9,27 +10,40 @@ use super::{Instance, ModelSource, full_name};
 use crate::build::Id;
 
 impl Instance {
-    /// Adds textures and materials of a model; where one of that name is there, it takes the place of the model's.
+    /// Adds the textures of a model, under the ids that `known` has for their names; where one of that name is there, it takes
+    /// the place of the model's.
     ///
     /// # Errors
     /// What the scene refuses, for people.
-    pub(crate) fn add_looks(scene: &mut Scene, name: &str, source: &ModelSource) -> Result<Self, String> {
-        let mut instance = Self { name: name.to_owned(), ..Self::default() };
+    pub(crate) fn add_textures(
+        scene: &mut Scene,
+        name: &str,
+        source: &ModelSource,
+        known: &HashMap<String, TextureId>,
+    ) -> Result<Self, String> {
+        let mut instance = Self { name: name.to_owned(), path: source.path.clone(), ..Self::default() };
         for (texture_name, texture) in &source.model.textures {
-            instance.add_texture(scene, source, texture_name, texture)?;
-        }
-        for i in 0..source.model.materials.len() {
-            instance.add_material(scene, source, i)?;
+            let id = known.get(&full_name(name, texture_name)).copied();
+            instance.add_texture(scene, source, (texture_name, texture), id)?;
         }
         Ok(instance)
+    }
+
+    /// Adds the materials of the model, its textures being there; where one of that name is there, it takes the place of the
+    /// model's.
+    ///
+    /// # Errors
+    /// What the scene refuses, for people.
+    pub(crate) fn add_materials(&mut self, scene: &mut Scene, source: &ModelSource) -> Result<(), String> {
+        (0..source.model.materials.len()).try_for_each(|i| self.add_material(scene, source, i))
     }
 
     fn add_texture(
         &mut self,
         scene: &mut Scene,
         source: &ModelSource,
-        own: &str,
-        texture: &Texture,
+        (own, texture): (&str, &Texture),
+        id: Option<TextureId>,
     ) -> Result<(), String> {
         let name = full_name(&self.name, own);
         if let Some(id) = scene.texture_named(&name) {
@@ -48,7 +62,9 @@ impl Instance {
             all.with(field, value)
         });
         let texture = (texture.kind().make)(&values).map_err(|e| e.to_string())?;
-        let id = scene.add_texture(&name, texture).map_err(|e| e.to_string())?;
+        let id = id.unwrap_or_else(|| scene.next_texture_id());
+        let add = Edit::AddTexture { name, texture, id: Some(id) };
+        scene.apply(add).map_err(|e| e.to_string())?;
         self.textures.push(id);
         self.own_looks.push(Id::Texture(id));
         Ok(())

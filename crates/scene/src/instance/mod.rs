@@ -42,6 +42,8 @@ pub(crate) type Overrides = HashMap<String, Override>;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Instance {
     name: String,
+    /// By which the text names its file.
+    path: String,
     /// The group that it is in the scene; none where its node stands in a repeat, whose copies have groups of their own.
     root: Option<EntityId>,
     /// By their place in the model.
@@ -66,6 +68,16 @@ impl Instance {
     /// The name of the model's node.
     pub(crate) fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The path by which the text names its file.
+    pub(crate) fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// Its textures and materials that no node of the text stands for.
+    pub(crate) fn own_looks(&self) -> &[Id] {
+        &self.own_looks
     }
 
     /// The group that it is in the scene.

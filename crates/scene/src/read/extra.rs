@@ -12,6 +12,9 @@ use crate::outline::{Item, Sort, Span};
 /// The most copies that one repeat makes. What all repeats of a text make together is bounded beside that.
 pub(crate) const MOST_COPIES: u32 = 100_000;
 
+/// The word for the path of a model.
+pub(crate) const FILE: &str = "file";
+
 /// The word that leaves a part of a model out.
 pub(crate) const REMOVE: &str = "remove";
 
@@ -26,7 +29,7 @@ pub(super) enum Extra {
 
 /// Which nodes are told what, by which word.
 pub(super) const EXTRAS: [(Sort, &str, Extra); 4] = [
-    (Sort::Model, "file", Extra::File),
+    (Sort::Model, FILE, Extra::File),
     (Sort::Part, REMOVE, Extra::Remove),
     (Sort::Repeat, "count", Extra::Count),
     (Sort::Repeat, "step", Extra::Step),

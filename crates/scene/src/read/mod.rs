@@ -18,7 +18,7 @@ use kdl::KdlDocument;
 use crate::outline::{Outline, Sort, Span};
 use crate::report::Complaints;
 use crate::scan;
-pub(crate) use extra::{REMOVE, next};
+pub(crate) use extra::{FILE, REMOVE, next};
 pub(crate) use files::Files;
 pub(crate) use node::MATERIAL;
 pub(crate) use paint::{CHANNEL, TEXTURE};
@@ -51,7 +51,7 @@ pub(crate) fn read(
     }
     match parse_kdl(&scan::without_comments(text)) {
         Ok(document) => {
-            let textures = textures.unwrap_or_else(|| paint::textures_of(&document));
+            let textures = textures.unwrap_or_else(|| paint::textures_of(&document, files));
             outline.textures.clone_from(&textures);
             let mut reader = Reader { text, files, complaints, textures: &textures, outline: &mut outline };
             for node in document.nodes() {

@@ -8,6 +8,7 @@ use super::layout;
 use super::node::Nodes;
 use super::splice::Splice;
 use crate::build::Id;
+use crate::instance::Instance;
 use crate::outline::{Outline, Span};
 use crate::scan;
 
@@ -16,7 +17,7 @@ pub(crate) fn in_full(
     text: &str,
     outline: &Outline,
     ids: &[Id],
-    scene: &Scene,
+    (scene, models): (&Scene, &[Instance]),
     (place, root): (usize, EntityId),
 ) -> Splice {
     let span = &outline.items[place].span;
@@ -28,7 +29,7 @@ pub(crate) fn in_full(
         .filter(|(i, _)| *i != place && !inside.contains(i))
         .map(|(_, id)| id)
         .collect();
-    let mut nodes = Nodes::default();
+    let mut nodes = Nodes::new(models);
     nodes.add_entity(scene, root, &|member| !elsewhere.contains(&member));
     let comments = scan::comments(text, span.clone());
     let comments = comments.iter().flat_map(|comment: &Span| text[comment.clone()].trim_end().lines());

@@ -18,7 +18,7 @@ mod value;
 pub(crate) use full::in_full;
 pub(crate) use parts::{edit_parts, remove_parts};
 pub(crate) use splice::{Splice, apply};
-pub(crate) use tree::{arrange, remove};
+pub(crate) use tree::{Brought, arrange, remove};
 
 pub(crate) use edit::edit;
 pub(crate) use value::{number, quoted};
