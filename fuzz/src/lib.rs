@@ -3,6 +3,8 @@
 //! Numbers are drawn so that those meet which must not be confused: small whole numbers, bit patterns of `f32`, numbers
 //! that have come before, and their neighbours.
 
+pub mod model;
+
 use catoptra_core::geometry::{Cuboid, Disk, Plane, Rectangle, Sphere, Tetrahedron, Triangle};
 use catoptra_core::glam::DVec3;
 use catoptra_core::{InvalidPart, Placement, Ray, Shape};

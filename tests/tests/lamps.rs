@@ -13,6 +13,30 @@ use catoptra_tracer::{
 /// How far `wide` may be from the oracle, as a share of the radiance of the lamp.
 const PROMISED: f64 = 2e-5;
 
+/// Meshes that stand before each other: what one blocks for all lanes is not asked of the next.
+#[test]
+fn meshes_behind_meshes_are_shown_alike_by_wide_and_scalar() {
+    let mesh = catoptra_tests::scene_file("gallery/meshes/knot.ply");
+    let text = format!(
+        "camera \"eye\" {{ eye 5 9 12; target 1 0 1; fov 40 }}\nmatte \"m\" {{ color 0.5 }}\n\
+         disk \"floor\" material=\"m\" {{ center 0 -1.3 0; radius 30 }}\n\
+         repeat \"rows\" count=5 {{\n step {{ move 0 0 0.9 }}\n repeat \"row\" count=5 {{\n  step {{ move 0.9 0 0 }}\n  \
+         mesh \"knot\" material=\"m\" {{ file {:?} }}\n }}\n}}\n\
+         rectangle-light \"key\" {{ corner -3 8 1; edge-u 1 1.2 -1; edge-v 1.5 0 1.5; radiance 9; visible #false }}\n",
+        std::path::absolute(mesh).unwrap()
+    );
+    let scene = parsed(&text);
+    let size = Size::new(96, 96);
+    let [wide, scalar] = ["wide", "scalar"].map(|backend| film(&scene, backend, size, 2));
+    let mut lit = 0;
+    for (x, y) in (0..96).flat_map(|x| (0..96).map(move |y| (x, y))) {
+        let (a, b) = (wide.radiance(x, y), scalar.radiance(x, y));
+        lit += u32::from(a[0] > 0.0);
+        assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 9.0 * 2e-4), "{x} {y}: {a:?} {b:?}");
+    }
+    assert!(lit > 2000, "{lit}");
+}
+
 /// Numbers from a seed: SplitMix64.
 struct Random(u64);
 

@@ -1,6 +1,8 @@
 //! `catoptra info`: what does a scene or a model hold? Nothing is traced.
 
 use std::collections::{BTreeMap, HashSet};
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -36,6 +38,8 @@ pub(crate) fn run(args: &InfoArgs) -> Result<Outcome> {
 struct Texture {
     name: String,
     size: Option<[u32; 2]>,
+    /// Of its picture with what is made of it, in bytes.
+    memory: Option<usize>,
 }
 
 struct Found {
@@ -61,7 +65,9 @@ impl Found {
         let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
         let is_such = |format: &&model::Format| format.endings.contains(&ending.as_str());
         let mut found = Self {
-            format: model::FORMATS.iter().find(is_such).map_or("scene", |format| format.name),
+            format: by_content(path)
+                .or_else(|| model::FORMATS.iter().find(is_such))
+                .map_or("scene", |format| format.name),
             triangles: 0,
             vertices: 0,
             meshes: 0,
@@ -118,9 +124,9 @@ impl Found {
         }
         lines.push(counted(self.textures.len() as u64, "texture"));
         for texture in &self.textures {
-            let size = texture.size.map_or_else(
+            let size = texture.size.zip(texture.memory).map_or_else(
                 || "computed".to_owned(),
-                |[w, h]| format!("{w}x{h}, {} as 8-bit colours", bytes(u64::from(w) * u64::from(h) * 4)),
+                |([w, h], memory)| format!("{w}x{h}, {} of memory", bytes(memory as u64)),
             );
             lines.push(format!("  {}: {size}", texture.name));
         }
@@ -139,7 +145,8 @@ impl Found {
             .materials
             .iter()
             .map(|(name, kind, textures)| json!({ "name": name, "kind": kind, "textures": textures }));
-        let textures = self.textures.iter().map(|t| json!({ "name": t.name, "size": t.size }));
+        let textures =
+            self.textures.iter().map(|t| json!({ "name": t.name, "size": t.size, "memory": t.memory }));
         let value = json!({
             "format": self.format,
             "triangles": self.triangles,
@@ -162,12 +169,23 @@ impl Found {
 impl Texture {
     fn of(name: &str, texture: &catoptra_core::Texture) -> Self {
         let values = texture.values();
-        let size = values.iter().find_map(|(_, value)| match value {
-            Value::Image(source) => Some([source.image.width(), source.image.height()]),
+        let image = values.iter().find_map(|(_, value)| match value {
+            Value::Image(source) => Some(&source.image),
             _ => None,
         });
-        Self { name: name.to_owned(), size }
+        let size = image.map(|image| [image.width(), image.height()]);
+        Self { name: name.to_owned(), size, memory: image.map(|image| image.bytes()) }
     }
+}
+
+/// The format of a file that can be no other, whatever its name says.
+fn by_content(path: &Path) -> Option<&'static model::Format> {
+    if !path.is_file() {
+        return None;
+    }
+    let mut start = Vec::new();
+    File::open(path).ok()?.take(8192).read_to_end(&mut start).ok()?;
+    model::of_content(&start)
 }
 
 fn counts(kinds: impl Iterator<Item = &'static str>) -> Vec<(&'static str, usize)> {

@@ -31,7 +31,9 @@ pub(crate) enum Wake {
     /// A file was read.
     Opened(Outcome),
     /// A picture that was dropped was read.
-    Picture(dropped::Outcome),
+    Picture(dropped::picture::Outcome),
+    /// A model that was dropped was read.
+    Model(dropped::model::Outcome),
     /// A picture of a material was finished.
     Ball,
 }
@@ -156,12 +158,25 @@ impl App {
         if self.viewer.guard.question().is_some() {
             return self.viewer.notify("answer the question first, then drop the picture again");
         }
-        let Some(target) = dropped::target(&mut self.viewer) else { return };
+        let Some(target) = dropped::picture::target(&mut self.viewer) else { return };
         self.viewer.notify(format!("reading {}", file.display()));
         let proxy = self.proxy.clone();
-        dropped::read(file.to_owned(), target, move |outcome| {
+        dropped::picture::read(file.to_owned(), target, move |outcome| {
             // The loop may have ended; then no one waits for the picture.
             let _ = proxy.send_event(Wake::Picture(outcome));
+        });
+    }
+
+    /// Starts to read a model that is to stand in the scene.
+    pub(crate) fn model_dropped(&mut self, file: &Path) {
+        if self.viewer.guard.question().is_some() {
+            return self.viewer.notify("answer the question first, then drop the model again");
+        }
+        self.viewer.notify(format!("reading {}", file.display()));
+        let proxy = self.proxy.clone();
+        dropped::model::read(file.to_owned(), &self.viewer, move |outcome| {
+            // The loop may have ended; then no one waits for the model.
+            let _ = proxy.send_event(Wake::Model(outcome));
         });
     }
 
@@ -220,7 +235,8 @@ impl ApplicationHandler<Wake> for App {
         match event {
             Wake::Frame => self.request_redraw(),
             Wake::Opened(outcome) => self.opened(outcome),
-            Wake::Picture(outcome) => dropped::put(&mut self.viewer, outcome),
+            Wake::Picture(outcome) => dropped::picture::put(&mut self.viewer, outcome),
+            Wake::Model(outcome) => dropped::model::put(&mut self.viewer, outcome),
             Wake::Ball => self.take_ball(),
         }
     }

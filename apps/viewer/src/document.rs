@@ -1,8 +1,11 @@
 //! Which scene is open, where is it kept, and how is it changed? Every change goes through the history.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use catoptra_core::scene::{Edit, History, Scene, SceneError};
+use catoptra_core::Placement;
+use catoptra_core::scene::{Edit, EntityId, History, Scene, SceneError};
+use catoptra_scene::model::Model;
 use catoptra_scene::{OnDisk, SceneFile};
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 
@@ -102,6 +105,19 @@ impl Document {
     /// The folder that the paths in the scene start from.
     pub(crate) fn folder(&self) -> PathBuf {
         self.place().parent().map_or_else(PathBuf::new, Path::to_owned)
+    }
+
+    /// The edit that puts a model into the scene, and the group that it becomes; see [`SceneFile::model_edit`].
+    ///
+    /// # Errors
+    /// What the scene refuses, for people.
+    pub(crate) fn model_edit(
+        &mut self,
+        file: (&str, Arc<Model>),
+        wish: &str,
+        placement: Placement,
+    ) -> Result<(Edit, EntityId), String> {
+        self.file.model_edit(&self.scene, file, wish, placement)
     }
 
     /// Whether someone else has changed the file in which the scene is kept.

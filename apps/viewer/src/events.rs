@@ -35,7 +35,10 @@ impl App {
                 self.key_to_question(screen, event, key);
             }
             WindowEvent::KeyboardInput { event: key, .. } => self.key(screen, event, key),
-            WindowEvent::DroppedFile(path) if dropped::is_picture(path) => self.picture_dropped(path),
+            WindowEvent::DroppedFile(path) if dropped::picture::is_picture(path) => {
+                self.picture_dropped(path)
+            }
+            WindowEvent::DroppedFile(path) if dropped::model::is_model(path) => self.model_dropped(path),
             WindowEvent::DroppedFile(path) => self.viewer.leave(Next::Open(path.clone())),
             WindowEvent::ModifiersChanged(modifiers) => {
                 self.modifiers = modifiers.state();

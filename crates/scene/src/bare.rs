@@ -39,7 +39,8 @@ pub(crate) fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
     let (scene, alone) = parse_with(&model, &shown, files.clone())?;
     let bounds = scene.children(None).into_iter().filter_map(|id| scene.world_bounds(id));
     let bounds = bounds.fold(Aabb::EMPTY, Aabb::union);
-    let dark = scene.lights().is_empty() && scene.materials().all(|(_, _, m)| m.emission().is_none());
+    // What shines in a model is mostly a little lamp or a screen on it, and lights nothing to speak of.
+    let dark = scene.lights().is_empty();
     let unseen = scene.entities_of(Role::Camera).next().is_none();
     let missing = match (dark, unseen) {
         (true, true) => "has no lights and no camera: a studio and a view were added",

@@ -13,9 +13,6 @@ const PICTURES: &[&str] =
 
 /// How files begin, and the ending that they should have.
 const BEGINNINGS: &[(&[u8], &str)] = &[
-    (b"ply\n", "ply"),
-    (b"ply\r", "ply"),
-    (b"glTF", "glb"),
     (b"\x89PNG", "png"),
     (b"\x76\x2f\x31\x01", "exr"),
     (b"\xff\xd8\xff", "jpg"),
@@ -23,9 +20,6 @@ const BEGINNINGS: &[(&[u8], &str)] = &[
     (b"IESNA", "ies"),
     (b"IES:LM", "ies"),
 ];
-
-/// Words that lines of an OBJ file begin with, and no line of a scene.
-const OBJ_WORDS: &[&str] = &["v", "vn", "vt", "mtllib", "o"];
 
 /// Bytes from the start that are looked through for what no text holds.
 const LOOKED_THROUGH: usize = 8192;
@@ -71,17 +65,7 @@ fn by_content(bytes: &[u8]) -> Option<&'static str> {
     if let Some((_, ending)) = magic {
         return Some(ending);
     }
-    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(LOOKED_THROUGH)]);
-    let mut lines = start.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
-    let (first, second) = (lines.next()?, lines.next().unwrap_or_default());
-    let word = first.split_ascii_whitespace().next()?;
-    if OBJ_WORDS.contains(&word) {
-        return Some("obj");
-    }
-    if word == "solid" && second.starts_with("facet") {
-        return Some("stl");
-    }
-    (word.starts_with('{') && start.contains("\"asset\"")).then_some("gltf")
+    model::of_content(bytes).map(|format| format.endings[0])
 }
 
 #[cfg(test)]

@@ -25,6 +25,7 @@ pub mod model;
 mod outline;
 mod printable;
 mod read;
+mod repeated;
 mod report;
 mod scan;
 mod slip;

@@ -29,6 +29,8 @@ pub(crate) enum Sort {
     Model,
     /// What is said of one thing in a model file.
     Part,
+    /// A group of copies of what stands in it, each a step on from the one before.
+    Repeat,
 }
 
 /// The word for a group of entities.
@@ -39,6 +41,9 @@ pub(crate) const MODEL: &str = "model";
 
 /// The word for what is said of one thing in a model file.
 pub(crate) const PART: &str = "part";
+
+/// The word for copies of what stands in a node.
+pub(crate) const REPEAT: &str = "repeat";
 
 impl Sort {
     /// The sort of node that a word stands for.
@@ -59,6 +64,7 @@ impl Sort {
             GROUP => Some(Self::Group),
             MODEL => Some(Self::Model),
             PART => Some(Self::Part),
+            REPEAT => Some(Self::Repeat),
             _ if word == Camera::KIND.name => Some(Self::Camera),
             _ if word == Settings::KIND.name => Some(Self::Settings),
             _ => Operation::named(word).map(Self::Solid),
@@ -69,7 +75,7 @@ impl Sort {
     pub(crate) fn words(in_group: bool) -> Vec<&'static str> {
         let mut words: Vec<&'static str> = Shape::KINDS.iter().map(|k| k.name).collect();
         words.extend(Light::KINDS.iter().map(|k| k.name));
-        words.extend([Camera::KIND.name, GROUP, MODEL]);
+        words.extend([Camera::KIND.name, GROUP, MODEL, REPEAT]);
         words.extend(Operation::ALL.map(Operation::word));
         if !in_group {
             words.extend(Material::KINDS.iter().map(|k| k.name));
@@ -92,6 +98,7 @@ impl Sort {
             Self::Solid(operation) => operation.word(),
             Self::Model => MODEL,
             Self::Part => PART,
+            Self::Repeat => REPEAT,
         }
     }
 
@@ -104,7 +111,7 @@ impl Sort {
             Self::Shape(kind) => kind.fields,
             Self::Light(kind) => kind.fields,
             Self::Camera => Camera::KIND.fields,
-            Self::Group | Self::Solid(_) | Self::Model | Self::Part => &[],
+            Self::Group | Self::Solid(_) | Self::Model | Self::Part | Self::Repeat => &[],
         };
         let common: &[Field] = if matches!(self, Self::Material(_)) { Finish::KIND.fields } else { &[] };
         own.iter().chain(common)
@@ -126,7 +133,7 @@ impl Sort {
             Self::Shape(kind) => Part::Shape((kind.make)(values)?),
             Self::Light(kind) => Part::Light((kind.make)(values)?),
             Self::Camera => Part::Camera((Camera::KIND.make)(values)?),
-            Self::Group | Self::Model | Self::Part => Part::Group,
+            Self::Group | Self::Model | Self::Part | Self::Repeat => Part::Group,
             Self::Solid(operation) => Part::Solid(operation),
         })
     }
@@ -138,7 +145,7 @@ impl Sort {
 
     /// Whether others can lie in it.
     pub(crate) fn has_members(self) -> bool {
-        matches!(self, Self::Group | Self::Solid(_) | Self::Model | Self::Part)
+        matches!(self, Self::Group | Self::Solid(_) | Self::Model | Self::Part | Self::Repeat)
     }
 }
 
@@ -243,6 +250,8 @@ pub(crate) struct Item {
     pub(crate) name: Option<Word>,
     /// The material that a shape wears.
     pub(crate) material: Option<Word>,
+    /// Where the whole property stands that names it.
+    pub(crate) worn: Option<Span>,
     pub(crate) fields: Vec<FieldText>,
     pub(crate) steps: Vec<StepText>,
     pub(crate) placement: Placement,
@@ -256,6 +265,38 @@ pub(crate) struct Item {
     pub(crate) model: Option<ModelSource>,
     /// Whether a part of a model is left out.
     pub(crate) removed: bool,
+    /// Where that is said: the child node, or the property.
+    pub(crate) remove: Option<(Span, bool)>,
+    /// How often all that stands in a repeat is there.
+    pub(crate) count: Option<u32>,
+    /// From one copy in a repeat to the next.
+    pub(crate) step: Option<Placement>,
+}
+
+impl Item {
+    /// A node of which nothing is known yet but where it stands.
+    pub(crate) fn new(sort: Sort, span: Span, word: Span, head_end: usize, parent: Option<usize>) -> Self {
+        Self {
+            sort,
+            span,
+            word,
+            head_end,
+            name: None,
+            material: None,
+            worn: None,
+            fields: Vec::new(),
+            steps: Vec::new(),
+            placement: Placement::IDENTITY,
+            given: Values::new(),
+            part: None,
+            parent,
+            model: None,
+            removed: false,
+            remove: None,
+            count: None,
+            step: None,
+        }
+    }
 }
 
 /// All nodes of a text, in order: a group stands before its members.
@@ -264,4 +305,22 @@ pub(crate) struct Outline {
     pub(crate) items: Vec<Item>,
     /// The ids that the names of textures stand for.
     pub(crate) textures: HashMap<String, TextureId>,
+}
+
+impl Outline {
+    /// The places of all that lies in an item.
+    pub(crate) fn inside(&self, place: usize) -> std::ops::Range<usize> {
+        let end = self.items[place].span.end;
+        let inside = self.items[place + 1..].iter().take_while(|item| item.span.start < end).count();
+        place + 1..place + 1 + inside
+    }
+
+    /// The innermost repeat that an item stands in.
+    pub(crate) fn repeat_round(&self, item: &Item) -> Option<usize> {
+        let mut outer = item.parent;
+        while let Some(place) = outer.filter(|place| !matches!(self.items[*place].sort, Sort::Repeat)) {
+            outer = self.items[place].parent;
+        }
+        outer
+    }
 }

@@ -18,7 +18,7 @@ pub(crate) enum Mark {
     Close,
     /// `/-`
     Slashdash,
-    /// `/*`, told only where it begins; all up to its end is passed over.
+    /// `/*`, or `//` for who asks for it, told only where it begins; all up to its end is passed over.
     Comment {
         /// How deep comments lie inside it, itself included.
         depth: usize,
@@ -31,11 +31,18 @@ pub(crate) enum Mark {
 pub(crate) struct Marks<'a> {
     bytes: &'a [u8],
     at: usize,
+    /// Whether comments to the end of the line are told too.
+    line_comments: bool,
 }
 
 impl<'a> Marks<'a> {
     pub(crate) fn from(text: &'a str, at: usize) -> Self {
-        Self { bytes: text.as_bytes(), at }
+        Self { bytes: text.as_bytes(), at, line_comments: false }
+    }
+
+    /// The same, which tells comments to the end of the line as well.
+    fn with_line_comments(self) -> Self {
+        Self { line_comments: true, ..self }
     }
 
     fn starts_with(&self, word: &[u8]) -> bool {
@@ -121,7 +128,12 @@ impl Iterator for Marks<'_> {
             match self.bytes[here] {
                 b'"' => self.skip_string(),
                 b'#' => self.skip_hashes(),
-                b'/' if self.starts_with(b"//") => self.skip_line(),
+                b'/' if self.starts_with(b"//") => {
+                    self.skip_line();
+                    if self.line_comments {
+                        return Some((here, Mark::Comment { depth: 1, end: self.at }));
+                    }
+                }
                 b'/' if self.starts_with(b"/*") => {
                     let mark = self.skip_comment();
                     return Some((here, mark));
@@ -180,6 +192,13 @@ pub(crate) fn without_comments(text: &str) -> Cow<'_, str> {
     }
     out.push_str(&text[out.len()..]);
     Cow::Owned(out)
+}
+
+/// All comments in a piece of the text, but for nodes that are commented out.
+pub(crate) fn comments(text: &str, piece: Range<usize>) -> Vec<Range<usize>> {
+    let marks = Marks::from(&text[..piece.end], piece.start).with_line_comments();
+    let comment = |(at, mark)| if let Mark::Comment { end, .. } = mark { Some(at..end) } else { None };
+    marks.filter_map(comment).collect()
 }
 
 /// The block of a node whose text is `node` in `text`: from its `{` to past its `}`. Blocks that are commented out

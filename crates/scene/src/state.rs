@@ -34,7 +34,7 @@ impl State {
                 ))
             }
             Id::Entity(id) => Self::of_entity(scene, id),
-            Id::Part(_) => None,
+            Id::Part(..) | Id::Repeated(_) => None,
         }
     }
 

@@ -79,6 +79,10 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("object", &["mesh"]),
     ("lambert", &["matte"]),
     ("metal", &["mirror"]),
+    ("array", &["repeat"]),
+    ("loop", &["repeat"]),
+    ("copies", &["repeat", "count"]),
+    ("times", &["count"]),
 ];
 
 /// The known word for what other programs call `written`.

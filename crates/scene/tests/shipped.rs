@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use catoptra_core::scene::Settings;
 use catoptra_core::{Camera, Field, FieldKind, Finish, Light, Material, Shape, Texture, Value};
-use catoptra_scene::{load, parse};
+use catoptra_scene::{load, model, parse};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
@@ -77,6 +77,16 @@ fn every_kind_and_field_is_documented() {
                 assert_eq!(cells[4].parse(), Ok(number), "{row}");
             }
         }
+    }
+}
+
+#[test]
+fn every_format_of_models_is_documented() {
+    let readme = std::fs::read_to_string(folder().join("README.md")).unwrap();
+    let (_, section) = readme.split_once("### `model`").unwrap();
+    let section = section.split("\n##").next().unwrap_or_default();
+    for ending in model::endings() {
+        assert!(section.contains(&format!("`.{ending}`")), "{ending}");
     }
 }
 

@@ -25,16 +25,19 @@ impl Passing {
     }
 
     /// Puts the file in its place.
-    pub(super) fn move_to(self, target: &Path) -> io::Result<()> {
+    pub(super) fn move_to(mut self, target: &Path) -> io::Result<()> {
         fs::rename(&self.0, target)?;
         // The name stands for nothing any more.
-        std::mem::forget(self);
+        self.0 = PathBuf::new();
         Ok(())
     }
 }
 
 impl Drop for Passing {
     fn drop(&mut self) {
+        if self.0.as_os_str().is_empty() {
+            return;
+        }
         // Whatever went wrong before is the error to tell; a file that cannot be removed either is left.
         let _ = fs::remove_file(&self.0);
     }

@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::material::Matte;
-use catoptra_core::scene::Node;
-use catoptra_core::{Finish, InvalidPart, Material, MaterialId, MeshSource, Rgb, Texture, TriangleMesh};
+use catoptra_core::scene::{Content, Node};
+use catoptra_core::{
+    Aabb, Finish, InvalidPart, Material, MaterialId, MeshSource, Placement, Rgb, Texture, TriangleMesh,
+};
 
 use super::Place;
 
@@ -57,6 +59,23 @@ impl Model {
         let source = MeshSource { path: String::new(), mesh: Arc::new(mesh) };
         model.nodes.push(Node::shape("mesh", Mesh::new(source), grey));
         Ok(model)
+    }
+
+    /// The box round all of its shapes that end somewhere; nothing where there are none.
+    #[must_use]
+    pub fn bounds(&self) -> Option<Aabb> {
+        fn add(node: &Node, outer: &Placement, all: &mut Option<Aabb>) {
+            let placement = node.placement.then(outer);
+            if let Content::Shape(shape, _) = &node.content
+                && let Some(bounds) = shape.placed(&placement).bounds()
+            {
+                *all = Some(all.map_or(bounds, |all| all.union(bounds)));
+            }
+            node.members().iter().for_each(|member| add(member, &placement, all));
+        }
+        let mut all = None;
+        self.nodes.iter().for_each(|node| add(node, &Placement::IDENTITY, &mut all));
+        all
     }
 
     /// Adds a material under its id.

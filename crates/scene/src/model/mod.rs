@@ -1,4 +1,4 @@
-//! How models come in from files, whatever the format: told apart by the file's ending.
+//! How models come in from files, whatever the format: told apart by how the file begins, or else by its ending.
 //!
 //! A file is read whole and checked while it is read: counts against the bytes that are there before anything is
 //! reserved, every index against its table, every coordinate in use for being finite. A refusal says where: the line of
@@ -6,6 +6,7 @@
 //!
 //! A new format is one file or folder here and one line in [`FORMATS`].
 
+mod beginning;
 mod colors;
 mod contents;
 mod error;
@@ -21,6 +22,7 @@ mod stl;
 mod text;
 mod warnings;
 
+use std::io::Read;
 use std::path::Path;
 
 use catoptra_core::TriangleMesh;
@@ -39,6 +41,8 @@ pub struct Format {
     pub endings: &'static [&'static str],
     /// What comes along beside triangles.
     pub doc: &'static str,
+    /// Whether a file that begins so is one, and can be nothing else.
+    is_so: fn(&[u8]) -> bool,
     read: fn(&[u8], &Folder) -> Result<Model, Fault>,
 }
 
@@ -48,19 +52,28 @@ pub const FORMATS: &[Format] = &[
         name: "PLY",
         endings: &["ply"],
         doc: "normals, texture coordinates, colours, pictures",
+        is_so: beginning::is_ply,
         read: ply::read,
     },
     Format {
         name: "OBJ",
         endings: &["obj"],
         doc: "objects and groups, normals, texture coordinates, colours, materials from MTL files",
+        is_so: beginning::is_obj,
         read: obj::read,
     },
-    Format { name: "STL", endings: &["stl"], doc: "solids, colours of VisCAM and Magics", read: stl::read },
+    Format {
+        name: "STL",
+        endings: &["stl"],
+        doc: "solids, colours of VisCAM and Magics",
+        is_so: beginning::is_stl,
+        read: stl::read,
+    },
     Format {
         name: "glTF",
         endings: &["gltf", "glb"],
         doc: "normals, texture coordinates, colours, materials, textures, groups, lights, cameras",
+        is_so: beginning::is_gltf,
         read: gltf::read,
     },
 ];
@@ -79,18 +92,31 @@ pub fn read(path: &Path) -> Result<Model, ModelError> {
 }
 
 fn read_in(path: &Path, folder: &Folder) -> Result<Model, ModelError> {
-    let format = format_of(path).map_err(|fault| ModelError::new(path, fault))?;
+    if let (Err(fault), false) = (format_of(path), begins_as_one(path)) {
+        return Err(ModelError::new(path, fault));
+    }
     let bytes = std::fs::read(path).map_err(|e| ModelError::unreadable(path, &e))?;
-    (format.read)(&bytes, folder).map_err(|fault| ModelError::new(path, fault))
+    read_bytes(&bytes, path, folder)
 }
 
-/// Reads a model from the bytes of a file whose name tells the format.
+/// Reads a model from the bytes of a file. How they begin tells the format, or else the file's name.
 ///
 /// # Errors
 /// As for [`read`]; `name` stands for the file in messages.
 pub fn read_bytes(bytes: &[u8], name: &Path, folder: &Folder) -> Result<Model, ModelError> {
-    let read = format_of(name).and_then(|format| (format.read)(bytes, folder));
+    let format = of_content(bytes).map_or_else(|| format_of(name), Ok);
+    let read = format.and_then(|format| (format.read)(bytes, folder));
     read.map_err(|fault| ModelError::new(name, fault))
+}
+
+/// The same as [`read_mesh`], with what of the file is not shown as the file means it.
+///
+/// # Errors
+/// As for [`read_mesh`].
+pub fn read_mesh_with_warnings(path: &Path) -> Result<(TriangleMesh, Vec<Warning>), ModelError> {
+    let mut model = read_in(path, &Folder::of(path).for_shapes_alone())?;
+    let warnings = std::mem::take(&mut model.warnings);
+    merged::mesh_of(model).map(|mesh| (mesh, warnings)).map_err(|fault| ModelError::new(path, fault))
 }
 
 /// Reads all triangles of a model as one mesh: shapes where the file places them, without lights and materials.
@@ -100,8 +126,7 @@ pub fn read_bytes(bytes: &[u8], name: &Path, folder: &Folder) -> Result<Model, M
 /// # Errors
 /// As for [`read`], and a model without triangles.
 pub fn read_mesh(path: &Path) -> Result<TriangleMesh, ModelError> {
-    let model = read_in(path, &Folder::of(path).for_shapes_alone())?;
-    merged::mesh_of(model).map_err(|fault| ModelError::new(path, fault))
+    read_mesh_with_warnings(path).map(|(mesh, _)| mesh)
 }
 
 /// Reads all triangles of a model as one mesh from the bytes of a file whose name tells the format.
@@ -117,6 +142,22 @@ pub fn read_mesh_bytes(bytes: &[u8], name: &Path) -> Result<TriangleMesh, ModelE
 #[must_use]
 pub fn is_named_so(path: &Path) -> bool {
     format_of(path).is_ok()
+}
+
+/// Whether a file begins as models of one [format](FORMATS) alone do, whatever it is called.
+#[must_use]
+pub fn begins_as_one(path: &Path) -> bool {
+    let mut start = Vec::new();
+    let is_file = path.is_file();
+    let mut read =
+        || std::fs::File::open(path)?.take(beginning::LOOKED_THROUGH as u64).read_to_end(&mut start);
+    is_file && read().is_ok() && of_content(&start).is_some()
+}
+
+/// The format of a file that begins so, where it can be no other.
+#[must_use]
+pub fn of_content(bytes: &[u8]) -> Option<&'static Format> {
+    FORMATS.iter().find(|format| (format.is_so)(bytes))
 }
 
 fn format_of(path: &Path) -> Result<&'static Format, Fault> {

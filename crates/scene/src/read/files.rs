@@ -1,6 +1,6 @@
 //! How the meshes, profiles and pictures that a scene names are found and read, each once.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -17,6 +17,8 @@ pub(crate) struct Files {
     profiles: Known<IntensityProfile>,
     images: Known<Image>,
     models: Known<model::Model>,
+    /// What of meshes is not shown as their files mean it.
+    mesh_warnings: HashMap<String, Vec<model::Warning>>,
 }
 
 /// What is known of files of one kind.
@@ -37,8 +39,15 @@ impl Files {
             let found = instance::mesh_named(&source.model, name).map_err(|e| format!("{file}: {e}"))?;
             self.meshes.insert(path.to_owned(), Ok(found));
         }
-        let mesh =
-            get(&mut self.meshes, self.base.as_deref(), path, |file| model::read_mesh(file).map(Arc::new))?;
+        let mut warnings = Vec::new();
+        let mesh = get(&mut self.meshes, self.base.as_deref(), path, |file| {
+            let (mesh, found) = model::read_mesh_with_warnings(file)?;
+            warnings = found;
+            Ok::<_, model::ModelError>(Arc::new(mesh))
+        })?;
+        if !warnings.is_empty() {
+            self.mesh_warnings.insert(path.to_owned(), warnings);
+        }
         Ok(MeshSource { path: path.to_owned(), mesh })
     }
 
@@ -82,14 +91,25 @@ impl Files {
         self.models.keys().filter_map(|path| place(self.base.as_deref(), path))
     }
 
-    /// What of the models is not shown as their files mean it, in the order of their paths.
+    /// What of models and meshes is not shown as their files mean it, in the order of their paths.
     pub(crate) fn warnings(&self) -> Vec<String> {
-        let mut read: Vec<_> =
-            self.models.iter().filter_map(|(path, model)| Some((path, model.as_ref().ok()?))).collect();
+        let models =
+            self.models.iter().filter_map(|(path, model)| Some((path, &model.as_ref().ok()?.warnings)));
+        let mut read: Vec<_> = models.chain(&self.mesh_warnings).collect();
         read.sort_by_key(|(path, _)| *path);
         let told =
             |path: &str, warning: &model::Warning| format!("{path}{}: {}", warning.place, warning.message);
-        read.into_iter().flat_map(|(path, model)| model.warnings.iter().map(move |w| told(path, w))).collect()
+        let mut all: Vec<String> =
+            read.into_iter().flat_map(|(path, list)| list.iter().map(move |w| told(path, w))).collect();
+        // One file may be a model and a mesh.
+        let mut seen = HashSet::new();
+        all.retain(|line| seen.insert(line.clone()));
+        all
+    }
+
+    /// Takes a model as read.
+    pub(crate) fn know_model(&mut self, path: &str, model: Arc<model::Model>) {
+        self.models.insert(path.to_owned(), Ok(model));
     }
 
     /// Where all pictures that are known lie.
@@ -128,7 +148,7 @@ fn get<T, E: ToString>(
     known: &mut Known<T>,
     base: Option<&Path>,
     path: &str,
-    read: impl Fn(&Path) -> Result<Arc<T>, E>,
+    read: impl FnOnce(&Path) -> Result<Arc<T>, E>,
 ) -> Result<Arc<T>, String> {
     if let Some(known) = known.get(path) {
         return known.clone();

@@ -2,7 +2,9 @@
 //!
 //! Everything that is wrong is noted and reading goes on, so that one look tells all.
 
+mod extra;
 mod files;
+mod make;
 mod node;
 mod paint;
 mod placement;
@@ -16,6 +18,7 @@ use kdl::KdlDocument;
 use crate::outline::{Outline, Sort, Span};
 use crate::report::Complaints;
 use crate::scan;
+pub(crate) use extra::{FILE, REMOVE, next};
 pub(crate) use files::Files;
 pub(crate) use node::MATERIAL;
 pub(crate) use paint::{CHANNEL, TEXTURE};
@@ -48,7 +51,7 @@ pub(crate) fn read(
     }
     match parse_kdl(&scan::without_comments(text)) {
         Ok(document) => {
-            let textures = textures.unwrap_or_else(|| paint::textures_of(&document));
+            let textures = textures.unwrap_or_else(|| paint::textures_of(&document, files));
             outline.textures.clone_from(&textures);
             let mut reader = Reader { text, files, complaints, textures: &textures, outline: &mut outline };
             for node in document.nodes() {
@@ -98,7 +101,9 @@ fn syntax(text: &str, error: &kdl::KdlError, complaints: &mut Complaints) {
     complaints.add_with(span.start..end, format!("this cannot be read as scene text ({what})"), form);
 }
 
-/// The words that can stand as nodes at the top or, with `in_group`, in a group.
-fn hint_for_word(word: &str, in_group: bool) -> String {
-    crate::words::hint(word, &Sort::words(in_group), "known words")
+/// The words that can stand as nodes at the top or in what is `inside`.
+fn hint_for_word(word: &str, inside: Option<Sort>) -> String {
+    let mut known = Sort::words(inside.is_some());
+    known.extend(inside.into_iter().flat_map(extra::words_for));
+    crate::words::hint(word, &known, "known words")
 }

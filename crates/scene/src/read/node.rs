@@ -1,22 +1,17 @@
 //! How a node is read: its kind, its name, its fields, its placement and, for a group, its members.
 
-use catoptra_core::{Field, FieldKind, Placement, Rows, Value, Values};
+use catoptra_core::{FieldKind, Rows, Value};
 use kdl::{KdlEntry, KdlNode};
 
+use super::extra::extra;
+use super::make::one;
 use super::placement::STEPS;
 use super::value::{arity, fits_property, value_span};
 use super::{Reader, hint_for_word, span_of};
-use crate::outline::{FieldText, Item, Sort, Span, Word};
-use crate::words;
+use crate::outline::{FieldText, Item, Sort, Word};
 
 /// The property that names the material of a shape.
 pub(crate) const MATERIAL: &str = "material";
-
-/// The word for the path of a model.
-const FILE: &str = "file";
-
-/// The word that leaves a part of a model out.
-pub(crate) const REMOVE: &str = "remove";
 
 impl Reader<'_> {
     /// Reads a node at the top or, with `parent`, in a group, and everything in it.
@@ -39,7 +34,8 @@ impl Reader<'_> {
                 return;
             }
             None => {
-                let help = self.complaints.hint(|| hint_for_word(word, in_group));
+                let inside = parent.map(|p| self.outline.items[p].sort);
+                let help = self.complaints.hint(|| hint_for_word(word, inside));
                 self.complaints.add_with(word_span, format!("unknown word \"{word}\""), help);
                 return;
             }
@@ -49,9 +45,10 @@ impl Reader<'_> {
         self.read_head(node, &mut item);
         let place = self.outline.items.len();
         let members = self.read_children(node, &mut item);
-        if matches!(sort, Sort::Model) && item.model.is_none() && self.complaints.count() == complaints {
-            let help = "write model \"some name\" { file \"path of a model file\" }";
-            self.complaints.add_with(item.word.clone(), "this model needs a file", help);
+        // What seems to be missing may be there, misspelled.
+        let misspelled = members.iter().any(|member| Sort::named(member.name().value()).is_none());
+        if self.complaints.count() == complaints && !misspelled {
+            self.check_extras(&item);
         }
         if self.complaints.count() == complaints {
             self.make(&mut item);
@@ -62,26 +59,13 @@ impl Reader<'_> {
         }
     }
 
-    fn new_item(&self, node: &KdlNode, sort: Sort, parent: Option<usize>) -> Item {
+    pub(super) fn new_item(&self, node: &KdlNode, sort: Sort, parent: Option<usize>) -> Item {
         let span = span_of(node.span());
+        let span = span.start..span.start + self.text[span].trim_end().len();
         let word = span_of(node.name().span());
         let last = node.entries().iter().map(|e| span_of(e.span()).end).max();
-        Item {
-            sort,
-            span: span.start..span.start + self.text[span].trim_end().len(),
-            head_end: last.unwrap_or(word.end),
-            word,
-            name: None,
-            material: None,
-            fields: Vec::new(),
-            steps: Vec::new(),
-            placement: Placement::IDENTITY,
-            given: Values::new(),
-            part: None,
-            parent,
-            model: None,
-            removed: false,
-        }
+        let head_end = last.unwrap_or(word.end);
+        Item::new(sort, span, word, head_end, parent)
     }
 
     /// Reads the name and the properties.
@@ -93,13 +77,10 @@ impl Reader<'_> {
                 Some(MATERIAL) if matches!(item.sort, Sort::Shape(_) | Sort::Part) => {
                     self.read_material(entry, item);
                 }
-                Some(FILE) if matches!(item.sort, Sort::Model) => {
-                    self.read_model(&[entry], span_of(entry.span()), item);
-                }
-                Some(REMOVE) if matches!(item.sort, Sort::Part) => {
-                    self.read_remove(&[entry], span_of(entry.span()), item);
-                }
-                Some(property) => self.read_property(property, entry, item),
+                Some(property) => match extra(item.sort, property) {
+                    Some(extra) => self.read_property_extra(extra, entry, item),
+                    None => self.read_property(property, entry, item),
+                },
             }
         }
         if self.complaints.count() > complaints {
@@ -158,6 +139,7 @@ impl Reader<'_> {
             self.complaints.add(span.clone(), "material is given twice");
         }
         item.material = Some(Word { value, span });
+        item.worn = Some(span_of(entry.span()));
     }
 
     fn read_property(&mut self, name: &str, entry: &KdlEntry, item: &mut Item) {
@@ -193,14 +175,8 @@ impl Reader<'_> {
                 let written =
                     FieldText { field, span, values: Vec::new(), property: false, word: None, painted };
                 self.read_field(written, &entries, item);
-            } else if matches!((item.sort, word), (Sort::Model, FILE) | (Sort::Part, REMOVE)) {
-                let entries = self.arguments(child);
-                self.refuse_block(child);
-                if word == FILE {
-                    self.read_model(&entries, name_span, item);
-                } else {
-                    self.read_remove(&entries, name_span, item);
-                }
+            } else if let Some(extra) = extra(item.sort, word) {
+                self.read_extra(extra, child, item);
             } else if item.sort.is_entity() && STEPS.iter().any(|(step, ..)| *step == word) {
                 self.read_step(child, item);
             } else if item.sort.has_members() {
@@ -213,35 +189,6 @@ impl Reader<'_> {
             }
         }
         members
-    }
-
-    /// Reads the path of a model, and the model.
-    fn read_model(&mut self, entries: &[&KdlEntry], span: Span, item: &mut Item) {
-        let &[entry] = entries else {
-            return self.complaints.add(span, "file takes one path in quotes");
-        };
-        if item.model.is_some() {
-            return self.complaints.add(span, "file is given twice");
-        }
-        self.refuse_odd_quotes(entry);
-        let Some(path) = entry.value().as_string() else {
-            return self.complaints.add(value_span(entry), "file needs the path of a model in quotes");
-        };
-        match self.files.model(path) {
-            Ok(model) => item.model = Some(model),
-            Err(message) => {
-                let help = "the path of a model is relative to the folder of the scene file";
-                self.complaints.add_with(value_span(entry), message, help);
-            }
-        }
-    }
-
-    /// Reads whether a part is left out.
-    fn read_remove(&mut self, entries: &[&KdlEntry], span: Span, item: &mut Item) {
-        match entries.first().and_then(|entry| entry.value().as_bool()) {
-            Some(removed) if entries.len() == 1 => item.removed = removed,
-            _ => self.complaints.add(span, "remove takes #true or #false"),
-        }
     }
 
     /// Reads the values of a field, `written` but for them.
@@ -273,53 +220,7 @@ impl Reader<'_> {
         item.fields.push(written);
     }
 
-    /// Makes the part, or passes on why the core refuses it.
-    fn make(&mut self, item: &mut Item) {
-        match item.sort.make(&item.given) {
-            Ok(part) => item.part = Some(part),
-            Err(invalid) => {
-                let written = item.fields.iter().find(|f| f.field.name == invalid.field());
-                let span = written.map_or(item.word.clone(), |f| f.span.clone());
-                if written.is_some() || !missing(item, invalid.field()) {
-                    match invalid.hint() {
-                        Some(hint) => self.complaints.add_with(span, invalid.to_string(), hint),
-                        None => self.complaints.add(span, invalid.to_string()),
-                    }
-                } else {
-                    let (word, field) = (item.sort.word(), invalid.field());
-                    self.complaints.add_with(
-                        span,
-                        format!("this {word} needs {}", one(field)),
-                        needs(item.sort, field),
-                    );
-                }
-            }
-        }
-    }
-
-    fn unknown(&mut self, name: &str, span: Span, sort: Sort) {
-        let mut known: Vec<&str> = sort.fields().map(|f| f.name).collect();
-        if matches!(sort, Sort::Shape(_)) {
-            known.push(MATERIAL);
-        }
-        if sort.is_entity() {
-            known.extend(STEPS.iter().map(|(step, ..)| *step));
-        }
-        let message = format!(
-            "{} has no \"{name}\"{}",
-            one(sort.word()),
-            if name == MATERIAL { " in its block" } else { "" }
-        );
-        let help = match name {
-            MATERIAL if matches!(sort, Sort::Shape(_)) => {
-                format!("it stands before the block: {} … {MATERIAL}=\"name of a material\" {{", sort.word())
-            }
-            _ => self.complaints.hint(|| words::hint(name, &known, "what it has")),
-        };
-        self.complaints.add_with(span, message, help);
-    }
-
-    fn refuse_block(&mut self, node: &KdlNode) {
+    pub(super) fn refuse_block(&mut self, node: &KdlNode) {
         if let Some(first) = node.children().and_then(|c| c.nodes().first()) {
             let message = format!("{} has values, and no block", node.name().value());
             self.complaints.add(span_of(first.name().span()), message);
@@ -332,26 +233,5 @@ impl Reader<'_> {
             let message = "type annotations in parentheses have no meaning in a scene";
             self.complaints.add_with(span_of(annotation.span()), message, "leave the parentheses away");
         }
-    }
-}
-
-fn missing(item: &Item, field: &str) -> bool {
-    item.sort.field(field).is_some_and(|f| f.default.is_none())
-}
-
-/// What has to be given, for hints.
-fn needs(sort: Sort, missing: &str) -> String {
-    let needed =
-        |field: &&'static Field| field.default.is_none() && (!field.may_be_missing || field.name == missing);
-    let required: Vec<&str> = sort.fields().filter(needed).map(|f| f.name).collect();
-    format!("{} must be given {}", one(sort.word()), required.join(", "))
-}
-
-/// A word with its article; settings are many.
-fn one(word: &str) -> String {
-    match word.chars().next() {
-        _ if word == Sort::Settings.word() => word.to_owned(),
-        Some('a' | 'e' | 'i' | 'o' | 'u') => format!("an {word}"),
-        _ => format!("a {word}"),
     }
 }

@@ -6,8 +6,10 @@ use catoptra_core::texture::Channel;
 use catoptra_core::{Field, TextureId, TextureUse, Value};
 use kdl::{KdlDocument, KdlEntry, KdlNode};
 
+use super::extra::FILE;
 use super::value::value_span;
-use super::{Reader, span_of};
+use super::{Files, Reader, span_of};
+use crate::instance::full_name;
 use crate::outline::{Painted, Sort, Word};
 use crate::words;
 
@@ -17,8 +19,9 @@ pub(crate) const TEXTURE: &str = "texture";
 /// The property of a field that names the texture's channel.
 pub(crate) const CHANNEL: &str = "channel";
 
-/// The textures that a text has, before the scene is there: they get its first ids, in the order of the text.
-pub(super) fn textures_of(document: &KdlDocument) -> HashMap<String, TextureId> {
+/// The textures that a text has, before the scene is there: they get its first ids, in the order of the text. Those of models
+/// follow, in the order of the models.
+pub(super) fn textures_of(document: &KdlDocument, files: &mut Files) -> HashMap<String, TextureId> {
     let mut textures = HashMap::new();
     for node in document.nodes() {
         let name = node.entries().iter().find(|e| e.name().is_none()).and_then(|e| e.value().as_string());
@@ -28,7 +31,40 @@ pub(super) fn textures_of(document: &KdlDocument) -> HashMap<String, TextureId> 
             textures.entry(name.to_owned()).or_insert(id);
         }
     }
+    add_textures_of_models(document, files, &mut textures);
     textures
+}
+
+fn add_textures_of_models(
+    document: &KdlDocument,
+    files: &mut Files,
+    textures: &mut HashMap<String, TextureId>,
+) {
+    for node in document.nodes() {
+        if let (Some(Sort::Model), Some((name, path))) =
+            (Sort::named(node.name().value()), name_and_file(node))
+            && let Ok(source) = files.model(path)
+        {
+            for (own, _) in &source.model.textures {
+                let Some(id) = u32::try_from(textures.len() + 1).ok().and_then(TextureId::from_index) else {
+                    return;
+                };
+                textures.entry(full_name(name, own)).or_insert(id);
+            }
+        }
+        if let Some(inside) = node.children() {
+            add_textures_of_models(inside, files, textures);
+        }
+    }
+}
+
+/// The name of a model's node and the path of its file, if it has both.
+fn name_and_file(node: &KdlNode) -> Option<(&str, &str)> {
+    let text = |entry: &'_ KdlEntry| entry.value().as_string().is_some();
+    let name = node.entries().iter().find(|e| e.name().is_none() && text(e))?.value().as_string()?;
+    let property = || node.entries().iter().find(|e| e.name().is_some_and(|n| n.value() == FILE));
+    let child = node.children().and_then(|inside| inside.get(FILE)).and_then(|file| file.entries().first());
+    Some((name, child.or_else(property)?.value().as_string()?))
 }
 
 impl Reader<'_> {

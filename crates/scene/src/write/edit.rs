@@ -16,9 +16,15 @@ use crate::state::State;
 pub(crate) fn edit(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -> Vec<Splice> {
     let mut splices = Vec::new();
     for (item, &id) in outline.items.iter().zip(ids) {
-        // What is said of the parts of models stays as it is: a model that is no longer so is written out.
         if let Some(now) = State::of(scene, id) {
             edit_item(text, item, &now, scene, &mut splices);
+        }
+        // Parts of models and what stands in repeats are no entities: of them only the names of materials follow here.
+        if let (Some(old), Some(worn)) = (&item.material, id.named_material())
+            && scene.find_material(worn).is_some()
+            && scene.material_name(worn) != old.value
+        {
+            splices.push(Splice::new(old.span.clone(), quoted(scene.material_name(worn))));
         }
     }
     splices
@@ -26,7 +32,7 @@ pub(crate) fn edit(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -> 
 
 fn edit_item(text: &str, item: &Item, now: &State, scene: &Scene, splices: &mut Vec<Splice>) {
     let word = now.part.sort().word();
-    if word != item.sort.word() && !matches!(item.sort, Sort::Model) {
+    if word != item.sort.word() && !matches!(item.sort, Sort::Model | Sort::Repeat) {
         splices.push(Splice::new(item.word.clone(), word));
     }
     if let Some(name) = item.name.as_ref().filter(|name| name.value != now.name) {
@@ -167,7 +173,7 @@ fn removal(text: &str, written: &FieldText) -> Splice {
     }
 }
 
-fn put_at_start(text: &str, item: &Item, lines: &[String], splices: &mut Vec<Splice>) {
+pub(super) fn put_at_start(text: &str, item: &Item, lines: &[String], splices: &mut Vec<Splice>) {
     match layout::gap_at_start(text, item) {
         _ if lines.is_empty() => {}
         Some(gap) => splices.push(Splice::new(gap.at..gap.at, gap.fill(text, &lines.join("\n")))),
@@ -175,7 +181,7 @@ fn put_at_start(text: &str, item: &Item, lines: &[String], splices: &mut Vec<Spl
     }
 }
 
-fn put_at_end(text: &str, item: &Item, lines: &[String], splices: &mut Vec<Splice>) {
+pub(super) fn put_at_end(text: &str, item: &Item, lines: &[String], splices: &mut Vec<Splice>) {
     if lines.is_empty() {
         return;
     }

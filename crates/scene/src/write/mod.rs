@@ -5,17 +5,20 @@
 //! as it was, to the byte.
 
 mod edit;
+mod full;
 mod layout;
 mod node;
 mod paint;
+mod parts;
 mod placement;
 mod splice;
 mod tree;
 mod value;
 
-pub(crate) use layout::whole_node;
+pub(crate) use full::in_full;
+pub(crate) use parts::{edit_parts, remove_parts};
 pub(crate) use splice::{Splice, apply};
-pub(crate) use tree::{arrange, remove};
+pub(crate) use tree::{Brought, arrange, remove};
 
 pub(crate) use edit::edit;
 pub(crate) use value::{number, quoted};

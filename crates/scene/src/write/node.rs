@@ -7,8 +7,9 @@ use super::layout::INDENT;
 use super::placement;
 use super::value::{number, paint, quoted, words};
 use crate::build::Id;
-use crate::outline::Part;
-use crate::read::MATERIAL;
+use crate::instance::Instance;
+use crate::outline::{Part, Sort};
+use crate::read::{FILE, MATERIAL};
 use crate::state::State;
 
 /// The lines of a field: one for each row, or one in all; none where the value is what it is when the field is left out.
@@ -42,13 +43,20 @@ pub(super) fn whole_line(field: &Field, value: &Value, scene: &Scene) -> String 
 }
 
 /// New nodes: their lines, indented from nothing, and what they stand for.
-#[derive(Debug, Default)]
-pub(super) struct Nodes {
+#[derive(Debug)]
+pub(super) struct Nodes<'a> {
     pub(super) lines: String,
     pub(super) ids: Vec<Id>,
+    /// Groups that are models get nodes of these, whose blocks are filled when they stand in the text.
+    models: &'a [Instance],
 }
 
-impl Nodes {
+impl<'a> Nodes<'a> {
+    /// None yet.
+    pub(super) fn new(models: &'a [Instance]) -> Self {
+        Self { lines: String::new(), ids: Vec::new(), models }
+    }
+
     /// Adds settings, a texture or a material.
     pub(super) fn add(&mut self, scene: &Scene, id: Id) {
         self.add_at(scene, id, &|_| false, 0);
@@ -63,13 +71,17 @@ impl Nodes {
         let Some(state) = State::of(scene, id) else { return };
         self.ids.push(id);
         let outer = INDENT.repeat(depth);
+        let model = self.models.iter().find(|model| model.root().map(Id::Entity) == Some(id));
         let mut lines = field_lines(&state.part, scene);
+        lines.extend(model.map(|model| format!("{FILE} {}", quoted(model.path()))));
         lines.extend(placement::steps(&state.placement));
         let members: Vec<EntityId> = match id {
-            Id::Entity(group) => scene.children(Some(group)).into_iter().filter(|&m| is_new(m)).collect(),
-            Id::Texture(_) | Id::Material(_) | Id::Settings | Id::Part(_) => Vec::new(),
+            Id::Entity(group) if model.is_none() => {
+                scene.children(Some(group)).into_iter().filter(|&m| is_new(m)).collect()
+            }
+            _ => Vec::new(),
         };
-        self.lines.push_str(&format!("{outer}{}", head(&state)));
+        self.lines.push_str(&format!("{outer}{}", head(&state, model.is_some())));
         if lines.is_empty() && members.is_empty() {
             self.lines.push('\n');
             return;
@@ -86,8 +98,9 @@ impl Nodes {
 }
 
 /// The words of a node before its block.
-fn head(state: &State) -> String {
-    let mut head = state.part.sort().word().to_owned();
+fn head(state: &State, is_model: bool) -> String {
+    let sort = if is_model { Sort::Model } else { state.part.sort() };
+    let mut head = sort.word().to_owned();
     if !matches!(state.part, Part::Settings(_)) {
         head = format!("{head} {}", quoted(&state.name));
     }

@@ -2,7 +2,6 @@
 //! goes out.
 
 use std::collections::{HashMap, HashSet};
-use std::ops::Range;
 
 use catoptra_core::scene::{EntityId, Scene, Settings};
 
@@ -11,6 +10,7 @@ use super::layout::{self, Gap};
 use super::node::Nodes;
 use super::splice::Splice;
 use crate::build::Id;
+use crate::instance::Instance;
 use crate::outline::{Item, Outline, Span};
 use crate::state::State;
 
@@ -19,7 +19,7 @@ pub(crate) fn remove(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -
     let mut splices: Vec<Splice> = Vec::new();
     for (item, &id) in outline.items.iter().zip(ids) {
         let inside = splices.last().is_some_and(|s| s.range.contains(&item.span.start));
-        if !inside && !matches!(id, Id::Part(_)) && State::of(scene, id).is_none() {
+        if !inside && !matches!(id, Id::Part(..) | Id::Repeated(_)) && State::of(scene, id).is_none() {
             splices.push(Splice::new(layout::whole_node(text, &item.span), ""));
         }
     }
@@ -28,24 +28,32 @@ pub(crate) fn remove(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -
 
 /// Splices that bring the nodes nearer to the order of the scene; none when it is reached. What depends on another
 /// change (a new member of a group that is to move) waits for the next call.
-/// Nothing is written of what is `hidden`: models bring it with them.
 pub(crate) fn arrange(
     text: &str,
     outline: &Outline,
     ids: &[Id],
     scene: &Scene,
-    hidden: &HashSet<Id>,
+    Brought { models, hidden }: Brought<'_>,
 ) -> Vec<Splice> {
     let places = ids.iter().enumerate().map(|(i, &id)| (id, i)).collect();
-    let mut arranging =
-        Arranging { text, outline, ids, scene, hidden, places, splices: Vec::new(), moves: Vec::new() };
+    let mut arranging = Arranging {
+        text,
+        outline,
+        ids,
+        scene,
+        models,
+        hidden,
+        places,
+        splices: Vec::new(),
+        moves: Vec::new(),
+    };
     arranging.add_settings();
     arranging.add_shared(scene.textures().map(|(id, ..)| Id::Texture(id)), |id| matches!(id, Id::Texture(_)));
     arranging
         .add_shared(scene.materials().map(|(id, ..)| Id::Material(id)), |id| matches!(id, Id::Material(_)));
     arranging.arrange_members(None);
     for (i, &id) in ids.iter().enumerate() {
-        if let Id::Entity(entity) = id
+        if let Id::Entity(entity) | Id::Part(Some(entity), _) = id
             && scene.contains(entity)
         {
             arranging.arrange_members(Some((entity, i)));
@@ -55,11 +63,21 @@ pub(crate) fn arrange(
     arranging.splices
 }
 
+/// What models and repeats bring into the scene.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Brought<'a> {
+    /// Models that have a node, or get one.
+    pub(crate) models: &'a [Instance],
+    /// Nothing is written of these.
+    pub(crate) hidden: &'a HashSet<Id>,
+}
+
 struct Arranging<'a> {
     text: &'a str,
     outline: &'a Outline,
     ids: &'a [Id],
     scene: &'a Scene,
+    models: &'a [Instance],
     hidden: &'a HashSet<Id>,
     /// Where in the outline everything stands.
     places: HashMap<Id, usize>,
@@ -73,14 +91,14 @@ impl Arranging<'_> {
         if self.places.contains_key(&Id::Settings) || *self.scene.settings() == Settings::default() {
             return;
         }
-        let mut nodes = Nodes::default();
+        let mut nodes = Nodes::new(self.models);
         nodes.add(self.scene, Id::Settings);
         self.put(&self.gap_at_top(), nodes);
     }
 
     /// Adds those of the textures or of the materials that are new, behind the last of their sort.
     fn add_shared(&mut self, all: impl Iterator<Item = Id>, is_such: impl Fn(&Id) -> bool) {
-        let mut nodes = Nodes::default();
+        let mut nodes = Nodes::new(self.models);
         for id in all.filter(|id| !self.places.contains_key(id) && !self.hidden.contains(id)) {
             nodes.add(self.scene, id);
         }
@@ -103,7 +121,7 @@ impl Arranging<'_> {
         }
     }
 
-    fn put(&mut self, gap: &Gap, nodes: Nodes) {
+    fn put(&mut self, gap: &Gap, nodes: Nodes<'_>) {
         let text = gap.fill(self.text, &nodes.lines);
         self.splices.push(Splice { range: gap.at..gap.at, text, ids: nodes.ids });
     }
@@ -129,7 +147,7 @@ impl Arranging<'_> {
                 }
                 Some(p) => self.moves.push((p, gap.clone())),
                 None => {
-                    let mut nodes = Nodes::default();
+                    let mut nodes = Nodes::new(self.models);
                     nodes
                         .add_entity(self.scene, id, &|member| !self.places.contains_key(&Id::Entity(member)));
                     self.put(&gap, nodes);
@@ -170,18 +188,12 @@ impl Arranging<'_> {
                 continue;
             }
             let text = gap.fill(self.text, &dedented(self.text, item, &cut));
-            let ids = self.subtree(place).map(|p| self.ids[p]).collect();
+            let inside = self.outline.inside(place);
+            let ids = std::iter::once(place).chain(inside).map(|p| self.ids[p]).collect();
             self.splices.push(Splice { range: gap.at..gap.at, text, ids });
             self.splices.push(Splice::new(cut.clone(), ""));
             cuts.push(cut);
         }
-    }
-
-    /// An item and all that lies in it.
-    fn subtree(&self, place: usize) -> Range<usize> {
-        let end = self.outline.items[place].span.end;
-        let inside = self.outline.items[place..].iter().take_while(|item| item.span.start < end).count();
-        place..place + inside
     }
 }
 

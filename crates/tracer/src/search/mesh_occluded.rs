@@ -1,5 +1,6 @@
 //! Occlusion by a mesh: segments are traced as a bundle where they have a common origin, else ray by ray.
 
+use catoptra_core::LaneMask;
 use fearless_simd::Simd;
 
 use super::Searcher;
@@ -19,6 +20,10 @@ impl<S: Simd> Searcher<'_, S> {
         open: M<S>,
         instance: &Instance,
     ) -> M<S> {
+        if !open.any() {
+            // What stands before this mesh blocks them all.
+            return open;
+        }
         outlined(
             self.s,
             #[inline(always)]

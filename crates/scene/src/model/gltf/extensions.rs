@@ -1,8 +1,8 @@
 //! Which extensions does a file need, and what becomes of those that are not known here?
 
 use super::json::Document;
-use super::warnings::Warnings;
 use crate::model::error::{Fault, Place};
+use crate::model::warnings::Warnings;
 
 /// What is understood, or shows nothing.
 const UNDERSTOOD: &[&str] = &[
@@ -64,9 +64,9 @@ pub(super) fn check(document: &Document, warnings: &Warnings) -> Result<(), Faul
     }
     for name in &document.extensions_used {
         if let Some(meaning) = left_out(name) {
-            warnings.add(format!("{name} is left out: {meaning}"));
+            warnings.add_of_file(format!("{name} is left out: {meaning}"));
         } else if !UNDERSTOOD.contains(&&**name) && hint(name).is_none() {
-            warnings.add(format!("the extension {name} is not known here: what it says is left out"));
+            warnings.add_of_file(format!("the extension {name} is not known here: what it says is left out"));
         }
     }
     Ok(())

@@ -21,7 +21,6 @@ mod refusal;
 mod source;
 mod tree;
 mod uri;
-mod warnings;
 
 use super::error::Fault;
 use super::{Folder, Model};
@@ -37,7 +36,7 @@ pub(super) fn read(bytes: &[u8], folder: &Folder) -> Result<Model, Fault> {
     let source = Source::new(&document, container.binary, folder, bytes.len());
     extensions::check(&document, &source.warnings)?;
     if !document.animations.is_empty() {
-        source.warnings.add("animations are left out: things stand as the file has them");
+        source.warnings.add_of_file("animations are left out: things stand as the file has them");
     }
     let tree = Tree::new(&source, Looks::new(&source))?;
     let (nodes, looks) = tree.build()?;

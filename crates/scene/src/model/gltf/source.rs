@@ -3,8 +3,8 @@
 use super::buffers::Buffers;
 use super::json::Document;
 use super::limits::Limits;
-use super::warnings::Warnings;
 use crate::model::Folder;
+use crate::model::warnings::Warnings;
 
 /// An open file.
 pub(super) struct Source<'a> {

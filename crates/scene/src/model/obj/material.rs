@@ -22,7 +22,7 @@ const GREY: f64 = 0.8;
 pub(super) struct Maker<'a> {
     pub(super) model: &'a mut Model,
     pub(super) pictures: Pictures<'a>,
-    pub(super) warnings: &'a mut Warnings,
+    pub(super) warnings: &'a Warnings,
     /// What shows the colours of corners, where the file has some.
     pub(super) colors: Option<TextureUse>,
 }

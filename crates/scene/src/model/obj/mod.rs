@@ -30,18 +30,18 @@ use tables::Tables;
 
 pub(super) fn read(bytes: &[u8], folder: &Folder) -> Result<Model, Fault> {
     let bytes = decoded(bytes);
-    let mut warnings = Warnings::default();
-    let mut tables = Tables::read(&bytes, &mut warnings)?;
+    let warnings = Warnings::default();
+    let mut tables = Tables::read(&bytes, &warnings)?;
     let mut library = Library::new();
     if folder.wants_materials() {
         for (line, names) in &tables.libraries {
-            read_libraries(names, Place::Line(*line), folder, &mut library, &mut warnings);
+            read_libraries(names, Place::Line(*line), folder, &mut library, &warnings);
         }
     }
-    let parts = parts_of(&mut tables, &bytes, &mut warnings)?;
+    let parts = parts_of(&mut tables, &bytes, &warnings)?;
     let mut model = Model::default();
     let materials = Materials { names: &tables.materials.names, library: &library, folder }
-        .add_to(&mut model, &parts, &mut warnings)
+        .add_to(&mut model, &parts, &warnings)
         .map_err(|e| Fault::new(Place::File, e))?;
     add_nodes(parts, &tables, &materials, &mut model);
     model.warnings = warnings.into_list();
@@ -49,13 +49,7 @@ pub(super) fn read(bytes: &[u8], folder: &Folder) -> Result<Model, Fault> {
 }
 
 /// Reads the files that a line names: one whose name may have spaces, or else several.
-fn read_libraries(
-    names: &[u8],
-    place: Place,
-    folder: &Folder,
-    library: &mut Library,
-    warnings: &mut Warnings,
-) {
+fn read_libraries(names: &[u8], place: Place, folder: &Folder, library: &mut Library, warnings: &Warnings) {
     let whole = text_of(names);
     let names = if folder.find(&whole).is_ok() { vec![whole] } else { words(names).map(text_of).collect() };
     for name in names {
@@ -82,7 +76,7 @@ impl Materials<'_> {
         &self,
         model: &mut Model,
         parts: &[Part],
-        warnings: &mut Warnings,
+        warnings: &Warnings,
     ) -> Result<HashMap<u32, MaterialId>, InvalidPart> {
         let has_colors = parts.iter().any(|part| part.mesh.colors().is_some());
         let colors = if has_colors { paint::vertex_colors(model) } else { None };

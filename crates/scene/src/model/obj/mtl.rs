@@ -103,7 +103,7 @@ pub(super) type Library = HashMap<Vec<u8>, Described>;
 
 /// Adds the materials of a file to a library; `place` is where it is named, and messages begin with its name. Lines that
 /// cannot be understood are passed over.
-pub(super) fn read(bytes: &[u8], file: &str, place: Place, library: &mut Library, warnings: &mut Warnings) {
+pub(super) fn read(bytes: &[u8], file: &str, place: Place, library: &mut Library, warnings: &Warnings) {
     let bytes = decoded(bytes);
     let mut lines = Lines::new(&bytes);
     let mut name = None;
@@ -265,8 +265,8 @@ mod tests {
     use super::*;
 
     fn library(text: &[u8]) -> (Library, Vec<String>) {
-        let (mut library, mut warnings) = (Library::new(), Warnings::default());
-        read(text, "a.mtl", Place::Line(3), &mut library, &mut warnings);
+        let (mut library, warnings) = (Library::new(), Warnings::default());
+        read(text, "a.mtl", Place::Line(3), &mut library, &warnings);
         (library, warnings.into_list().into_iter().map(|warning| warning.message).collect())
     }
 

@@ -35,11 +35,7 @@ pub(super) enum Named {
 ///
 /// # Errors
 /// Corners that are nowhere.
-pub(super) fn parts_of(
-    tables: &mut Tables,
-    bytes: &[u8],
-    warnings: &mut Warnings,
-) -> Result<Vec<Part>, Fault> {
+pub(super) fn parts_of(tables: &mut Tables, bytes: &[u8], warnings: &Warnings) -> Result<Vec<Part>, Fault> {
     check(tables, bytes, warnings)?;
     let positions = Positions::Wide(std::mem::take(&mut tables.positions));
     let named = by_what(&tables.runs);
@@ -95,7 +91,7 @@ fn sorted_by<K: std::hash::Hash + Eq + Copy>(runs: &[Run], key: impl Fn(State) -
 }
 
 /// Refuses faces whose corners are not there or nowhere, and notes what else they lack.
-fn check(tables: &Tables, bytes: &[u8], warnings: &mut Warnings) -> Result<(), Fault> {
+fn check(tables: &Tables, bytes: &[u8], warnings: &Warnings) -> Result<(), Fault> {
     let count = tables.positions.len();
     let mut start = 0;
     for face in &tables.faces {

@@ -53,7 +53,7 @@ impl<'a> Pictures<'a> {
         map: &Map,
         what: Use,
         model: &mut Model,
-        warnings: &mut Warnings,
+        warnings: &Warnings,
     ) -> Option<TextureUse> {
         let sign = if what == Use::Bumps { map.strength.signum() } else { 1.0 };
         let laid =

@@ -112,7 +112,7 @@ impl Tables {
     ///
     /// # Errors
     /// A statement that cannot be meant, or no faces.
-    pub(super) fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<Self, Fault> {
+    pub(super) fn read(bytes: &[u8], warnings: &Warnings) -> Result<Self, Fault> {
         let mut tables = Self::default();
         let mut lines = Lines::new(bytes);
         while let Some((line, statement)) = lines.next() {
@@ -141,12 +141,7 @@ impl Tables {
         }
     }
 
-    fn read_statement(
-        &mut self,
-        statement: &[u8],
-        line: usize,
-        warnings: &mut Warnings,
-    ) -> Result<(), Fault> {
+    fn read_statement(&mut self, statement: &[u8], line: usize, warnings: &Warnings) -> Result<(), Fault> {
         let place = Place::Line(line);
         let (word, rest) = split_word(statement);
         match word {
@@ -216,7 +211,7 @@ impl Tables {
         Ok(())
     }
 
-    fn read_face(&mut self, rest: &[u8], line: usize, warnings: &mut Warnings) -> Result<(), Fault> {
+    fn read_face(&mut self, rest: &[u8], line: usize, warnings: &Warnings) -> Result<(), Fault> {
         let start = self.corners.len();
         for word in words(rest) {
             let corner = self.corner(word, Place::Line(line))?;

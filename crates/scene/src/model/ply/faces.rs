@@ -77,7 +77,7 @@ impl Faces {
         body: &mut B,
         found: Option<&Found>,
         count: usize,
-        warnings: &mut Warnings,
+        warnings: &Warnings,
     ) -> Result<(), Fault> {
         let plan = Plan::of(element)?;
         let plain = found.filter(|_| plan.is_plain());

@@ -114,7 +114,7 @@ pub(super) struct Header {
 /// A header longer than this is none.
 const LONGEST_HEADER: usize = 1 << 16;
 
-pub(super) fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<Header, Fault> {
+pub(super) fn read(bytes: &[u8], warnings: &Warnings) -> Result<Header, Fault> {
     let start = &bytes[..bytes.len().min(LONGEST_HEADER)];
     // Lines end with LF, with CR LF or, in old files, with CR alone.
     let end = match start.iter().position(|&byte| byte == b'\n' || byte == b'\r') {

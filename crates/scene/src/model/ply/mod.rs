@@ -19,22 +19,22 @@ use header::{Encoding, Header};
 use vertices::Found;
 
 pub(super) fn read(bytes: &[u8], folder: &Folder) -> Result<Model, Fault> {
-    let mut warnings = Warnings::default();
-    let header = header::read(bytes, &mut warnings)?;
+    let warnings = Warnings::default();
+    let header = header::read(bytes, &warnings)?;
     let body = &bytes[header.body..];
     let (found, faces) = match header.encoding {
-        Encoding::Ascii => read_ascii(&header, body, &mut warnings)?,
-        Encoding::Little => read_body(&header, &mut Binary::<false>::new(body, header.body), &mut warnings)?,
-        Encoding::Big => read_body(&header, &mut Binary::<true>::new(body, header.body), &mut warnings)?,
+        Encoding::Ascii => read_ascii(&header, body, &warnings)?,
+        Encoding::Little => read_body(&header, &mut Binary::<false>::new(body, header.body), &warnings)?,
+        Encoding::Big => read_body(&header, &mut Binary::<true>::new(body, header.body), &warnings)?,
     };
     parts::model_of(&header, found, faces, folder, warnings)
 }
 
 /// Rows stand on lines of their own, and where that cannot be, numbers follow each other as they come, to the last.
-fn read_ascii(header: &Header, bytes: &[u8], warnings: &mut Warnings) -> Result<(Found, Faces), Fault> {
-    let mut found = Warnings::default();
+fn read_ascii(header: &Header, bytes: &[u8], warnings: &Warnings) -> Result<(Found, Faces), Fault> {
+    let found = Warnings::default();
     let mut rows = Ascii::new(bytes, header.lines, true);
-    let refused = match read_body(header, &mut rows, &mut found) {
+    let refused = match read_body(header, &mut rows, &found) {
         Ok(read) => {
             if let Some(line) = rows.left_over() {
                 let message = "numbers that the header does not announce are passed over at the ends of rows";
@@ -52,11 +52,7 @@ fn read_ascii(header: &Header, bytes: &[u8], warnings: &mut Warnings) -> Result<
     }
 }
 
-fn read_body<B: Body>(
-    header: &Header,
-    body: &mut B,
-    warnings: &mut Warnings,
-) -> Result<(Found, Faces), Fault> {
+fn read_body<B: Body>(header: &Header, body: &mut B, warnings: &Warnings) -> Result<(Found, Faces), Fault> {
     let count = header.elements.iter().find(|e| e.name == "vertex").map_or(0, |e| e.count);
     let (mut found, mut faces) = (None, Faces::default());
     for element in &header.elements {

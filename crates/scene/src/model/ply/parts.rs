@@ -23,7 +23,7 @@ pub(super) fn model_of(
     found: Found,
     faces: Faces,
     folder: &Folder,
-    mut warnings: Warnings,
+    warnings: Warnings,
 ) -> Result<Model, Fault> {
     let refused = |e: InvalidPart| Fault::new(Place::File, e);
     let has_whole = !faces.whole.ends.is_empty();
@@ -42,7 +42,7 @@ pub(super) fn model_of(
     for (picture, mesh) in meshes {
         let texture = match header.pictures.get(picture as usize) {
             Some(name) if mesh.uvs().is_some() && folder.wants_materials() => {
-                picture_of(&mut model, name, folder, &mut warnings)
+                picture_of(&mut model, name, folder, &warnings)
             }
             _ => None,
         };
@@ -58,7 +58,7 @@ pub(super) fn model_of(
     Ok(model)
 }
 
-fn picture_of(model: &mut Model, name: &str, folder: &Folder, warnings: &mut Warnings) -> Option<TextureUse> {
+fn picture_of(model: &mut Model, name: &str, folder: &Folder, warnings: &Warnings) -> Option<TextureUse> {
     let image = folder.find(name).and_then(|path| crate::image::load(&path).map_err(|e| e.to_string()));
     let texture =
         image.and_then(|image| paint::image_texture(name, image, Values::new()).map_err(|e| e.to_string()));

@@ -25,7 +25,7 @@ struct Reader {
     pieces: Vec<[u32; 3]>,
 }
 
-pub(super) fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<Vec<(String, TriangleMesh)>, Fault> {
+pub(super) fn read(bytes: &[u8], warnings: &Warnings) -> Result<Vec<(String, TriangleMesh)>, Fault> {
     let mut reader = Reader {
         corners: Merged::with_room(bytes.len() / 500),
         solids: Vec::new(),
@@ -46,7 +46,7 @@ pub(super) fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<Vec<(String,
 }
 
 impl Reader {
-    fn read_line(&mut self, statement: &[u8], place: Place, warnings: &mut Warnings) -> Result<(), Fault> {
+    fn read_line(&mut self, statement: &[u8], place: Place, warnings: &Warnings) -> Result<(), Fault> {
         let (word, rest) = split_word(statement);
         if word.eq_ignore_ascii_case(b"solid") {
             self.solids.push((name_of(rest), Vec::new()));
@@ -82,7 +82,7 @@ impl Reader {
         Ok(())
     }
 
-    fn end_facet(&mut self, place: Place, warnings: &mut Warnings) {
+    fn end_facet(&mut self, place: Place, warnings: &Warnings) {
         if self.outline.len() < 3 {
             warnings.add(place, "facets of fewer than three corners are left out");
         } else {

@@ -29,7 +29,7 @@ pub(super) fn length(count: u32) -> u64 {
     START as u64 + FACET as u64 * u64::from(count)
 }
 
-pub(super) fn read(bytes: &[u8], warnings: &mut Warnings) -> Result<TriangleMesh, Fault> {
+pub(super) fn read(bytes: &[u8], warnings: &Warnings) -> Result<TriangleMesh, Fault> {
     let Some(announced) = count(bytes) else {
         let message = format!("is no STL file: a binary one has at least {START} bytes");
         return Err(Fault::new(Place::File, message));

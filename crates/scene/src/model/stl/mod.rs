@@ -19,14 +19,14 @@ use super::warnings::Warnings;
 use super::{Folder, Model, ModelMaterial, paint};
 
 pub(super) fn read(bytes: &[u8], _: &Folder) -> Result<Model, Fault> {
-    let mut warnings = Warnings::default();
+    let warnings = Warnings::default();
     let decoded = decoded(bytes);
     let solids = if bytes.is_empty() {
         return Err(Fault::new(Place::File, "the file is empty"));
     } else if is_text(&decoded) {
-        ascii::read(&decoded, &mut warnings)?
+        ascii::read(&decoded, &warnings)?
     } else {
-        vec![(String::new(), binary::read(bytes, &mut warnings)?)]
+        vec![(String::new(), binary::read(bytes, &warnings)?)]
     };
     model_of(solids, warnings).map_err(|e| Fault::new(Place::File, e))
 }

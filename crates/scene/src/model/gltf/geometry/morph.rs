@@ -51,7 +51,7 @@ fn apply_one(
         add(normals, &deltas, weight);
     }
     if target.keys().any(|name| name.starts_with("TEXCOORD") || name.starts_with("COLOR")) {
-        source.warnings.add("texture coordinates and colours of morph targets are left out");
+        source.warnings.add_of_file("texture coordinates and colours of morph targets are left out");
     }
     Ok(())
 }

@@ -6,7 +6,7 @@ use crate::model::gltf::extensions;
 use crate::model::gltf::json::{Primitive, Whole};
 use crate::model::gltf::refusal::{Refusal, Within};
 use crate::model::gltf::source::Source;
-use crate::model::gltf::warnings::Warnings;
+use crate::model::warnings::Warnings;
 
 /// Which accessors a primitive takes its numbers from: what is equal has the same corners.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -49,11 +49,11 @@ const TRIANGLE: usize = size_of::<[u32; 3]>();
 /// How the corners of a primitive are joined; `None` where it has no surface.
 pub(crate) fn topology(primitive: &Primitive, warnings: &Warnings) -> Result<Option<Topology>, Refusal> {
     let Mode::Triangles(topology) = Mode::of(primitive.mode.map_or(TRIANGLES, |mode| mode.0))? else {
-        warnings.add("points and lines have no surface: they are left out");
+        warnings.add_of_file("points and lines have no surface: they are left out");
         return Ok(None);
     };
     if !primitive.attributes.contains_key(POSITION) {
-        warnings.add("a primitive without positions is left out");
+        warnings.add_of_file("a primitive without positions is left out");
         return Ok(None);
     }
     Ok(Some(topology))
@@ -162,7 +162,7 @@ impl Corners {
             are_finite = false;
         }
         if !are_finite {
-            source.warnings.add(format!("a {name} is no finite number: 0 is taken"));
+            source.warnings.add_of_file(format!("a {name} is no finite number: 0 is taken"));
         }
         Ok(Some(rows))
     }

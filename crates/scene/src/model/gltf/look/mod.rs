@@ -88,7 +88,9 @@ impl<'a, 's> Looks<'a, 's> {
     fn by_corners(&mut self, material: &CoreMaterial, field: &'static str) -> Result<CoreMaterial, Refusal> {
         let Some(color) = material.values().get(field).cloned() else { return Ok(material.clone()) };
         if color.texture().is_some() {
-            self.source.warnings.add("colours of corners are left out where a texture gives a colour too");
+            self.source
+                .warnings
+                .add_of_file("colours of corners are left out where a texture gives a colour too");
             return Ok(material.clone());
         }
         let texture = self.painter.corner_colors()?;
@@ -104,7 +106,7 @@ impl<'a, 's> Looks<'a, 's> {
         let mut sets = given.textures().into_iter().flatten().map(set);
         let Some(first) = sets.next() else { return 0 };
         if sets.any(|other| other != first) {
-            self.source.warnings.add(format!(
+            self.source.warnings.add_of_file(format!(
                 "a material has textures of several sets of coordinates: all are laid by TEXCOORD_{first}"
             ));
         }

@@ -156,7 +156,7 @@ impl<'a, 's> Painter<'a, 's> {
         let image = texture.extensions.webp.as_ref().and_then(|webp| webp.source).or(texture.source);
         let Some(image) = image else {
             let message = format!("textures[{}] is left out: it names no picture that can be read", by.index);
-            self.source.warnings.add(message);
+            self.source.warnings.add_of_file(message);
             return Ok(None);
         };
         let sampler = match texture.sampler {

@@ -32,7 +32,7 @@ impl<'a, 's> Pictures<'a, 's> {
         }
         let read = self.read(index);
         if let Err(message) = &read {
-            self.source.warnings.add(format!("images[{index}] is left out: {message}"));
+            self.source.warnings.add_of_file(format!("images[{index}] is left out: {message}"));
         }
         let read = read.ok();
         self.known.insert(index, read.clone());

@@ -111,7 +111,7 @@ fn specular(
     let Some(given) = &extensions.specular else { return Ok(values) };
     let color = given.specular_color_factor.unwrap_or([1.0; 3]);
     if color.iter().any(|&v| v > 1.0) {
-        painter.source.warnings.add("a specularColorFactor over 1 counts as 1");
+        painter.source.warnings.add_of_file("a specularColorFactor over 1 counts as 1");
     }
     let strength = given.specular_factor.unwrap_or(1.0);
     Ok(values
@@ -128,7 +128,10 @@ fn coat(
         return Ok(values);
     };
     if given.clearcoat_normal_texture.is_some() {
-        painter.source.warnings.add("normal maps of clear coats are left out: coats follow what they lie on");
+        painter
+            .source
+            .warnings
+            .add_of_file("normal maps of clear coats are left out: coats follow what they lie on");
     }
     let roughness = given.clearcoat_roughness_texture.as_ref();
     Ok(values
@@ -170,7 +173,7 @@ fn anisotropy(
         painter
             .source
             .warnings
-            .add("directions in anisotropy textures are left out: the strength alone is taken");
+            .add_of_file("directions in anisotropy textures are left out: the strength alone is taken");
     }
     Ok(values
         .with("anisotropy", painter.fraction(given.anisotropy_strength, by, Channel::Blue)?)

@@ -30,10 +30,9 @@ struct Metal {
 
 /// Colour, metal and roughness.
 pub(super) fn base(given: &SpecularGlossiness, painter: &mut Painter<'_, '_>) -> Result<Values, Refusal> {
-    painter
-        .source
-        .warnings
-        .add("materials of specular colour and glossiness are shown as much the same of metal and roughness");
+    painter.source.warnings.add_of_file(
+        "materials of specular colour and glossiness are shown as much the same of metal and roughness",
+    );
     let [r, g, b, _] = given.diffuse_factor.unwrap_or([1.0; 4]);
     let [sr, sg, sb] = given.specular_factor.unwrap_or([1.0; 3]);
     let factors = Place {

@@ -8,7 +8,7 @@ use catoptra_core::{Camera, Extent};
 use super::Outer;
 use crate::model::gltf::json::{self, Document, Whole, entry};
 use crate::model::gltf::refusal::{Refusal, Within};
-use crate::model::gltf::warnings::Warnings;
+use crate::model::warnings::Warnings;
 
 /// The camera of that number, at the origin, and its name; `None` for one of no projection. What stands within `outer` will be
 /// scaled by its scale, which sizes of cameras do not know of.
@@ -38,7 +38,7 @@ fn of(given: &json::Camera, outer: Outer, warnings: &Warnings) -> Result<Option<
         return Ok(Some(Camera::looking(DVec3::ZERO, forward, up, fov)?));
     }
     let Some(orthographic) = &given.orthographic else {
-        warnings.add("a camera of neither projection is left out");
+        warnings.add_of_file("a camera of neither projection is left out");
         return Ok(None);
     };
     // Half of what is seen; some programs write it below 0.

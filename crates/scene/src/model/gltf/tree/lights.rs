@@ -9,7 +9,7 @@ use catoptra_core::{Light, Rgb, Value, Values};
 
 use crate::model::gltf::json::{self, Document, Whole, entry};
 use crate::model::gltf::refusal::{Refusal, Within};
-use crate::model::gltf::warnings::Warnings;
+use crate::model::warnings::Warnings;
 
 /// The number of a node's light.
 pub(crate) fn of_node(given: &json::Node) -> Option<Whole> {
@@ -38,7 +38,7 @@ pub(crate) fn light<'d>(
 
 fn of(given: &json::Light, direction: DVec3, warnings: &Warnings) -> Result<Light, Refusal> {
     if given.range.is_some() {
-        warnings.add("the range of lights is left out: light falls with the square of the distance");
+        warnings.add_of_file("the range of lights is left out: light falls with the square of the distance");
     }
     let intensity = given.intensity.unwrap_or(1.0);
     let channel = |v: f64| (v * intensity).clamp(0.0, LARGEST);

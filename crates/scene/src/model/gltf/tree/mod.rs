@@ -116,7 +116,7 @@ impl<'a, 's> Tree<'a, 's> {
         let local = Local::of(given).within(path)?;
         let Some(frame) = Frame::within(outer.rest, &local).within(path)? else {
             if local.linear.matrix() != DMat3::ZERO {
-                self.source.warnings.add("nodes whose matrix flattens them are left out");
+                self.source.warnings.add_of_file("nodes whose matrix flattens them are left out");
             }
             return Ok(Vec::new());
         };

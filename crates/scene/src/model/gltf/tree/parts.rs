@@ -57,7 +57,9 @@ impl Tree<'_, '_> {
     fn can_be_skinned(&self, mesh: &MeshJson) -> bool {
         let can = mesh.primitives.iter().all(|primitive| is_skinned(&primitive.attributes));
         if !can {
-            self.source.warnings.add("a mesh with a skin names no joints: it stands where its node does");
+            self.source
+                .warnings
+                .add_of_file("a mesh with a skin names no joints: it stands where its node does");
         }
         can
     }

@@ -1,12 +1,13 @@
 //! What becomes of a picture that is dropped on the window? A texture of the scene, on the selected shape. It is read on a
 //! thread of its own. No window, no drawing.
 
-use std::path::{MAIN_SEPARATOR_STR, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use catoptra_core::scene::{Edit, EntityId, TextureId};
 use catoptra_core::{Field, FieldKind, ImageSource, Material, Rgb, Texture, TextureUse, Value, Values};
 
+use super::written;
 use crate::latest::Latest;
 use crate::viewer::Viewer;
 
@@ -63,15 +64,6 @@ fn texture(path: &Path, folder: &Path) -> Result<Texture, String> {
     let values = Values::new().with("file", Value::Image(ImageSource { path: written, image }));
     let kind = Texture::kind_named("image-texture").ok_or("there are no textures of pictures")?;
     (kind.make)(&values).map_err(|e| e.to_string())
-}
-
-/// A path as the scene names it: relative to its folder if it lies there, else whole.
-fn written(path: &Path, folder: &Path) -> Result<String, String> {
-    let whole = |path: &Path| std::path::absolute(path).map_err(|e| format!("{}: {e}", path.display()));
-    let (file, folder) = (whole(path)?, whole(&Path::new(".").join(folder))?);
-    let text = file.strip_prefix(&folder).unwrap_or(&file).to_str();
-    let text = text.ok_or_else(|| format!("{}: scene text cannot spell this name", path.display()))?;
-    Ok(text.replace(MAIN_SEPARATOR_STR, "/"))
 }
 
 /// Makes a picture a texture of the scene and puts it on what it is for, as one step to undo.

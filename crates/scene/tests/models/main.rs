@@ -8,6 +8,8 @@ use catoptra_core::scene::{Content, Edit, Node, Role, Scene, Subtree};
 use catoptra_core::{Placement, Shape};
 use catoptra_scene::SceneFile;
 
+mod parts;
+
 /// Two triangles of two materials; the second stands 2 m beside the first.
 const OBJ: &str = "mtllib chair.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv 3 0 0\nv 2 1 0\n\
     o Leg\nusemtl Steel\nf 1 2 3\no Seat\nusemtl Wood\nf 4 5 6\n";
@@ -146,13 +148,10 @@ fn nothing_is_lost_or_doubled_by_saving() {
     type Change = fn(&Scene, Placement) -> Edit;
     let edits: [(Change, bool); 9] = [
         (|s, p| Edit::Placement(s.entity_named("chair").unwrap(), p), true),
-        (|s, p| Edit::Placement(s.entity_named("chair/Leg").unwrap(), p), false),
-        (|s, _| Edit::Remove(s.entity_named("chair/Leg").unwrap()), false),
+        (|s, p| Edit::Placement(s.entity_named("chair/Leg").unwrap(), p), true),
+        (|s, _| Edit::Remove(s.entity_named("chair/Leg").unwrap()), true),
         (|s, _| Edit::Remove(s.entity_named("chair").unwrap()), false),
-        (
-            |s, _| Edit::MaterialOf(s.entity_named("chair/Leg").unwrap(), s.material_named("m").unwrap()),
-            false,
-        ),
+        (|s, _| Edit::MaterialOf(s.entity_named("chair/Leg").unwrap(), s.material_named("m").unwrap()), true),
         (|s, _| Edit::Name(s.entity_named("chair").unwrap(), "sofa".into()), false),
         (
             |s, _| {
@@ -216,4 +215,63 @@ fn a_model_is_a_scene_with_view_and_light() {
     std::fs::write(folder.path().join("bad.obj"), "f 1 2 3\n").unwrap();
     let Err(error) = catoptra_scene::load(&folder.path().join("bad.obj")) else { panic!("was read") };
     assert!(error.to_string().contains("bad.obj"), "{error}");
+}
+
+#[test]
+fn a_model_with_a_shining_part_gets_a_studio() {
+    let folder = folder();
+    std::fs::write(folder.path().join("chair.mtl"), MTL.replace("newmtl Wood", "newmtl Wood\nKe 1 0 0"))
+        .unwrap();
+    let (scene, file) = catoptra_scene::load(&folder.path().join("chair.obj")).unwrap();
+    assert!(file.added().is_some_and(|told| told.contains("a studio")), "{:?}", file.added());
+    assert_eq!(scene.lights().len(), 3);
+}
+
+#[test]
+fn models_are_recognised_by_how_they_begin() {
+    let folder = folder();
+    std::fs::write(folder.path().join("chair.stl"), OBJ).unwrap();
+    std::fs::write(folder.path().join("chair"), OBJ).unwrap();
+    for name in ["chair.stl", "chair"] {
+        let (scene, file) = catoptra_scene::load(&folder.path().join(name)).unwrap();
+        assert!(scene.entity_named("chair/Leg").is_some() && file.path().is_none(), "{name}");
+        let (scene, _) = read(&format!("model \"a\" {{ file \"{name}\" }}"), folder.path());
+        assert!(scene.entity_named("a/Leg").is_some(), "{name}");
+    }
+}
+
+#[test]
+fn what_is_left_out_of_meshes_is_told_too() {
+    let folder = folder();
+    std::fs::write(folder.path().join("odd.obj"), format!("{OBJ}curv2 1 2\n")).unwrap();
+    let text = "matte \"m\" { color 0.5 }\nmesh \"a\" material=\"m\" { file \"odd.obj\" }\n";
+    let (_, file) = read(text, folder.path());
+    assert_eq!(file.warnings().len(), 1, "{:?}", file.warnings());
+    assert!(file.warnings()[0].starts_with("odd.obj"), "{:?}", file.warnings());
+    assert!(file.warnings()[0].contains("free-form"), "{:?}", file.warnings());
+    let (_, both) = read(&format!("{text}model \"b\" {{ file \"odd.obj\" }}"), folder.path());
+    assert_eq!(both.warnings().len(), 1, "each thing once: {:?}", both.warnings());
+}
+
+#[test]
+fn a_texture_of_a_model_is_named_in_the_text() {
+    let folder = folder();
+    catoptra_scene::image::write_png(&folder.path().join("oak.png"), 1, 1, &[9, 8, 7]).unwrap();
+    std::fs::write(folder.path().join("chair.mtl"), format!("{MTL}map_Kd oak.png\n")).unwrap();
+    let text = "checker-texture \"own\"\nmatte \"table\" { color 1 texture=\"chair/oak.png\" }\n\
+        group \"g\" {\n model \"chair\" { file \"chair.obj\" }\n}\n";
+    let (mut scene, mut file) = read(text, folder.path());
+    let names: Vec<_> = scene.textures().map(|(_, name, _)| name.to_owned()).collect();
+    assert_eq!(names, ["own", "chair/oak.png"]);
+    let oak = scene.texture_named("chair/oak.png").unwrap();
+    let table = scene.material_named("table").unwrap();
+    assert_eq!(scene.material(table).values().textures().collect::<Vec<_>>(), [oak]);
+    file.update(&scene);
+    let saved = file.text();
+    let (again, _) = read(&saved, folder.path());
+    assert_eq!(told(&again), told(&scene), "{saved}");
+    scene.apply(Edit::Remove(scene.entity_named("g").unwrap())).unwrap();
+    check_saved(&scene, &mut file, folder.path());
+    let message = refused(&text.replace("chair/oak", "chair/oka"), folder.path());
+    assert!(message.contains("did you mean \"chair/oak.png\"?"), "{message}");
 }
