@@ -9,7 +9,7 @@ nothing.
 
 * Every glTF, GLB, OBJ, PLY and STL file goes through `info` and `render`: it is loaded, or refused with exit code 2 and a message.
   Anything else (a panic, another code, a refusal without reason, more than a minute) is a failure.
-* Of 50 of them the pixels that are covered are compared with those of a rasteriser in here, which reads the files by trimesh: they
+* Of 60 of them, but for those that the other reader does not take, the pixels that are covered are compared with those of a rasteriser in here, which reads the files by trimesh: they
   agree on at least 99.5 %.
 * Contact sheets of all pictures are written to FOLDER/sheets, to be looked at.
 """
@@ -27,7 +27,7 @@ DEBIAN = ["assimp-testmodels", "glmark2-data"]
 READERS = ["trimesh", "numpy", "pillow", "charset-normalizer"]
 ENDINGS = {".gltf", ".glb", ".obj", ".ply", ".stl"}
 SIZE = 128
-COMPARED = 50
+COMPARED = 60
 AGREE = 0.995
 
 
@@ -122,6 +122,10 @@ def agreement(program, file, folder):
     import trimesh
     from PIL import Image
 
+    if file.suffix.lower() == ".obj" and any(
+        line.startswith(b"f ") and len(line.split()) > 5 for line in file.read_bytes().splitlines()
+    ):
+        raise RuntimeError("the other reader cuts polygons as if all were convex")
     loaded = trimesh.load(file, process=False)
     mesh = loaded.dump(concatenate=True) if isinstance(loaded, trimesh.Scene) else loaded
     corners = np.asarray(mesh.triangles, float)
