@@ -5,6 +5,7 @@ mod flat;
 mod mesh;
 mod order;
 mod random;
+mod ring;
 mod round;
 mod scale;
 mod swept;
@@ -78,6 +79,8 @@ pub const GROUPS: &[Group] = &[
     swept::CONES,
     swept::CAPSULES,
     swept::TOUCHING,
+    ring::TORI,
+    ring::TOUCHING,
     order::CROSSING,
     order::PARALLEL,
     order::SPHERES,
