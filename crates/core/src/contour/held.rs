@@ -6,6 +6,7 @@ use super::lamp::{Lamp, Outline};
 use super::place::nearest_on_lamp;
 use super::swept::Swept;
 use crate::Shape;
+use crate::geometry::Faceted;
 use crate::numeric::HELD_WITHIN;
 
 /// How far from a surface through `on` a point counts as lying on it.
@@ -58,7 +59,7 @@ pub fn facets_that_hold(shape: &Shape) -> u32 {
     match shape {
         Shape::Plane(_) | Shape::Torus(_) => 1,
         Shape::Cylinder(_) | Shape::Cone(_) | Shape::Capsule(_) => shape.pieces(),
-        _ => shape.faceted().map_or_else(|| Lamp::facets(shape), |solid| solid.count()),
+        _ => shape.faceted().map_or_else(|| Lamp::facets(shape), Faceted::count),
     }
 }
 

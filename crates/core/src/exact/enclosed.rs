@@ -150,9 +150,9 @@ fn refined(c: &Quartic, stretch: &Stretch) -> Verdict<Bounded> {
     for _ in 0..64 {
         let value = at(x);
         if (value > 0.0) == rises {
-            high = x
+            high = x;
         } else {
-            low = x
+            low = x;
         }
         let newton = x - value / slope(x);
         let next = if low < newton && newton < high { newton } else { f64::midpoint(low, high) };

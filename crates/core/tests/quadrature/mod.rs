@@ -239,6 +239,25 @@ impl<'a> Rule<'a> {
                 );
                 stops.push(n.dot(c - from) / n.dot(along));
             }
+            Shape::Cylinder(_) | Shape::Cone(_) | Shape::Capsule(_) => {
+                self.swept_stops(shape, from, along, stops);
+            }
+            solid => {
+                let facets = solid.faceted().expect("a blocker of this test");
+                for facet in 0..facets.count() {
+                    let outline: Vec<DVec3> =
+                        facets.outline(facet).iter().map(|&i| facets.corners()[i as usize]).collect();
+                    polygon(&outline);
+                }
+            }
+        }
+    }
+}
+
+impl Rule<'_> {
+    /// As [`stops`](Self::stops), for what is round about an axis.
+    fn swept_stops(&self, shape: &Shape, from: DVec3, along: DVec3, stops: &mut Vec<f64>) {
+        match shape {
             Shape::Cylinder(c) => {
                 self.tangents(c.ends(), [c.radius(); 2], from, along, stops);
                 for (end, normal) in c.ends().into_iter().zip([-c.axis(), c.axis()]) {
@@ -257,19 +276,10 @@ impl<'a> Rule<'a> {
                     self.stops(&Sphere::new(end, c.radius()).unwrap().into(), from, along, stops);
                 }
             }
-            solid => {
-                let facets = solid.faceted().expect("a blocker of this test");
-                for facet in 0..facets.count() {
-                    let outline: Vec<DVec3> =
-                        facets.outline(facet).iter().map(|&i| facets.corners()[i as usize]).collect();
-                    polygon(&outline);
-                }
-            }
+            _ => {}
         }
     }
-}
 
-impl Rule<'_> {
     /// Where lines of sight to a straight line touch the side of a cone, and where they pass the heights of its ends where they
     /// meet that: there its seams are.
     fn tangents(

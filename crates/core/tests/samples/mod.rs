@@ -304,9 +304,8 @@ impl Form {
     /// Stretches on the surface where facets meet, or short ones across such places.
     pub(crate) fn seams(&self) -> Vec<[DVec3; 2]> {
         match self {
-            Self::Plane { .. } | Self::Sphere { .. } | Self::Disk { .. } => Vec::new(),
+            Self::Plane { .. } | Self::Sphere { .. } | Self::Disk { .. } | Self::Ring(_) => Vec::new(),
             Self::Round(round) => round.seams(),
-            Self::Ring(_) => Vec::new(),
             Self::Faces(faces) => {
                 faces.iter().flat_map(|(_, [a, b, c])| [[*a, *b], [*b, *c], [*c, *a]]).collect()
             }
@@ -378,7 +377,7 @@ impl Form {
                 above.hypot(beside.max(0.0))
             }
             Self::Round(round) => round.distance(p, facet),
-            Self::Ring(ring) => (ring.from_tube(p).length() - ring.radii[1]).abs(),
+            Self::Ring(ring) => (ring.away_from_tube(p).length() - ring.radii[1]).abs(),
             Self::Faces(faces) => {
                 let of_facet = faces.iter().filter(|(of, _)| *of == facet);
                 of_facet.map(|(_, face)| distance_to(face, p)).fold(f64::INFINITY, f64::min)
@@ -392,7 +391,7 @@ impl Form {
             Self::Plane { normal, .. } | Self::Disk { normal, .. } => *normal,
             Self::Sphere { center, .. } => (p - *center).normalize(),
             Self::Round(round) => round.normal(p, facet),
-            Self::Ring(ring) => ring.from_tube(p).normalize(),
+            Self::Ring(ring) => ring.away_from_tube(p).normalize(),
             Self::Faces(faces) => {
                 let (_, [a, b, c]) = faces.iter().find(|(of, _)| *of == facet).expect("a facet of the shape");
                 (b - a).cross(c - a).normalize()

@@ -49,7 +49,7 @@ impl Ring {
     }
 
     /// A point as seen from the nearest one of the ring.
-    pub(super) fn from_tube(&self, p: DVec3) -> DVec3 {
+    pub(super) fn away_from_tube(&self, p: DVec3) -> DVec3 {
         let from = p - self.center;
         let flat = from - self.axis * from.dot(self.axis);
         from - flat.normalize() * self.radii[0]
