@@ -109,6 +109,7 @@ impl Found<'_> {
             "lamp_outlines": needs.outlines,
             "lamps_picked": needs.picks_lamps,
             "endless_lamps": needs.endless_lamps,
+            "lamps_met_alone": needs.lamps_met_alone,
             "ambient_lights": self.ambient,
             "shadowing_lights": needs.shadowing_lights,
             "shapes_without_end": needs.unbounded,
@@ -172,6 +173,10 @@ impl Found<'_> {
         if needs.endless_lamps > 0 {
             let shapes = counted(needs.endless_lamps as u64, "shape");
             lines.push(format!("  {shapes} without an end shine but light nothing"));
+        }
+        if needs.lamps_met_alone > 0 {
+            let shapes = counted(needs.lamps_met_alone as u64, "shape");
+            lines.push(format!("  {shapes} of no known outline shine, but only paths find their light"));
         }
         if self.ambient > 0 {
             lines.push(format!("{}: costs nothing", counted(self.ambient as u64, "ambient light")));

@@ -222,6 +222,10 @@ fn warn_of_lamps(scene: &Scene, snapshot: &Snapshot) {
         let name = scene.name(lamp).unwrap_or_default();
         warn(&format!("\"{name}\" shines but lights nothing: it has no end"));
     }
+    for lamp in snapshot.lamps_met_alone() {
+        let name = scene.name(lamp).unwrap_or_default();
+        warn(&format!("\"{name}\" shines, but only paths (--integrator path) find its light"));
+    }
     if let Some(lamps) = snapshot.picked_lamps() {
         let lamps = thousands(lamps as u64);
         warn(&format!(

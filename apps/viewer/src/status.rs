@@ -93,8 +93,10 @@ impl Meter {
 pub(crate) fn lamp_notes(scene: &Scene, snapshot: &Snapshot) -> Vec<String> {
     let names = snapshot.endless_lamps().filter_map(|lamp| scene.name(lamp));
     let endless = names.map(|name| format!("{name} has no end and lights nothing"));
+    let names = snapshot.lamps_met_alone().filter_map(|lamp| scene.name(lamp));
+    let met = names.map(|name| format!("only paths find the light of {name}"));
     let picked = snapshot.picked_lamps().map(|lamps| format!("{lamps} lamps, some picked at random"));
-    endless.chain(picked).collect()
+    endless.chain(met).chain(picked).collect()
 }
 
 fn milliseconds(duration: Duration) -> f64 {

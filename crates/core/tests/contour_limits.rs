@@ -1,6 +1,7 @@
 //! Does the closed form stay in its bounds where the input is degenerate, tiny or huge, and does it agree with itself?
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
+#[allow(dead_code, reason = "other tests of contours use the rest")]
 mod quadrature;
 
 use std::f64::consts::PI;

@@ -1,6 +1,7 @@
 //! Does the closed form agree with quadrature, and with itself, on random lamps behind random blockers?
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
+#[allow(dead_code, reason = "other tests of contours use the rest")]
 mod quadrature;
 
 use catoptra_core::Shape;

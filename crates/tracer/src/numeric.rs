@@ -50,6 +50,29 @@ pub(crate) const POSITION_ERROR: f32 = 6.0 * U;
 /// length, scaling), a sum of three products (γ₃), and a fused remainder (2u): 3 + 3 + 3 + 2 = 11, rounded up.
 pub(crate) const POINT_ERROR: f32 = 12.0 * U;
 
+/// Bounds of `kernel/round.rs`, where e is [`POINT_ERROR`] of all coordinates and of the size R of a ball round the shape, so that
+/// 12u R is below e, and κ is 1 + |k|.
+///
+/// q is off by 2e, h by 3e (a is rounded: 2u |q|, the sum 3u |q|), the climb by 12u, n and d × a by 16u, ρ by 4κe. Then ρn − kem, called v,
+/// is off by 12κe: 4κe and 4|k|e from ρ and m, 32u κR from n and the climb, 4u κR from products and a sum. The volume w is
+/// off by 2e + 20u |q|, below 4e. Of a ray that meets the side |w| is at most |v|, so that v² − w² is off by 24κe |v| + 8e |v| and
+/// squares of these errors: 32κe (|v| + 13κe), where 14 leaves room for the roundings of the root.
+pub(crate) const ROUND_CHORD_ERROR: f32 = 32.0;
+
+/// As [`ROUND_CHORD_ERROR`]: the error of A, 33u of n² and 30u k² of its other term, with 4u for the roundings of a quotient by it.
+/// Of an A above four times that, three quarters are left.
+pub(crate) const ROUND_SQUARE_ERROR: f32 = 48.0 * U;
+
+/// As [`ROUND_CHORD_ERROR`]: the error of B in units of κ²e: 4e of q·n, and |k| times 16u κR + 4κe.
+pub(crate) const ROUND_ROOT_ERROR: f32 = 10.0;
+
+/// As [`ROUND_CHORD_ERROR`]: the error of a height, in units of e: 3e, and e for what adds.
+pub(crate) const ROUND_END_ERROR: f32 = 4.0;
+
+/// As [`ROUND_CHORD_ERROR`]: the error of a point as seen from the middle of a ball at an end, in units of e: √3 e of q, 3u R of
+/// the way there. Along the ray it is twice that: 10u of the point's distance, below 2R, come from the direction.
+pub(crate) const ROUND_BALL_ERROR: f32 = 2.0;
+
 /// Relative error of a scalar product with a unit direction: three roundings in each of its components (conversion,
 /// length, scaling), one in those of the other vector, and three in the sum of products; doubled for the products'
 /// sum of magnitudes, which is at most √3 of the vectors' lengths.

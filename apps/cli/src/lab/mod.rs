@@ -2,6 +2,7 @@
 
 mod answer;
 mod pareto;
+mod stress;
 mod trace;
 
 use clap::{Args, Subcommand};
@@ -23,6 +24,8 @@ enum Question {
     Answer(answer::AnswerArgs),
     /// Count the wrong answers of a results file
     Score(answer::ScoreArgs),
+    /// Hold every backend against exact arithmetic on hard rays
+    Stress(stress::StressArgs),
     /// Measure run time against error for every way to answer a question
     Pareto(pareto::ParetoArgs),
 }
@@ -33,6 +36,7 @@ pub(crate) fn run(args: &LabArgs) -> Result<Outcome> {
         Question::Trace(args) => trace::run(args),
         Question::Answer(args) => answer::run(args),
         Question::Score(args) => answer::run_score(args),
+        Question::Stress(args) => stress::run(args),
         Question::Pareto(args) => pareto::run(args),
     }
 }

@@ -31,6 +31,10 @@ fn surfaces_that_light_nothing_or_are_picked_at_random_are_told() {
     let many: String = (0..1001).map(lamp).collect();
     for (text, told) in [
         (format!("{camera}{plane}"), "warning: \"ground\" shines but lights nothing: it has no end\n"),
+        (
+            format!("{camera}torus \"ring\" material=\"glow\" {{ major 1; minor 0.2 }}\n"),
+            "warning: \"ring\" shines, but only paths (--integrator path) find its light\n",
+        ),
         (format!("{camera}{many}"), "warning: 1,001 surfaces shine, too many to ask each: "),
     ] {
         std::fs::write(folder.path().join("lamps.kdl"), text).unwrap();

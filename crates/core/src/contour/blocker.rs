@@ -2,7 +2,10 @@
 
 use glam::DVec3;
 
-use super::lamp::{Flat, Round};
+use super::cone::{MOST_CORNERS, MOST_FACES};
+use super::lamp::{Face, Flat, Round};
+use super::swept::Swept;
+use crate::geometry::Faceted;
 use crate::{Aabb, Shape};
 
 /// A shape that can hide a part of a lamp.
@@ -21,6 +24,7 @@ pub(super) enum Kind {
     Disk(Round),
     Polygon(Flat),
     Solid(Solid),
+    Swept(Swept),
     /// What lies below a plane through the eye, whose unit normal this is.
     Ground(DVec3),
 }
@@ -30,9 +34,28 @@ pub(super) enum Kind {
 pub(super) struct Solid {
     pub corners: Vec<DVec3>,
     /// With outward normals, and which facet of the shape each is.
-    pub faces: Vec<Flat>,
+    pub faces: Vec<SolidFace>,
     pub facets: Vec<u32>,
     pub edges: Vec<SolidEdge>,
+}
+
+/// A face of a solid.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SolidFace {
+    corners: Vec<DVec3>,
+    normal: DVec3,
+}
+
+impl SolidFace {
+    pub(super) fn view(&self) -> Face<'_> {
+        Face { corners: &self.corners, normal: self.normal }
+    }
+}
+
+impl From<Flat> for SolidFace {
+    fn from(flat: Flat) -> Self {
+        Self { corners: flat.corners().to_vec(), normal: flat.normal }
+    }
 }
 
 /// An edge between two faces; it runs `from`, `to` as the loop of the first.
@@ -59,19 +82,17 @@ impl Blocker {
                 polygon(&[corner, corner + u, corner + u + v, corner + v])
             }
             Shape::Cuboid(_) => {
-                solid((0..6).filter_map(|facet| Some((facet, Flat::new(&box_face(shape, facet)?)?))))
+                let face = |facet| Some((facet, Flat::new(&box_face(shape, facet)?)?));
+                solid_or_flat((0..6).filter_map(face))
             }
             Shape::Tetrahedron(four) => {
-                solid((0..4).filter_map(|facet| Some((facet, Flat::new(&four.face(facet))?))))
+                solid_or_flat((0..4).filter_map(|facet| Some((facet, Flat::new(&four.face(facet))?))))
             }
-            Shape::Mesh(_)
-            | Shape::Heightfield(_)
-            | Shape::Cylinder(_)
-            | Shape::Cone(_)
-            | Shape::Capsule(_)
-            | Shape::Polyhedron(_)
-            | Shape::Platonic(_)
-            | Shape::Prism(_) => return None,
+            shape => match (Swept::of(shape), shape.faceted()) {
+                (Some(swept), _) => Kind::Swept(swept),
+                (_, Some(facets)) => Kind::Solid(convex(facets)?),
+                _ => return None,
+            },
         };
         Some(Self { bound: kind.bound(), kind })
     }
@@ -97,6 +118,7 @@ impl Kind {
             Self::Disk(disk) => (disk.center, disk.radius),
             Self::Polygon(flat) => ball_round(flat.corners()),
             Self::Solid(solid) => ball_round(&solid.corners),
+            Self::Swept(swept) => swept.ball(),
         }
     }
 }
@@ -131,33 +153,51 @@ pub(super) fn box_face(shape: &Shape, facet: u32) -> Option<[DVec3; 4]> {
 }
 
 fn polygon(corners: &[DVec3]) -> Kind {
-    Flat::new(corners).map_or_else(|| solid(std::iter::empty()), Kind::Polygon)
+    Flat::new(corners).map_or_else(|| Kind::Solid(solid(std::iter::empty())), Kind::Polygon)
 }
 
 /// The solid between faces; the faces of a flat box coincide, and one of them is all that blocks.
-fn solid(faces: impl Iterator<Item = (u32, Flat)>) -> Kind {
-    let (facets, faces): (Vec<_>, Vec<_>) = faces.unzip();
-    if let [flat, _] = faces[..] {
+fn solid_or_flat(faces: impl Iterator<Item = (u32, Flat)>) -> Kind {
+    let faces: Vec<(u32, Flat)> = faces.collect();
+    if let [(_, flat), _] = faces[..] {
         return Kind::Polygon(flat);
     }
+    Kind::Solid(solid(faces.into_iter().map(|(facet, flat)| (facet, flat.into()))))
+}
+
+/// A solid with a list of facets; `None` where it is not convex, or has too many of them.
+fn convex(facets: &Faceted) -> Option<Solid> {
+    let outlines = || (0..facets.count()).map(|facet| facets.outline(facet));
+    let is_simple = outlines().all(|outline| outline.len() <= MOST_CORNERS);
+    if !facets.is_convex() || facets.count() as usize > MOST_FACES || !is_simple {
+        return None;
+    }
+    let face = |(facet, outline): (u32, &[u32])| {
+        let corners = outline.iter().map(|&i| facets.corners()[i as usize]).collect();
+        (facet, SolidFace { corners, normal: facets.normal(facet) })
+    };
+    Some(solid((0..).zip(outlines()).map(face)))
+}
+
+fn solid(faces: impl Iterator<Item = (u32, SolidFace)>) -> Solid {
+    let (facets, faces): (Vec<_>, Vec<_>) = faces.unzip();
     let mut corners: Vec<DVec3> = Vec::new();
-    for corner in faces.iter().flat_map(Flat::corners) {
+    for corner in faces.iter().flat_map(|face| &face.corners) {
         if !corners.contains(corner) {
             corners.push(*corner);
         }
     }
-    let ends = |face: usize| {
-        let loop_of = faces[face].corners();
+    let ends = |face: &SolidFace| {
+        let loop_of = face.corners.clone();
         (0..loop_of.len()).map(move |i| (loop_of[i], loop_of[(i + 1) % loop_of.len()]))
     };
     let mut edges = Vec::new();
-    for first in 0..faces.len() {
-        for second in first + 1..faces.len() {
-            for (from, to) in ends(first).filter(|&(from, to)| ends(second).any(|other| other == (to, from)))
-            {
+    for (first, face) in faces.iter().enumerate() {
+        for (second, other) in faces.iter().enumerate().skip(first + 1) {
+            for (from, to) in ends(face).filter(|&(from, to)| ends(other).any(|other| other == (to, from))) {
                 edges.push(SolidEdge { faces: [first, second], from, to });
             }
         }
     }
-    Kind::Solid(Solid { corners, faces, facets, edges })
+    Solid { corners, faces, facets, edges }
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::blocker::Solid;
 use super::held;
-use super::lamp::{Flat, unit};
+use super::lamp::{Face, unit};
 use super::place::rounding;
 use super::view::View;
 use crate::numeric::UNIT_ROUNDOFF_F64;
@@ -12,12 +12,21 @@ use crate::numeric::UNIT_ROUNDOFF_F64;
 /// The directions on the side of every plane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cone {
-    planes: [DVec3; 8],
+    planes: [DVec3; MOST_PLANES],
     count: usize,
 }
 
+/// The most planes of a cone: the edges of a face or of a solid's outline, and a lamp's plane.
+const MOST_PLANES: usize = 16;
+
+/// The most corners of a face.
+pub(super) const MOST_CORNERS: usize = MOST_PLANES - 1;
+
+/// The most faces of a solid: those that look at the eye are remembered as bits.
+pub(super) const MOST_FACES: usize = 64;
+
 impl Cone {
-    pub(super) const EVERYTHING: Self = Self { planes: [DVec3::ZERO; 8], count: 0 };
+    pub(super) const EVERYTHING: Self = Self { planes: [DVec3::ZERO; MOST_PLANES], count: 0 };
 
     /// Unit normals of planes through the eye.
     pub(super) fn planes(&self) -> &[DVec3] {
@@ -54,8 +63,8 @@ impl Cone {
     }
 
     /// The cone of a flat polygon in front of the eye; `None` where that lies in its plane.
-    pub(super) fn of_polygon(eye: DVec3, flat: &Flat) -> Option<Self> {
-        let corners = flat.corners();
+    pub(super) fn of_polygon(eye: DVec3, flat: Face<'_>) -> Option<Self> {
+        let corners = flat.corners;
         let towards = flat.normal.dot(corners[0] - eye);
         if !(towards.abs() > held::reach(eye, corners[0])) {
             return None;
@@ -69,41 +78,43 @@ impl Cone {
     }
 
     /// That part of it that a flat lamp does not lie in front of; `None` where nothing is left.
-    pub(super) fn before_lamp(mut self, eye: DVec3, flat: &Flat, view: &View) -> Option<Self> {
-        let heights = Heights::of(eye, flat.corners(), view);
+    pub(super) fn before_lamp(mut self, eye: DVec3, flat: Face<'_>, view: &View) -> Option<Self> {
+        let heights = Heights::of(eye, flat.corners, view);
         if heights.are_beyond() {
             return None;
         }
         if !heights.are_in_front() {
             // Where N·x = h and the lamp's plane L·x = H: on the near side of their common line.
-            let own = flat.normal.dot(flat.corners()[0] - eye);
+            let own = flat.normal.dot(flat.corners[0] - eye);
             let plane = (flat.normal * view.height - view.away * own) * own.signum();
             self.push(unit(plane)?);
         }
         Some(self)
     }
 
-    /// The cone of a convex solid that does not hold the eye: between faces that look at it and faces that look away.
-    pub(super) fn of_solid(eye: DVec3, solid: &Solid) -> Self {
+    /// The cone of a convex solid that does not hold the eye: between faces that look at it and faces that look away; `None`
+    /// where its outline has too many edges.
+    pub(super) fn of_solid(eye: DVec3, solid: &Solid) -> Option<Self> {
         let mut cone = Self::EVERYTHING;
-        let mut looking = [false; 6];
-        for (looks, face) in looking.iter_mut().zip(&solid.faces) {
-            *looks = looks_at(eye, face);
-        }
+        let bits = solid.faces.iter().enumerate().map(|(i, face)| u64::from(looks_at(eye, face.view())) << i);
+        let looking = bits.fold(0, |all, bit| all | bit);
         for edge in &solid.edges {
-            let [first, second] = edge.faces.map(|face| looking[face]);
+            let [first, second] = edge.faces.map(|face| looking >> face & 1 == 1);
             if first != second {
+                if cone.count == MOST_PLANES {
+                    return None;
+                }
                 let [a, b] = [edge.from - eye, edge.to - eye];
                 if second { cone.push_edge(a, b) } else { cone.push_edge(b, a) }
             }
         }
-        cone
+        Some(cone)
     }
 }
 
 /// Whether the outer side of a face is seen from the eye, which does not lie in its plane.
-pub(super) fn looks_at(eye: DVec3, face: &Flat) -> bool {
-    let corner = face.corners()[0];
+pub(super) fn looks_at(eye: DVec3, face: Face<'_>) -> bool {
+    let corner = face.corners[0];
     face.normal.dot(eye - corner) > held::reach(eye, corner)
 }
 

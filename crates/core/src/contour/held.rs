@@ -4,7 +4,9 @@ use glam::DVec3;
 
 use super::lamp::{Lamp, Outline};
 use super::place::nearest_on_lamp;
+use super::swept::Swept;
 use crate::Shape;
+use crate::geometry::Faceted;
 use crate::numeric::HELD_WITHIN;
 
 /// How far from a surface through `on` a point counts as lying on it.
@@ -31,11 +33,41 @@ pub fn facet_holds(shape: &Shape, facet: u32, point: DVec3) -> bool {
         let off = plane.normal().dot(point - plane.point());
         return facet == 0 && off.abs() <= reach(point, plane.point());
     }
-    let Some(lamp) = Lamp::of(shape, facet) else { return false };
+    if let Some(solid) = shape.faceted() {
+        let holds = |face: [DVec3; 3]| Lamp::polygon(&face).is_some_and(|lamp| lamp_holds(&lamp, point));
+        return facet < solid.count() && solid.triangles(facet).any(holds);
+    }
+    let swept = match shape {
+        Shape::Cylinder(shape) => Some(Swept::of_cylinder(shape)),
+        Shape::Cone(shape) => Some(Swept::of_cone(shape)),
+        Shape::Capsule(shape) => Some(Swept::of_capsule(shape)),
+        _ => None,
+    };
+    if let Some(swept) = swept {
+        return facet < facets_that_hold(shape) && swept.distance(point, facet) <= swept.reach(point);
+    }
+    if let Shape::Torus(torus) = shape {
+        let reach = reach(point, torus.center()) + HELD_WITHIN * torus.radii()[0];
+        return facet == 0 && torus.distance(point) <= reach;
+    }
+    Lamp::of(shape, facet).is_some_and(|lamp| lamp_holds(&lamp, point))
+}
+
+/// How many facets of a shape may hold a point.
+#[must_use]
+pub fn facets_that_hold(shape: &Shape) -> u32 {
+    match shape {
+        Shape::Plane(_) | Shape::Torus(_) => 1,
+        Shape::Cylinder(_) | Shape::Cone(_) | Shape::Capsule(_) => shape.pieces(),
+        _ => shape.faceted().map_or_else(|| Lamp::facets(shape), Faceted::count),
+    }
+}
+
+fn lamp_holds(lamp: &Lamp, point: DVec3) -> bool {
     match &lamp.outline {
         Outline::Sphere { center, radius } => on_sphere(point, *center, *radius),
         _ => {
-            let on = nearest_on_lamp(&lamp, point);
+            let on = nearest_on_lamp(lamp, point);
             // The corners' size, not the nearest point's alone, is what its plane is known by.
             let (middle, size) = lamp.ball();
             on.distance(point) <= reach(point, middle) + HELD_WITHIN * size

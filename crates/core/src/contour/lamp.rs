@@ -45,6 +45,20 @@ impl Flat {
     pub(crate) fn corners(&self) -> &[DVec3] {
         &self.corners[..self.count]
     }
+
+    #[inline]
+    pub(super) fn face(&self) -> Face<'_> {
+        Face { corners: self.corners(), normal: self.normal }
+    }
+}
+
+/// A flat convex polygon with any number of corners.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Face<'a> {
+    /// Counter-clockwise as seen from where the normal points to.
+    pub corners: &'a [DVec3],
+    /// Of unit length.
+    pub normal: DVec3,
 }
 
 /// The direction of a vector of almost any length; `None` for zero and what is not finite.
@@ -96,9 +110,25 @@ impl Lamp {
         Self { two_sided, ..self }
     }
 
+    /// What a shape is made of as lamps: the faces of a solid with flat faces, lit outwards, cut into triangles where they have
+    /// more than four corners; the triangles of a mesh; or the whole of a flat shape or a sphere, lit where its normal points
+    /// to. None of a plane, and of shapes whose outlines have no closed form as lamps: what is round about an axis.
+    pub fn pieces_of(shape: &Shape) -> impl Iterator<Item = Self> {
+        let of_solid = shape.faceted().into_iter().flat_map(|solid| {
+            (0..solid.count()).flat_map(move |facet| match solid.outline(facet) {
+                outline @ [_, _, _, _] => {
+                    let corners: Vec<DVec3> = outline.iter().map(|&i| solid.corners()[i as usize]).collect();
+                    Self::polygon(&corners).into_iter().collect()
+                }
+                _ => solid.triangles(facet).filter_map(|face| Self::polygon(&face)).collect::<Vec<_>>(),
+            })
+        });
+        of_solid.chain((0..Self::facets(shape)).filter_map(|facet| Self::of(shape, facet)))
+    }
+
     /// A facet of a shape as a lamp: a face of a box or tetrahedron, lit outwards, a triangle of a mesh, or the whole of any
-    /// other shape as facet 0, lit where its normal points to. `None` for a plane, a facet that the shape does not have and
-    /// one without area.
+    /// other shape as facet 0, lit where its normal points to. `None` for a plane, a facet that the shape does not have, one
+    /// without area, and shapes of which [`pieces_of`](Self::pieces_of) tells more.
     #[must_use]
     pub fn of(shape: &Shape, facet: u32) -> Option<Self> {
         if let Some(mesh) = shape.as_mesh() {
@@ -124,6 +154,7 @@ impl Lamp {
             | Shape::Cylinder(_)
             | Shape::Cone(_)
             | Shape::Capsule(_)
+            | Shape::Torus(_)
             | Shape::Polyhedron(_)
             | Shape::Platonic(_)
             | Shape::Prism(_) => None,
@@ -131,7 +162,7 @@ impl Lamp {
     }
 
     /// How many facets of a shape [`of`](Self::of) knows: 6 of a box, 4 of a tetrahedron, one for each triangle of a mesh, none
-    /// of a plane, 1 of any other shape.
+    /// of a plane, of a solid with a list of facets and of what is round about an axis, 1 of any other shape.
     #[must_use]
     pub fn facets(shape: &Shape) -> u32 {
         if let Some(mesh) = shape.as_mesh() {
@@ -144,6 +175,7 @@ impl Lamp {
             | Shape::Cylinder(_)
             | Shape::Cone(_)
             | Shape::Capsule(_)
+            | Shape::Torus(_)
             | Shape::Polyhedron(_)
             | Shape::Platonic(_)
             | Shape::Prism(_) => 0,

@@ -13,6 +13,8 @@
 //! 4. A plane that parts lamp and blocker tells which is in front (`place.rs`, `sight.rs`); where there is none, there is
 //!    no closed form.
 //!
+//! 5. A cylinder, cone or capsule is both its ends and a flat piece between them (`swept.rs`).
+//!
 //! A blocker on which the eye lies but for rounding (`held.rs`) is treated as left there: a flat piece hides nothing, a ball what
 //! lies on its side of the plane that touches it at the eye.
 //!
@@ -31,13 +33,14 @@ mod polygon;
 mod roots;
 mod round;
 mod sight;
+mod swept;
 mod view;
 
 use glam::DVec3;
 
 pub use blocker::Blocker;
 pub(crate) use held::are_parallel;
-pub use held::facet_holds;
+pub use held::{facet_holds, facets_that_hold};
 pub use lamp::Lamp;
 pub(crate) use lamp::Outline;
 
@@ -69,6 +72,9 @@ pub enum NoClosedForm {
     /// The point lies within a sphere that holds a part of the lamp.
     #[error("the point lies within a sphere that holds a part of the lamp")]
     PartlyWithin,
+    /// The point lies within a solid round an axis, or on a rim of it.
+    #[error("the point lies within a solid round an axis")]
+    Within,
     /// Coordinates so large or small that their products leave the range of numbers.
     #[error("coordinates leave the range of numbers")]
     Range,

@@ -5,7 +5,8 @@
 
 use glam::DVec3;
 
-use super::lamp::{Flat, Lamp, Outline, Round};
+use super::lamp::{Face, Lamp, Outline, Round};
+use super::swept::Swept;
 use crate::numeric::EDGE_ROUNDING;
 
 /// How a blocker stands to a lamp.
@@ -53,12 +54,24 @@ pub(super) fn of_disk(eye: DVec3, lamp: &Lamp, disk: &Round) -> Place {
 }
 
 /// Where a flat polygon stands to a sphere that shines.
-pub(super) fn of_polygon(eye: DVec3, lamp: &Lamp, flat: &Flat) -> Place {
-    if let Some(place) = by_own_plane(eye, lamp, flat.corners()[0], flat.normal) {
+pub(super) fn of_polygon(eye: DVec3, lamp: &Lamp, flat: Face<'_>) -> Place {
+    if let Some(place) = by_own_plane(eye, lamp, flat.corners[0], flat.normal) {
         return place;
     }
-    let least = |axis: DVec3| flat.corners().iter().map(|&c| axis.dot(c)).fold(f64::INFINITY, f64::min);
+    let least = |axis: DVec3| flat.corners.iter().map(|&c| axis.dot(c)).fold(f64::INFINITY, f64::min);
     by_nearest(eye, lamp, |x| flat.nearest(x), least)
+}
+
+/// Where a solid round an axis stands that does not hold the eye.
+pub(super) fn of_swept(eye: DVec3, lamp: &Lamp, swept: &Swept) -> Place {
+    let middle = swept.ends[0].midpoint(swept.ends[1]);
+    let reach = |axis: DVec3| {
+        (swept.most_along(axis) - axis.dot(middle)).max(swept.most_along(-axis) + axis.dot(middle))
+    };
+    if let Some(place) = by_lamp_plane(eye, lamp, middle, reach) {
+        return place;
+    }
+    by_nearest(eye, lamp, |x| swept.nearest(x), |axis| -swept.most_along(-axis))
 }
 
 /// What follows from the plane of a flat lamp: `reach` tells how far a blocker extends about its middle along a unit vector.
@@ -154,7 +167,7 @@ fn is_inside_ball(outline: &Outline, point: DVec3) -> bool {
 /// The point of a lamp that is nearest to another; of a sphere's surface.
 pub(super) fn nearest_on_lamp(lamp: &Lamp, x: DVec3) -> DVec3 {
     match &lamp.outline {
-        Outline::Polygon(flat) => flat.nearest(x),
+        Outline::Polygon(flat) => flat.face().nearest(x),
         Outline::Disk(disk) => disk.nearest(x),
         Outline::Sphere { center, radius } => *center + (x - *center).normalize_or_zero() * *radius,
     }
@@ -198,9 +211,9 @@ impl Round {
     }
 }
 
-impl Flat {
-    fn nearest(&self, x: DVec3) -> DVec3 {
-        let corners = self.corners();
+impl Face<'_> {
+    pub(super) fn nearest(&self, x: DVec3) -> DVec3 {
+        let corners = self.corners;
         let edges = || (0..corners.len()).map(|i| (corners[i], corners[(i + 1) % corners.len()]));
         if edges().all(|(a, b)| self.normal.cross(b - a).dot(x - a) >= 0.0) {
             return x - self.normal * self.normal.dot(x - corners[0]);

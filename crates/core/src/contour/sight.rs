@@ -2,12 +2,13 @@
 
 use glam::DVec3;
 
-use super::blocker::{Blocker, Kind, Solid};
+use super::blocker::{Blocker, Kind, Solid, SolidFace};
 use super::cone::{Cone, Heights, looks_at};
 use super::conic::{Conic, Cut};
 use super::held;
-use super::lamp::{Flat, Lamp, Round};
+use super::lamp::{Face, Flat, Lamp, Round};
 use super::place::{self, Place, Within, rounding};
+use super::swept::Swept;
 use super::view::View;
 use super::{Leaving, NoClosedForm, Scratch};
 
@@ -38,9 +39,10 @@ impl Sight<'_> {
             (Kind::Plane(..) | Kind::Disk(_) | Kind::Polygon(_), Leaving::Facet(_)) => Ok(Seen::Something),
             (Kind::Plane(base, normal), _) => self.hide_plane(*base, *normal),
             (Kind::Disk(disk), _) => self.hide_disk(disk),
-            (Kind::Polygon(flat), _) => self.hide_polygon(flat),
+            (Kind::Polygon(flat), _) => self.hide_polygon(flat.face()),
             (Kind::Sphere(center, radius), _) => self.hide_sphere(*center, *radius, leaving),
             (Kind::Solid(solid), _) => self.hide_solid(solid, leaving),
+            (Kind::Swept(swept), _) => self.hide_swept(swept, leaving),
             (Kind::Ground(normal), _) => {
                 let mut cone = Cone::EVERYTHING;
                 cone.push_any(-*normal);
@@ -134,7 +136,7 @@ impl Sight<'_> {
         Ok(Seen::Something)
     }
 
-    fn hide_polygon(&mut self, flat: &Flat) -> Answer {
+    fn hide_polygon(&mut self, flat: Face<'_>) -> Answer {
         let Some(cone) = Cone::of_polygon(self.eye, flat) else { return Ok(Seen::Something) };
         if self.view.is_flat {
             return Ok(match cone.before_lamp(self.eye, flat, self.view) {
@@ -154,18 +156,18 @@ impl Sight<'_> {
             Leaving::Facet(facet) => solid.facets.iter().position(|&f| f == facet),
             Leaving::Nothing => None,
         };
-        if left.is_some_and(|face| solid.faces[face].normal.dot(self.view.normal) > 0.0) {
+        if left.is_some_and(|face| solid.faces[face].view().normal.dot(self.view.normal) > 0.0) {
             return Ok(Seen::Something);
         }
-        let is_seen = left.is_none() && solid.faces.iter().any(|face| looks_at(self.eye, face));
+        let is_seen = left.is_none() && solid.faces.iter().any(|face| looks_at(self.eye, face.view()));
         if is_seen {
             return self.hide_solid_from_outside(solid);
         }
         // From within, or on a face: all but the face that holds the eye.
         let eye = self.eye;
         let holds_eye =
-            |face: &Flat| face.normal.dot(eye - face.corners()[0]) >= -held::reach(eye, face.corners()[0]);
-        for (i, face) in solid.faces.iter().enumerate() {
+            |face: Face<'_>| face.normal.dot(eye - face.corners[0]) >= -held::reach(eye, face.corners[0]);
+        for (i, face) in solid.faces.iter().map(SolidFace::view).enumerate() {
             // Where the horizon is the face's plane, the solid lies below it.
             let up = face.normal.dot(self.view.normal) > 0.0;
             if left.is_none() && up && held::are_parallel(face.normal, self.view.normal) && holds_eye(face) {
@@ -184,17 +186,60 @@ impl Sight<'_> {
             if heights.are_beyond() {
                 return Ok(Seen::Something);
             }
-            if heights.are_in_front() {
-                return Ok(self.take(&Cone::of_solid(self.eye, solid)));
+            if heights.are_in_front()
+                && let Some(cone) = Cone::of_solid(self.eye, solid)
+            {
+                return Ok(self.take(&cone));
             }
         }
         let eye = self.eye;
-        for face in solid.faces.iter().filter(|face| looks_at(eye, face)) {
+        for face in solid.faces.iter().map(SolidFace::view).filter(|face| looks_at(eye, *face)) {
             if self.hide_polygon(face)? == Seen::Nothing {
                 return Ok(Seen::Nothing);
             }
         }
         Ok(Seen::Something)
+    }
+
+    /// A solid round an axis: both its ends, and the flat piece between them.
+    fn hide_swept(&mut self, swept: &Swept, leaving: Leaving) -> Answer {
+        if let Leaving::Facet(facet) = leaving {
+            let looks_out = swept.normal(self.eye, facet).dot(self.view.normal) > 0.0;
+            return if looks_out { Ok(Seen::Something) } else { Err(NoClosedForm::Within) };
+        }
+        let (above, normal) = swept.place(self.eye);
+        let reach = swept.reach(self.eye);
+        if above < -reach {
+            return Err(NoClosedForm::Within);
+        }
+        if above <= reach {
+            // What lies below the plane that touches it there.
+            return normal.map_or(Err(NoClosedForm::Within), |normal| Ok(self.hide_side(-normal)));
+        }
+        match place::of_swept(self.eye, self.lamp, swept) {
+            Place::Never => return Ok(Seen::Something),
+            Place::Unknown => return Err(NoClosedForm::Touches),
+            Place::InFront => {}
+        }
+        for end in [0, 1] {
+            let center = swept.ends[end] - self.eye;
+            if swept.has_balls {
+                self.hide_round(Conic::outline(self.view.normal, center, swept.radii[end]), Place::InFront)?;
+                continue;
+            }
+            let disk = swept.disk(end);
+            let towards = disk.normal.dot(center);
+            if disk.radius > 0.0 && towards.abs() > held::reach(self.eye, disk.center) {
+                let axis = disk.normal * towards.signum();
+                self.hide_round(Conic::rim(self.view.normal, center, axis, disk.radius), Place::InFront)?;
+            }
+        }
+        let between = swept.between(self.eye).and_then(|[a, b, c, d]| {
+            // Both lines meet in an apex.
+            if b == c { Flat::new(&[a, b, d]) } else { Flat::new(&[a, b, c, d]) }
+        });
+        let cone = between.and_then(|flat| Cone::of_polygon(self.eye, flat.face()));
+        Ok(cone.map_or(Seen::Something, |cone| self.take(&cone)))
     }
 
     /// Whether a cone may meet the outline of a round lamp: whether no plane of it leaves that outside.

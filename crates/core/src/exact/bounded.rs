@@ -2,6 +2,7 @@
 
 use std::cmp::Ordering;
 
+use super::enclosed::find_root;
 use super::{Located, Number, Root, Undecided, Verdict};
 use crate::Span;
 use crate::numeric::{ROOT_PRECISION, UNIT_ROUNDOFF_F64 as U, WHOLE_PRODUCT};
@@ -26,6 +27,11 @@ impl Bounded {
     #[must_use]
     pub const fn parts(&self) -> (f64, f64) {
         (self.value, self.error)
+    }
+
+    /// A number that lies within `value ± error`.
+    pub(super) const fn within(value: f64, error: f64) -> Self {
+        Self { value, error }
     }
 
     /// A sum or difference, which never underflows. It is free of error where taking either operand away again gives the
@@ -65,6 +71,8 @@ fn is_power_of_two(value: f64) -> bool {
 }
 
 impl Number for Bounded {
+    const EXACT: bool = false;
+
     #[inline]
     fn of(value: f64) -> Self {
         Self { value, error: 0.0 }
@@ -133,6 +141,19 @@ impl Number for Bounded {
 
     fn sign_with_roots([a, b, c]: [&Self; 3], [s, r]: [&Self; 2]) -> Verdict<Ordering> {
         a.plus(&b.times(&s.root())).plus(&c.times(&r.root())).sign()
+    }
+
+    fn find_root<T>(
+        coefficients: &[Self; 5],
+        reach: f64,
+        mut take: impl FnMut(Root<Self>) -> Verdict<Option<T>>,
+    ) -> Verdict<Option<T>> {
+        find_root(coefficients, reach, |root| take(Root::of(root)))
+    }
+
+    /// There are none among such numbers.
+    fn compare_isolated(_: &Root<Self>, _: &Root<Self>) -> Verdict<Ordering> {
+        Err(Undecided)
     }
 
     #[inline]

@@ -5,7 +5,8 @@ use std::cmp::Ordering;
 use dashu_int::ops::{BitTest, SquareRoot};
 use dashu_int::{IBig, Sign, UBig, Word};
 
-use super::{Located, Number, Root, Verdict};
+use super::isolated::Surd;
+use super::{Isolated, Located, Number, Root, Verdict};
 use crate::Span;
 use crate::numeric::UNIT_ROUNDOFF_F64;
 
@@ -95,7 +96,7 @@ impl Dyadic {
     }
 
     /// How `a + b √s` compares with zero.
-    fn sign_with_root(a: &Self, b: &Self, s: &Self) -> Ordering {
+    pub(super) fn sign_with_root(a: &Self, b: &Self, s: &Self) -> Ordering {
         let of_root = if s.is_zero() { Ordering::Equal } else { b.signum() };
         let of_rest = a.signum();
         if of_root == Ordering::Equal || of_rest == of_root {
@@ -141,7 +142,22 @@ fn scaled(mut value: f64, exponent: i64) -> f64 {
     value
 }
 
+/// How a number of higher degree compares with any.
+fn compare_isolated(a: &Isolated, b: &Root<Dyadic>) -> Ordering {
+    if let Some(b) = &b.isolated {
+        return a.compare(b);
+    }
+    let zero = Dyadic::of(0.0);
+    let (c, s) = match &b.radical {
+        None => (0.0, &zero),
+        Some(radical) => (if radical.positive { 1.0 } else { -1.0 }, &radical.square),
+    };
+    a.compare_surd(&Surd { p: &b.rational, c, s, q: &b.divisor })
+}
+
 impl Number for Dyadic {
+    const EXACT: bool = true;
+
     /// Numbers that are not finite, which no shape or ray past its door holds, count as 0.
     fn of(value: f64) -> Self {
         if value == 0.0 || !value.is_finite() {
@@ -204,11 +220,35 @@ impl Number for Dyadic {
         Ok(if x == Ordering::Greater { excess } else { excess.reverse() })
     }
 
+    fn find_root<T>(
+        coefficients: &[Self; 5],
+        _: f64,
+        mut take: impl FnMut(Root<Self>) -> Verdict<Option<T>>,
+    ) -> Verdict<Option<T>> {
+        for root in Isolated::all_of(coefficients) {
+            if let Some(taken) = take(Root::isolated(root))? {
+                return Ok(Some(taken));
+            }
+        }
+        Ok(None)
+    }
+
+    fn compare_isolated(a: &Root<Self>, b: &Root<Self>) -> Verdict<Ordering> {
+        Ok(match (&a.isolated, &b.isolated) {
+            (Some(isolated), _) => compare_isolated(isolated, b),
+            (None, Some(isolated)) => compare_isolated(isolated, a).reverse(),
+            (None, None) => return a.compare(b),
+        })
+    }
+
     /// A root beyond the largest `f64` is not found.
     fn locate(root: &Root<Self>, span: Span) -> Verdict<Option<Located>> {
         let side = |limit: f64| {
             if limit.is_infinite() {
                 return if limit > 0.0 { Ordering::Less } else { Ordering::Greater };
+            }
+            if let Some(isolated) = &root.isolated {
+                return isolated.compare_number(&Self::of(limit));
             }
             let rest = root.rational.minus(&root.divisor.times(&Self::of(limit)));
             match &root.radical {
@@ -224,9 +264,10 @@ impl Number for Dyadic {
         if side(span.min) == Ordering::Less || side(span.max) == Ordering::Greater {
             return Ok(None);
         }
-        let t = match &root.radical {
-            None => root.rational.over(&root.divisor),
-            Some(radical) => {
+        let t = match (&root.radical, &root.isolated) {
+            (_, Some(isolated)) => isolated.rounded(WORKING_BITS).to_f64(),
+            (None, None) => root.rational.over(&root.divisor),
+            (Some(radical), None) => {
                 let term = radical.square.root();
                 let term = if radical.positive { term } else { term.negative() };
                 if (root.rational.signum() == Ordering::Greater) == radical.positive {

@@ -10,6 +10,9 @@
 
 mod bounded;
 mod dyadic;
+mod enclosed;
+mod isolated;
+mod polynomial;
 mod root;
 mod vector;
 
@@ -18,6 +21,7 @@ use std::cmp::Ordering;
 
 pub use bounded::Bounded;
 pub use dyadic::Dyadic;
+pub use isolated::Isolated;
 pub use root::{Located, Radical, Root};
 pub use vector::Vector;
 
@@ -32,6 +36,9 @@ pub type Verdict<T> = Result<T, Undecided>;
 
 /// What a formula of geometry needs of its numbers. Exact ones always decide.
 pub trait Number: Clone {
+    /// Whether nothing is ever rounded.
+    const EXACT: bool;
+
     /// A finite number as it is.
     fn of(value: f64) -> Self;
 
@@ -77,6 +84,23 @@ pub trait Number: Clone {
     /// When the root may or may not lie on the stretch, or is not known as well as
     /// [`ROOT_PRECISION`](crate::numeric::ROOT_PRECISION) requires.
     fn locate(root: &Root<Self>, span: Span) -> Verdict<Option<Located>>;
+
+    /// Passes on the roots of the polynomial with these coefficients, from the constant one upwards, that lie between −`reach`
+    /// and `reach`, a power of two, in order, until one is taken. Exact numbers may pass on those beyond.
+    ///
+    /// # Errors
+    /// When the errors of such numbers hide how many roots there are, or what `take` says of one.
+    fn find_root<T>(
+        coefficients: &[Self; 5],
+        reach: f64,
+        take: impl FnMut(Root<Self>) -> Verdict<Option<T>>,
+    ) -> Verdict<Option<T>>;
+
+    /// How two roots compare of which one is [isolated](Root::isolated).
+    ///
+    /// # Errors
+    /// As for [`Root::compare`].
+    fn compare_isolated(a: &Root<Self>, b: &Root<Self>) -> Verdict<Ordering>;
 
     /// Its square.
     #[must_use]

@@ -1,8 +1,10 @@
-//! Where on a ray something is met: a root of an equation of first or second degree, kept as what it is made of.
+//! Where on a ray something is met: a root of an equation of first or second degree, kept as what it is made of, or of a higher
+//! one, kept as what tells it from the others.
 
 use std::cmp::Ordering;
+use std::sync::Arc;
 
-use super::{Number, Verdict};
+use super::{Isolated, Number, Verdict};
 
 /// The number `(p ± √s) / q` with q > 0, or p / q.
 #[derive(Debug, Clone)]
@@ -13,6 +15,8 @@ pub struct Root<N> {
     pub radical: Option<Radical<N>>,
     /// q, greater than 0.
     pub divisor: N,
+    /// The number itself where it is an exact root of a higher degree; p is 0 then and q is 1.
+    pub isolated: Option<Arc<Isolated>>,
 }
 
 /// The part `± √s` of a [`Root`].
@@ -46,7 +50,19 @@ impl<N: Number> Root<N> {
             Ordering::Greater => (p.clone(), q.clone()),
             Ordering::Less => (p.negative(), q.negative()),
         };
-        Ok(Some(Self { rational, radical: None, divisor }))
+        Ok(Some(Self { rational, radical: None, divisor, isolated: None }))
+    }
+
+    /// A number as it is.
+    #[must_use]
+    pub fn of(value: N) -> Self {
+        Self { rational: value, radical: None, divisor: N::of(1.0), isolated: None }
+    }
+
+    /// A root of a higher degree.
+    #[must_use]
+    pub fn isolated(root: Isolated) -> Self {
+        Self { isolated: Some(Arc::new(root)), ..Self::of(N::of(0.0)) }
     }
 
     /// The root of the opposite sign: of the same equation along the ray the other way.
@@ -54,7 +70,8 @@ impl<N: Number> Root<N> {
     pub fn negated(&self) -> Self {
         let radical =
             self.radical.as_ref().map(|radical| Radical { positive: !radical.positive, ..radical.clone() });
-        Self { rational: self.rational.negative(), radical, divisor: self.divisor.clone() }
+        let isolated = self.isolated.as_ref().map(|root| Arc::new(root.negated()));
+        Self { rational: self.rational.negative(), radical, divisor: self.divisor.clone(), isolated }
     }
 
     /// How `constant + slope × root` compares with zero: on which side of a plane that the ray runs through, say.
@@ -62,6 +79,13 @@ impl<N: Number> Root<N> {
     /// # Errors
     /// When the sum lies too close to zero for such numbers.
     pub fn side(&self, constant: &N, slope: &N) -> Verdict<Ordering> {
+        if self.isolated.is_some() {
+            return match (slope.sign()?, Self::ratio(&constant.negative(), slope)?) {
+                (Ordering::Less, Some(zero)) => Ok(self.compare(&zero)?.reverse()),
+                (_, Some(zero)) => self.compare(&zero),
+                (_, None) => constant.sign(),
+            };
+        }
         let rest = constant.times(&self.divisor).plus(&slope.times(&self.rational));
         let Some(radical) = &self.radical else { return rest.sign() };
         let zero = N::of(0.0);
@@ -74,6 +98,9 @@ impl<N: Number> Root<N> {
     /// # Errors
     /// When the two lie too close together for such numbers.
     pub fn compare(&self, other: &Self) -> Verdict<Ordering> {
+        if self.isolated.is_some() || other.isolated.is_some() {
+            return N::compare_isolated(self, other);
+        }
         let products = [[&self.rational, &other.divisor], [&other.rational, &self.divisor]];
         if self.radical.is_none() && other.radical.is_none() {
             return N::compare_products(products[0], products[1]);
@@ -108,6 +135,7 @@ mod tests {
             rational: N::of(p),
             radical: Some(Radical { positive, square: N::of(s), norm }),
             divisor: N::of(q),
+            isolated: None,
         }
     }
 
@@ -128,6 +156,35 @@ mod tests {
         let golden = quadratic::<Bounded>(1.0, 5.0, 2.0, true);
         assert_eq!(golden.compare(&ratio(1.618, 1.0)), Ok(Ordering::Greater));
         assert!(golden.compare(&quadratic(3.0, 45.0, 6.0, true)).is_err());
+    }
+
+    #[test]
+    fn roots_of_higher_degree_are_ordered_among_all() {
+        // x⁴ = 2 and x³ = 2: 1.189… and 1.259…; √2 and 5/4.
+        let of = |c: [f64; 5]| Isolated::all_of(&c.map(Dyadic::of)).pop().map(Root::isolated).unwrap();
+        let (fourth, third) = (of([-2.0, 0.0, 0.0, 0.0, 1.0]), of([-2.0, 0.0, 0.0, 1.0, 0.0]));
+        let (root, ratio) = (quadratic(0.0, 2.0, 1.0, true), ratio(5.0, 4.0));
+        assert_eq!(fourth.compare(&third), Ok(Ordering::Less));
+        assert_eq!((third.compare(&root), root.compare(&third)), (Ok(Ordering::Less), Ok(Ordering::Greater)));
+        assert_eq!(
+            (third.compare(&ratio), fourth.compare(&ratio)),
+            (Ok(Ordering::Greater), Ok(Ordering::Less))
+        );
+        // 3 − 2 ∛2 and −1 + ⁴√2.
+        let side = |root: &Root<Dyadic>, c: f64, s: f64| root.side(&Dyadic::of(c), &Dyadic::of(s));
+        assert_eq!(
+            (side(&third, 3.0, -2.0), side(&fourth, -1.0, 1.0)),
+            (Ok(Ordering::Greater), Ok(Ordering::Greater))
+        );
+        // √2 as a root of x⁴ = 4.
+        assert_eq!(of([-4.0, 0.0, 0.0, 0.0, 1.0]).compare(&root), Ok(Ordering::Equal));
+        // −∛2 is its own opposite's opposite, and less than −⁴√2.
+        assert_eq!(third.negated().compare(&fourth.negated()), Ok(Ordering::Less));
+        assert_eq!(third.negated().negated().compare(&third), Ok(Ordering::Equal));
+        assert_eq!(side(&third.negated(), 1.25, 1.0), Ok(Ordering::Less));
+        let at = Dyadic::locate(&third, crate::Span::AHEAD).unwrap().unwrap();
+        assert!((at.t - 2.0_f64.cbrt()).abs() <= at.error, "{at:?}");
+        assert!(Dyadic::locate(&third, crate::Span::until(1.2599)).unwrap().is_none());
     }
 
     #[test]
@@ -154,7 +211,7 @@ mod tests {
         let at = Dyadic::locate(&root, crate::Span::AHEAD).unwrap().unwrap();
         assert!((at.t / 2.0_f64.powi(-51) - 1.0).abs() < 1e-14, "{at:?}");
         let radical = Radical { positive: false, square: Bounded::of(1.0 - small), norm: Bounded::of(small) };
-        let root = Root { rational: Bounded::of(1.0), radical: Some(radical), divisor: Bounded::of(1.0) };
+        let root = Root { radical: Some(radical), ..Root::of(Bounded::of(1.0)) };
         let at = Bounded::locate(&root, crate::Span::AHEAD).unwrap().unwrap();
         assert!((at.t / (small / 2.0) - 1.0).abs() < 1e-14, "{at:?}");
     }

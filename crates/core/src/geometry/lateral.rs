@@ -156,7 +156,7 @@ impl<N: Number> Lateral<N> {
             norm: turned(&self.constant),
         };
         let (rational, divisor) = (turned(&self.half).negative(), turned(&self.square));
-        Ok(Some(Root { rational, radical: Some(radical), divisor }))
+        Ok(Some(Root { rational, radical: Some(radical), divisor, isolated: None }))
     }
 
     /// Whether a ray from the side runs to the solid's inner side.

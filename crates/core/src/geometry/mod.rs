@@ -23,6 +23,7 @@ mod rectangle;
 mod sphere;
 mod tangents;
 mod tetrahedron;
+mod torus;
 mod triangle;
 mod triangle_mesh;
 
@@ -44,6 +45,7 @@ pub use prism::Prism;
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
 pub use tetrahedron::Tetrahedron;
+pub use torus::Torus;
 pub use triangle::{Triangle, unit_normal};
 pub use triangle_mesh::TriangleMesh;
 
@@ -165,6 +167,7 @@ pub trait Geometry {
     /// | cylinder, cone | angle about the axis, counterclockwise as seen from `to`, 0..1 | share of the axis |
     /// | their caps | as of a disk | |
     /// | capsule | angle about the axis, as of a cylinder | share of the way from tip to tip along the surface |
+    /// | torus | angle about the axis, as of a cylinder | angle round the tube, 0 and 1 inside the ring, growing along the axis outside |
     /// | polyhedron, platonic, caps of a prism | share of the face to the right, as seen from outside before it was placed | upwards |
     /// | sides of a prism | share of the edge | share of the height |
     /// | triangle, face of a tetrahedron | weight of the second corner | weight of the third |
@@ -284,6 +287,8 @@ crate::part::parts! {
         Prism,
         /// Ground with heights from a picture.
         Heightfield,
+        /// Ring.
+        Torus,
     }
 }
 
@@ -362,6 +367,12 @@ impl Shape {
     #[must_use]
     pub fn placed(&self, placement: &Placement) -> Self {
         each_shape!(self, shape => shape.placed(placement).into())
+    }
+
+    /// See [`Geometry::pieces`].
+    #[must_use]
+    pub fn pieces(&self) -> u32 {
+        each_shape!(self, shape => shape.pieces())
     }
 
     /// See [`Geometry::is_closed`].

@@ -136,6 +136,7 @@ pub(super) fn roots<N: Number>(
         rational: towards.clone(),
         radical: Some(Radical { positive, square: square.clone(), norm: norm.clone() }),
         divisor: divisor.clone(),
+        isolated: None,
     };
     Ok(Some([root(false), root(true)]))
 }

@@ -3,7 +3,9 @@
 //! A lamp is swept by lines. On each line every plane and quadric of a blocker gives the places where visibility may change;
 //! between two of them one exact ray tells. Across the lines the rule halves its steps until it is as exact as asked.
 
-use catoptra_core::geometry::{Cuboid, Disk, Rectangle, Sphere, Tetrahedron, Triangle};
+use catoptra_core::geometry::{
+    Capsule, Cone, Cuboid, Cylinder, Disk, Platonic, Polyhedron, Rectangle, Sphere, Tetrahedron, Triangle,
+};
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Geometry, Ray, Shape, Span};
 
@@ -237,8 +239,69 @@ impl<'a> Rule<'a> {
                 );
                 stops.push(n.dot(c - from) / n.dot(along));
             }
-            _ => panic!("not a blocker of this test"),
+            Shape::Cylinder(_) | Shape::Cone(_) | Shape::Capsule(_) => {
+                self.swept_stops(shape, from, along, stops);
+            }
+            solid => {
+                let facets = solid.faceted().expect("a blocker of this test");
+                for facet in 0..facets.count() {
+                    let outline: Vec<DVec3> =
+                        facets.outline(facet).iter().map(|&i| facets.corners()[i as usize]).collect();
+                    polygon(&outline);
+                }
+            }
         }
+    }
+}
+
+impl Rule<'_> {
+    /// As [`stops`](Self::stops), for what is round about an axis.
+    fn swept_stops(&self, shape: &Shape, from: DVec3, along: DVec3, stops: &mut Vec<f64>) {
+        match shape {
+            Shape::Cylinder(c) => {
+                self.tangents(c.ends(), [c.radius(); 2], from, along, stops);
+                for (end, normal) in c.ends().into_iter().zip([-c.axis(), c.axis()]) {
+                    self.stops(&Disk::new(end, normal, c.radius()).unwrap().into(), from, along, stops);
+                }
+            }
+            Shape::Cone(c) => {
+                self.tangents(c.ends(), c.radii(), from, along, stops);
+                for (end, radius) in c.ends().into_iter().zip(c.radii()).filter(|(_, radius)| *radius > 0.0) {
+                    self.stops(&Disk::new(end, c.axis(), radius).unwrap().into(), from, along, stops);
+                }
+            }
+            Shape::Capsule(c) => {
+                self.tangents(c.ends(), [c.radius(); 2], from, along, stops);
+                for end in c.ends() {
+                    self.stops(&Sphere::new(end, c.radius()).unwrap().into(), from, along, stops);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Where lines of sight to a straight line touch the side of a cone, and where they pass the heights of its ends where they
+    /// meet that: there its seams are.
+    fn tangents(
+        &self,
+        [lower, upper]: [DVec3; 2],
+        radii: [f64; 2],
+        from: DVec3,
+        along: DVec3,
+        stops: &mut Vec<f64>,
+    ) {
+        // A line of sight touches where its own equation A t² + 2 B t + C has one root: B² = A C, which is of degree two in
+        // the direction.
+        let axis = (upper - lower).normalize();
+        let slope = (radii[1] - radii[0]) / upper.distance(lower);
+        let eye = self.point - lower;
+        let (m, g) = (eye - axis * eye.dot(axis), radii[0] + slope * eye.dot(axis));
+        let part = |d: DVec3| (d - axis * d.dot(axis), slope * d.dot(axis));
+        let ((n, e), (k, f)) = (part(from), part(along));
+        let c = m.length_squared() - g * g;
+        let (b0, b1) = (m.dot(n) - g * e, m.dot(k) - g * f);
+        let (a0, a1, a2) = (n.length_squared() - e * e, n.dot(k) - e * f, k.length_squared() - f * f);
+        quadratic(b1 * b1 - a2 * c, 2.0 * (b0 * b1 - a1 * c), b0 * b0 - a0 * c, stops);
     }
 }
 
@@ -421,6 +484,30 @@ impl Random {
                     .unwrap();
                 let to = if touches { at - turn.point(half) } else { at };
                 solid.placed(&turn.moved(to).unwrap())
+            }
+        }
+    }
+
+    /// A convex solid, round about an axis or with many faces, between a point and a lamp.
+    pub(crate) fn solid(&mut self, eye: DVec3, lamp: &Shape) -> Shape {
+        let at = eye.lerp(self.place(lamp), self.within(0.2, 0.75));
+        let size = 10.0_f64.powf(self.within(-1.2, -0.1));
+        let center = at + self.vector() * size * 0.5;
+        let along = self.unit() * size * self.within(0.2, 2.0);
+        let [from, to] = [center - along, center + along];
+        let radius = size * self.within(0.1, 1.0);
+        match self.below(6) {
+            0 => Cylinder::new(from, to, radius).unwrap().into(),
+            1 => Capsule::new(from, to, radius).unwrap().into(),
+            2 => Cone::new(from, to, radius, 0.0).unwrap().into(),
+            3 => Cone::new(from, to, radius, radius * self.within(0.1, 2.0)).unwrap().into(),
+            4 => {
+                let points: Vec<DVec3> = (0..10).map(|_| center + self.vector() * size).collect();
+                Polyhedron::hull_of(points).unwrap().into()
+            }
+            _ => {
+                let solid = ["octahedron", "dodecahedron", "icosahedron"][self.below(3) as usize];
+                Platonic::new(solid, center, size).unwrap().into()
             }
         }
     }

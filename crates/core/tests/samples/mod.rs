@@ -2,6 +2,7 @@
 
 mod round;
 mod solids;
+mod torus;
 
 use std::sync::Arc;
 
@@ -11,6 +12,7 @@ use catoptra_core::geometry::{
 use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::{MeshSource, Placement, Ray};
 use round::Round;
+use torus::Ring;
 
 /// A shape and its form.
 #[derive(Debug, Clone)]
@@ -36,6 +38,7 @@ pub(crate) enum Form {
         radius: f64,
     },
     Round(Round),
+    Ring(Ring),
     /// Flat pieces: the facet each belongs to, and corners anticlockwise as seen from outside.
     Faces(Vec<(u32, [DVec3; 3])>),
 }
@@ -74,6 +77,7 @@ pub(crate) fn samples_of(kind: &str) -> Vec<Sample> {
         ],
         "box" => vec![cuboid(DVec3::NEG_ONE, DVec3::ONE), cuboid(v(100.0, -0.5, 20.0), v(110.0, 0.0, 25.0))],
         "mesh" => vec![octahedron(), kite()],
+        "torus" => torus::samples(),
         _ => [round::samples_of(kind), solids::samples_of(kind)].concat(),
     }
 }
@@ -183,6 +187,7 @@ impl Sample {
                 radius: radius * at.scale(),
             },
             Form::Round(round) => Form::Round(round.placed(at)),
+            Form::Ring(ring) => Form::Ring(ring.placed(at)),
             Form::Faces(faces) => {
                 Form::Faces(faces.iter().map(|(facet, face)| (*facet, face.map(|p| at.point(p)))).collect())
             }
@@ -237,6 +242,7 @@ impl Form {
                 *center + (across * turn.cos() + normal.cross(across) * turn.sin()) * out
             }
             Self::Round(round) => round.target(draw),
+            Self::Ring(ring) => ring.target(draw),
             Self::Faces(faces) => {
                 let (_, [a, b, c]) = faces[draw.pick % faces.len()];
                 // Folded into the triangle, then drawn towards its middle.
@@ -248,16 +254,25 @@ impl Form {
         }
     }
 
-    /// A point within a convex solid, from where all of a solid that is not convex is seen, or somewhere on what is flat.
+    /// A point within a solid, from where all of it is seen, if there is one; the middle of a ring; or somewhere on what is flat.
     pub(crate) fn middle(&self) -> DVec3 {
         match self {
             Self::Plane { point, .. } => *point,
             Self::Sphere { center, .. } | Self::Disk { center, .. } => *center,
             Self::Round(round) => round.ends[0].midpoint(round.ends[1]),
+            Self::Ring(ring) => ring.center,
             Self::Faces(faces) => {
                 let corners: Vec<DVec3> = faces.iter().flat_map(|(_, face)| *face).collect();
                 corners.iter().sum::<DVec3>() / corners.len() as f64
             }
+        }
+    }
+
+    /// A point within a closed shape, and whether all of it is seen from there.
+    pub(crate) fn inside(&self) -> (DVec3, bool) {
+        match self {
+            Self::Ring(ring) => (ring.on_ring(1.0), false),
+            form => (form.middle(), true),
         }
     }
 
@@ -267,6 +282,7 @@ impl Form {
             Self::Plane { .. } => 10.0,
             Self::Sphere { radius, .. } | Self::Disk { radius, .. } => *radius,
             Self::Round(round) => round.reach(),
+            Self::Ring(ring) => ring.radii[0] + ring.radii[1],
             Self::Faces(faces) => {
                 let middle = self.middle();
                 faces.iter().flat_map(|(_, face)| *face).map(|p| p.distance(middle)).fold(0.0, f64::max)
@@ -276,7 +292,7 @@ impl Form {
 
     /// Whether no corner lies in front of a face, but for rounding.
     pub(crate) fn is_convex(&self) -> bool {
-        let Self::Faces(faces) = self else { return true };
+        let Self::Faces(faces) = self else { return !matches!(self, Self::Ring(_)) };
         let slack = 1e-12 * self.largest_coordinate();
         let corners = || faces.iter().flat_map(|(_, face)| *face);
         faces.iter().all(|(facet, [a, _, _])| {
@@ -288,7 +304,7 @@ impl Form {
     /// Stretches on the surface where facets meet, or short ones across such places.
     pub(crate) fn seams(&self) -> Vec<[DVec3; 2]> {
         match self {
-            Self::Plane { .. } | Self::Sphere { .. } | Self::Disk { .. } => Vec::new(),
+            Self::Plane { .. } | Self::Sphere { .. } | Self::Disk { .. } | Self::Ring(_) => Vec::new(),
             Self::Round(round) => round.seams(),
             Self::Faces(faces) => {
                 faces.iter().flat_map(|(_, [a, b, c])| [[*a, *b], [*b, *c], [*c, *a]]).collect()
@@ -302,6 +318,7 @@ impl Form {
             Self::Plane { .. } | Self::Disk { .. } => 0.0,
             Self::Sphere { radius, .. } => *radius,
             Self::Round(round) => round.depth(),
+            Self::Ring(ring) => ring.radii[1],
             Self::Faces(faces) => {
                 let middle = self.middle();
                 faces.iter().map(|(_, face)| distance_to(face, middle)).fold(f64::INFINITY, f64::min)
@@ -313,6 +330,7 @@ impl Form {
     pub(crate) fn bend(&self, p: DVec3) -> f64 {
         match self {
             Self::Round(round) => round.distance_from_axis(p),
+            Self::Ring(ring) => ring.radii[1],
             form => form.reach(),
         }
     }
@@ -324,6 +342,7 @@ impl Form {
             Self::Sphere { center, radius } => Some((*center - *radius, *center + *radius)),
             Self::Disk { center, normal, radius } => Some(disk_bounds(*center, *normal, *radius)),
             Self::Round(round) => Some(round.bounds()),
+            Self::Ring(ring) => Some(ring.bounds()),
             Self::Faces(faces) => {
                 let corners = || faces.iter().flat_map(|(_, face)| *face);
                 Some((corners().reduce(DVec3::min)?, corners().reduce(DVec3::max)?))
@@ -339,6 +358,7 @@ impl Form {
             Self::Sphere { center, radius } | Self::Disk { center, radius, .. } => {
                 radius.max(largest(*center))
             }
+            Self::Ring(ring) => largest(ring.center).max(ring.radii[0]),
             Self::Round(Round { ends, radii, .. }) => {
                 ends.map(largest).into_iter().chain(*radii).fold(0.0, f64::max)
             }
@@ -357,6 +377,7 @@ impl Form {
                 above.hypot(beside.max(0.0))
             }
             Self::Round(round) => round.distance(p, facet),
+            Self::Ring(ring) => (ring.away_from_tube(p).length() - ring.radii[1]).abs(),
             Self::Faces(faces) => {
                 let of_facet = faces.iter().filter(|(of, _)| *of == facet);
                 of_facet.map(|(_, face)| distance_to(face, p)).fold(f64::INFINITY, f64::min)
@@ -370,6 +391,7 @@ impl Form {
             Self::Plane { normal, .. } | Self::Disk { normal, .. } => *normal,
             Self::Sphere { center, .. } => (p - *center).normalize(),
             Self::Round(round) => round.normal(p, facet),
+            Self::Ring(ring) => ring.away_from_tube(p).normalize(),
             Self::Faces(faces) => {
                 let (_, [a, b, c]) = faces.iter().find(|(of, _)| *of == facet).expect("a facet of the shape");
                 (b - a).cross(c - a).normalize()

@@ -1,10 +1,13 @@
 //! Which rays are hard? Trials of every kind, made from a number: rays aimed at edges, corners, rims and silhouettes to
 //! within a few steps of `f32`, surfaces a few steps apart, numbers at both ends of the range.
 
+mod ask;
 mod flat;
+mod leak;
 mod mesh;
 mod order;
 mod random;
+mod ring;
 mod round;
 mod scale;
 mod swept;
@@ -13,6 +16,8 @@ use catoptra_core::material::Matte;
 use catoptra_core::{Ray, Rgb, Scene, Shape};
 
 use crate::stress::PoseError;
+pub use ask::Replies;
+pub use leak::{Closed, closed};
 pub use random::Random;
 
 /// Shapes, and rays that are hard to answer for them.
@@ -78,6 +83,8 @@ pub const GROUPS: &[Group] = &[
     swept::CONES,
     swept::CAPSULES,
     swept::TOUCHING,
+    ring::TORI,
+    ring::TOUCHING,
     order::CROSSING,
     order::PARALLEL,
     order::SPHERES,
@@ -90,12 +97,9 @@ pub const GROUPS: &[Group] = &[
 
 #[cfg(test)]
 mod tests {
-    use catoptra_core::Span;
-    use catoptra_tracer::query::{HitList, RayList, find_nearest};
-    use catoptra_tracer::{Pool, Snapshot, backends};
+    use catoptra_tracer::{Pool, backends};
 
     use super::*;
-    use crate::oracle::confirm;
 
     /// Rays asked of every group.
     const ASKED: usize = 10_000;
@@ -106,21 +110,21 @@ mod tests {
         let pool = Pool::new(1).expect("a pool of threads");
         let plain = backends().iter().find(|backend| backend.name() == "oracle").expect("it is listed");
         for group in GROUPS {
-            let (mut asked, mut number, mut wrong) = (0, 1000, Vec::new());
-            while asked < ASKED {
-                let trial = (group.make)(&mut Random::new(number));
-                let snapshot = Snapshot::extract(&trial.scene().expect("a scene"), &pool);
-                let (mut list, mut hits) = (RayList::new(), HitList::default());
-                trial.rays.iter().for_each(|ray| list.push(ray, [Span::AHEAD.min, Span::AHEAD.max], None));
-                find_nearest(*plain, &snapshot, &list, &mut hits, &pool);
-                for (at, ray) in trial.rays.iter().enumerate() {
-                    wrong.extend(confirm(&trial.shapes, ray, Span::AHEAD, hits.get(at)).err());
-                }
-                asked += trial.rays.len();
-                number += 1;
+            let replies = group.ask(*plain, 1000, ASKED, &pool).expect("trials are scenes");
+            let told = replies.wrong.len().min(5);
+            let wrong = replies.wrong.len();
+            assert!(wrong == 0, "{}: {wrong} wrong\n{}", group.name, replies.wrong[..told].join("\n"));
+        }
+    }
+
+    #[test]
+    fn nothing_leaks_out_of_what_is_closed() {
+        let pool = Pool::new(1).expect("a pool of threads");
+        for shape in closed().expect("good numbers") {
+            for backend in backends() {
+                let leaks = shape.leaks(*backend, 2_000, &pool).expect("a scene");
+                assert_eq!(leaks, 0, "{} by {}", shape.name, backend.name());
             }
-            let told = wrong.len().min(5);
-            assert!(wrong.is_empty(), "{}: {} wrong\n{}", group.name, wrong.len(), wrong[..told].join("\n"));
         }
     }
 }

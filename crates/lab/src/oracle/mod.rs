@@ -5,6 +5,7 @@
 //! integers, other tests for every shape, and roots compared by enclosing them ever more closely.
 
 mod integer;
+mod isolated;
 mod place;
 mod round;
 mod shape;
@@ -109,7 +110,7 @@ mod tests {
 
     use catoptra_core::geometry::{
         Capsule, Cone, Cuboid, Cylinder, Disk, Heightfield, Plane, Platonic, Polyhedron, Prism, Rectangle,
-        Sphere, Tetrahedron, Triangle,
+        Sphere, Tetrahedron, Torus, Triangle,
     };
     use catoptra_core::glam::{DVec2, DVec3};
     use catoptra_core::{Image, ImageSource, MeshSource, TriangleMesh};
@@ -146,6 +147,8 @@ mod tests {
             .unwrap()
             .into(),
             black_picture(),
+            // Whose tube touches the plane above the ray.
+            Torus::new(DVec3::new(-2.75, -1.0, 0.25), DVec3::Y, 3.0, 1.0).unwrap().into(),
         ]
     }
 

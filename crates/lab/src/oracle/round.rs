@@ -7,7 +7,8 @@ use catoptra_core::glam::DVec3;
 use num_bigint::{BigInt, Sign};
 
 use super::Place;
-use super::integer::{Vector, dot, integer, minus, vector};
+use super::integer::{Vector, dot, doublings, integer, minus, vector};
+use super::isolated::{Isolated, product};
 use super::shape::{Line, of_sphere};
 
 /// A line and the side of a cone with a radius at each end, of a cylinder if they are the same. Heights run from 0 to a², the
@@ -99,6 +100,30 @@ impl Side {
         };
         [false, true].into_iter().filter_map(cap).collect()
     }
+}
+
+/// The torus' equation as it stands: (x² + R² − r²)² = 4 R² (x² − h²), where h is how high x lies along the unit axis, times a².
+pub(super) fn of_torus(center: DVec3, axis: DVec3, radii: [f64; 2], ray: &Ray) -> Vec<(Place, u32)> {
+    let line = Line::new(ray, center.to_array().into_iter().chain(radii));
+    let fine = axis.to_array().into_iter().map(doublings).max().unwrap_or(0);
+    let (o, d) = (minus(&line.origin, &vector(center, line.scale)), &line.direction);
+    let axis = vector(axis, fine);
+    let [major, minor] = radii.map(|radius| integer(radius, line.scale));
+    let (axis2, ring) = (dot(&axis, &axis), BigInt::from(4) * &major * &major);
+    let square = [dot(&o, &o), dot(&o, d) * 2, dot(d, d)];
+    let height = [dot(&o, &axis), dot(d, &axis)];
+    let mut sum = square.clone();
+    sum[0] += &major * &major - &minor * &minor;
+    let (sum2, height2) = (product(&sum, &sum), product(&height, &height));
+    let equation = (0..5_usize).map(|i| {
+        let flat = square.get(i).map_or(BigInt::ZERO, |s| s * &axis2 - &height2[i]);
+        &sum2[i] * &axis2 - &ring * flat
+    });
+    // In the given ray's parameter, which is 2^doubled times the scaled one's.
+    let unscaled = equation.zip(0..).map(|(c, i)| {
+        if line.doubled >= 0 { c << (line.doubled * (4 - i)) } else { c << (-line.doubled * i) }
+    });
+    Isolated::all_of(unscaled.collect()).into_iter().map(|root| (root.into(), 0)).collect()
 }
 
 /// A side, and of the balls at its ends what lies beyond it.

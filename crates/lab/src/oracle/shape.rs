@@ -7,7 +7,7 @@ use num_bigint::{BigInt, Sign};
 
 use super::Place;
 use super::integer::{Vector, cross, dot, doublings, integer, minus, vector};
-use super::round::{Side, of_capsule};
+use super::round::{Side, of_capsule, of_torus};
 
 /// A ray whose origin and the shape's coordinates are integers of one scale, and whose direction is one of another.
 pub(super) struct Line {
@@ -73,6 +73,7 @@ pub(super) fn places(shape: &Shape, ray: &Ray) -> Vec<(Place, u32)> {
             let side = Side::new(cone.ends(), cone.radii(), ray);
             if cone.is_open() { side.places() } else { [side.places(), side.caps()].concat() }
         }
+        Shape::Torus(torus) => of_torus(torus.center(), torus.upwards(), torus.radii(), ray),
         Shape::Capsule(capsule) => of_capsule(capsule.ends(), capsule.radius(), ray),
         other => panic!("the reference has no test for a {}", other.kind_name()),
     }

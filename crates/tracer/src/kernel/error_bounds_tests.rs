@@ -2,12 +2,12 @@
 //! the shapes' own exact answers: what a kernel is certain of must be right, `t` must lie within its bound, and the worst
 //! of all errors must come near the bound, so that a bound cut down would be found out.
 
-use catoptra_core::geometry::{Cuboid, Disk, Plane, Rectangle, Sphere, Triangle};
+use catoptra_core::geometry::{Capsule, Cone, Cuboid, Cylinder, Disk, Plane, Rectangle, Sphere, Triangle};
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, Placement, Ray, Shape, Span};
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::{CuboidRow, FlatRow, PlaneRow, Proposal, Rays, SphereRow, TriangleRow};
+use super::{CuboidRow, FlatRow, PlaneRow, Proposal, Rays, RoundRow, SphereRow, TriangleRow};
 use crate::film::NOTHING;
 use crate::lanes::{F, F3, M, U, magnitude};
 use crate::numeric::DIRECTION_ERROR;
@@ -86,6 +86,9 @@ fn propose<S: Simd>(s: S, shape: &Shape, shots: &[Shot]) -> Option<(Proposal<S>,
         }
         Shape::Rectangle(r) => FlatRow::rectangle(r.corner(), r.edges(), 0).propose(s, rays),
         Shape::Disk(d) => FlatRow::disk(d.center(), d.normal(), d.radius(), 0).propose(s, rays),
+        Shape::Cylinder(c) => return Some(RoundRow::new(c.ends(), [c.radius(); 2], false).propose(s, rays)),
+        Shape::Cone(c) => return Some(RoundRow::new(c.ends(), c.radii(), false).propose(s, rays)),
+        Shape::Capsule(c) => return Some(RoundRow::new(c.ends(), [c.radius(); 2], true).propose(s, rays)),
         Shape::Triangle(triangle) => TriangleRow::new(triangle.corners(), 0, 0)?.propose(s, rays),
         _ => return None,
     };
@@ -180,6 +183,44 @@ fn disks() {
     let record = attack(|random, unit| {
         let (center, radius, axis, rim) = round(random, unit);
         Some((Disk::new(center, axis, radius).ok()?.into(), rim))
+    });
+    assert_attacked(&record, 0.02);
+}
+
+/// Ends, a radius, and two rims, points beyond the ends and places on the axis.
+fn swept(random: &mut Random, unit: f64) -> ([DVec3; 2], f64, Vec<DVec3>) {
+    let (center, radius, axis, mut rim) = round(random, unit);
+    let length = unit * random.power(-6, 6);
+    let (to, up) = (center + axis * length, axis * radius);
+    rim.extend(rim.clone().into_iter().map(|p| p + axis * length));
+    rim.extend([center, to, center - up, to + up]);
+    ([center, to], radius, rim)
+}
+
+#[test]
+fn cylinders() {
+    let record = attack(|random, unit| {
+        let ([from, to], radius, rim) = swept(random, unit);
+        Some((Cylinder::new(from, to, radius).ok()?.into(), rim))
+    });
+    assert_attacked(&record, 0.02);
+}
+
+#[test]
+fn capsules() {
+    let record = attack(|random, unit| {
+        let ([from, to], radius, rim) = swept(random, unit);
+        Some((Capsule::new(from, to, radius).ok()?.into(), rim))
+    });
+    assert_attacked(&record, 0.02);
+}
+
+#[test]
+fn cones() {
+    let record = attack(|random, unit| {
+        let ([from, to], radius, rim) = swept(random, unit);
+        let top = [0.0, radius * random.power(-4, 4)][random.bits() as usize % 2];
+        Some((Cone::new(from, to, radius, top).ok()?.into(), rim))
     });
     assert_attacked(&record, 0.02);
 }

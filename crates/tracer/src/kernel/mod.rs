@@ -13,6 +13,7 @@ mod flat;
 pub(crate) mod mesh;
 mod plane;
 mod rectangle;
+mod round;
 mod sphere;
 mod triangle;
 
@@ -30,6 +31,7 @@ pub(crate) use faces::Faces;
 pub(crate) use flat::FlatRow;
 pub(crate) use plane::PlaneRow;
 use rectangle::RectangleOutline;
+pub(crate) use round::RoundRow;
 pub(crate) use sphere::SphereRow;
 pub(crate) use triangle::TriangleRow;
 

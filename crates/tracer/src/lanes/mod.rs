@@ -24,7 +24,7 @@ pub(crate) use precise::{Precise, narrow3, pick3};
 pub(crate) use prefetch::prefetch;
 pub(crate) use vectors::{
     D3, F3, LaneVectors, compress_wide3, compress3, cross, load_wide3, load3, magnitude, splat_wide, splat3,
-    store_wide3, store3, vector_of, widen3,
+    store_wide3, store3, unit, vector_of, widen3,
 };
 pub(crate) use word::{HALVES, Word, share_of_one, steps_of_one};
 

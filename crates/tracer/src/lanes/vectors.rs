@@ -106,6 +106,19 @@ pub(crate) fn widen3<S: Simd>(v: F3<S>) -> D3<S> {
     Triple::new(v.x.widen(), v.y.widen(), v.z.widen())
 }
 
+/// The vector over its length: an `f32` estimate and one Newton step in `f64`.
+#[inline(always)]
+pub(crate) fn unit<S: Simd>(s: S, v: D3<S>) -> D3<S> {
+    // Scaled by its largest coordinate first, so that tiny triangles do not underflow in `f32`.
+    let largest = v.x.abs().max(v.y.abs()).max(v.z.abs());
+    let v = v.scale(D::splat(s, 1.0) / largest);
+    let length2 = v.dot(v);
+    let estimate = (F::splat(s, 1.0) / length2.narrow().sqrt()).widen();
+    let half = D::splat(s, 0.5) * length2;
+    let inverse = estimate * (-(half * estimate)).mul_add(estimate, D::splat(s, 1.5));
+    v.scale(inverse)
+}
+
 /// Sum of the magnitudes of the coordinates.
 #[inline(always)]
 pub(crate) fn magnitude<S: Simd>(v: F3<S>) -> F<S> {

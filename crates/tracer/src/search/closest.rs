@@ -200,7 +200,7 @@ impl<S: Simd> Searcher<'_, S> {
         doubtful: &Doubtful<S>,
     ) {
         let (snapshot, prim) = (self.snapshot, doubtful.prim);
-        let solid = snapshot.columns().faces_of(prim).is_some();
+        let solid = snapshot.columns().is_asked_whole(prim);
         for lane in Bits(lanes) {
             self.stats.settled += 1;
             let facet = doubtful.facet.map(|facet| facet.lane(lane));

@@ -3,14 +3,14 @@
 //! One Newton step from the `f32` distance, evaluated in `f64`, leaves an error of second order: about 2⁻⁴⁵ relative
 //! where the ray is not grazing, and grazing rays have been decided before.
 
-use catoptra_core::{Arithmetic, Lane, Span};
+use catoptra_core::Span;
 use fearless_simd::Simd;
 
 use super::Searcher;
 use super::hits::Hits;
 use super::packet::{Packet, PreciseRays};
 use crate::kernel::{Kernel, NearHit};
-use crate::lanes::{D, D3, F, F3, LaneVectors, M, U, cross, narrow3, outlined, pick3};
+use crate::lanes::{D, D3, F, F3, LaneVectors, M, U, cross, narrow3, outlined, pick3, unit};
 use crate::snapshot::{Instance, KernelVisitor};
 
 /// Points and normals of the lanes that meet something, in `f64`.
@@ -174,19 +174,6 @@ impl<S: Simd> Searcher<'_, S> {
 fn near<S: Simd, P: PreciseRays<S>>(s: S, packet: &Packet<'_, S, P>, best: &Hits<S>) -> D3<S> {
     let (origin, direction) = packet.precise(s);
     direction.scale_add((best.t * packet.inverse_length).widen(), origin)
-}
-
-/// The vector over its length: an `f32` estimate and one Newton step in `f64`.
-#[inline(always)]
-fn unit<S: Simd>(s: S, v: D3<S>) -> D3<S> {
-    // Scaled by its largest coordinate first, so that tiny triangles do not underflow in `f32`.
-    let largest = v.x.abs().max(v.y.abs()).max(v.z.abs());
-    let v = v.scale(D::splat(s, 1.0) / largest);
-    let length2 = v.dot(v);
-    let estimate = (F::splat(s, 1.0) / length2.narrow().sqrt()).widen();
-    let half = D::splat(s, 0.5) * length2;
-    let inverse = estimate * (-(half * estimate)).mul_add(estimate, D::splat(s, 1.5));
-    v.scale(inverse)
 }
 
 impl<S: Simd> Refined<S> {

@@ -11,7 +11,7 @@ use super::Prim;
 use super::origin::relative;
 use super::rows::{KernelVisitor, Row, Rows};
 use crate::accel::MeshTree;
-use crate::kernel::{CuboidRow, FlatRow, Kernel, PlaneRow, SphereRow, TriangleRow};
+use crate::kernel::{CuboidRow, FlatRow, Kernel, PlaneRow, RoundRow, SphereRow, TriangleRow};
 use crate::lanes::outlined;
 use crate::numeric::ORDINARY;
 
@@ -135,6 +135,12 @@ impl Columns {
         }
     }
 
+    /// Whether a kernel tells of a shape which of its facets rays meet, and not of one facet how: what it leaves undecided
+    /// is asked of the whole shape.
+    pub(crate) fn is_asked_whole(&self, prim: u32) -> bool {
+        matches!(self.rows[prim as usize], Row::Triangles(..) | Row::Round(_))
+    }
+
     /// Calls a visitor with the kernel of a shape. Kernels of common shapes are inlined into the caller, the others
     /// [`outlined`].
     #[inline(always)]
@@ -204,10 +210,17 @@ impl Columns {
                 let Shape::Cuboid(in_frame) = &prim.shape else { return Row::General };
                 Row::Cuboid(push(&mut self.kernels.cuboids, CuboidRow::new(cuboid, in_frame, id)))
             }
+            Shape::Cylinder(c) if !c.is_open() => self.add_round(c.ends(), [c.radius(); 2], false),
+            Shape::Cone(c) if !c.is_open() => self.add_round(c.ends(), c.radii(), false),
+            Shape::Capsule(c) => self.add_round(c.ends(), [c.radius(); 2], true),
             Shape::Triangle(t) => self.add_facets(id, &[t.corners()]),
             Shape::Tetrahedron(t) => self.add_facets(id, &[0, 1, 2, 3].map(|face| t.face(face))),
             _ => Row::General,
         }
+    }
+
+    fn add_round(&mut self, ends: [DVec3; 2], radii: [f64; 2], has_balls: bool) -> Row {
+        Row::Round(push(&mut self.kernels.rounds, RoundRow::new(ends, radii, has_balls)))
     }
 
     /// Adds the triangles that a shape is made of.

@@ -1,9 +1,9 @@
 //! What holds a point in space, and what blocks rays from there? Surfaces on which a point lies are left by every ray from it.
 
-use catoptra_core::contour::facet_holds;
+use catoptra_core::contour::{facet_holds, facets_that_hold};
 use catoptra_core::glam::DVec3;
 use catoptra_core::numeric::HELD_WITHIN;
-use catoptra_core::{Geometry, Ray, Shape, Span};
+use catoptra_core::{Geometry, Ray, Span};
 
 use super::search::RaySegment;
 use super::{Prim, Snapshot, SurfaceId};
@@ -34,7 +34,7 @@ impl Snapshot {
 
     fn add_holding(&self, prim: u32, point: DVec3, held: &mut Vec<SurfaceId>) {
         let Prim { shape, member: None, .. } = &self.prims[prim as usize] else { return };
-        let mut add = |facet: u32| {
+        let add = |facet: u32| {
             if facet_holds(shape, facet, point) {
                 held.push(SurfaceId { prim, facet });
             }
@@ -47,8 +47,7 @@ impl Snapshot {
                 let placed = point.abs().max_element() * mesh.to_object().scale();
                 self.index.meshes[tree as usize].tree.around(own, reach(size + placed), add);
             }
-            _ if matches!(shape, Shape::Plane(_)) => add(0),
-            _ => (0..catoptra_core::contour::Lamp::facets(shape)).for_each(add),
+            _ => (0..facets_that_hold(shape)).for_each(add),
         }
     }
 

@@ -75,6 +75,8 @@ pub(crate) struct Lamps {
     tree_of_paths: Option<LampTree>,
     /// Shapes that shine but light nothing, as they have no end.
     pub(crate) endless: Vec<u32>,
+    /// Shapes that shine and whose outlines are not known: only paths that meet them bring their light.
+    pub(crate) met_alone: Vec<u32>,
     /// Square metres of each shape that lights others, one side of it.
     pub(crate) areas: HashMap<u32, f64>,
 }
@@ -96,7 +98,7 @@ impl Lamps {
         for (prim, id) in prims.iter().zip(0..) {
             if let Some(shining) = shining(prim.material) {
                 if prim.member.is_some() {
-                    lamps.endless.push(id);
+                    lamps.met_alone.push(id);
                     continue;
                 }
                 lamps.add(&prim.shape, shining, Some(id), origin);
@@ -147,8 +149,7 @@ impl Lamps {
         }
         let radiance = emission.radiance.into();
         let before = self.rows.len();
-        for facet in 0..contour::Lamp::facets(shape) {
-            let Some(outline) = contour::Lamp::of(shape, facet) else { continue };
+        for outline in contour::Lamp::pieces_of(shape) {
             let outline = outline.with_two_sides(emission.two_sided);
             let (center, radius) = outline.ball();
             let ball = Ball { center: center - origin, radius };
@@ -162,7 +163,8 @@ impl Lamps {
             self.rows.push(LampRow { outline, radiance, prim, shadow, ball, flat, normal, two_sided, area });
         }
         if let (true, Some(prim)) = (self.rows.len() == before, prim) {
-            self.endless.push(prim);
+            let list = if shape.bounds().is_some() { &mut self.met_alone } else { &mut self.endless };
+            list.push(prim);
         }
     }
 }

@@ -24,6 +24,8 @@ pub struct Needs {
     pub picks_lamps: bool,
     /// Shapes that shine but light nothing, as they have no end.
     pub endless_lamps: usize,
+    /// Shapes that shine and whose outlines are not known: only paths that meet them bring their light.
+    pub lamps_met_alone: usize,
     /// Materials by kind, most first.
     pub materials: Vec<(&'static str, usize)>,
     /// Unbounded shapes, which are not in the tree.
@@ -61,6 +63,7 @@ impl Snapshot {
             outlines: self.lamps.rows.len(),
             picks_lamps: self.lamps.tree.is_some(),
             endless_lamps: self.lamps.endless.len(),
+            lamps_met_alone: self.lamps.met_alone.len(),
             materials: count(self.parts.materials.iter().map(|(_, material)| material.kind_name())),
             unbounded: self.index.unbounded.len(),
             meshes: self.index.meshes.len(),
@@ -116,6 +119,11 @@ impl Snapshot {
     /// Shapes that shine and light nothing, as they have no end.
     pub fn endless_lamps(&self) -> impl Iterator<Item = EntityId> {
         self.lamps().endless.iter().map(|&prim| self.entities()[prim as usize])
+    }
+
+    /// Shapes that shine and whose outlines are not known, as of round ones: only paths that meet them bring their light.
+    pub fn lamps_met_alone(&self) -> impl Iterator<Item = EntityId> {
+        self.lamps().met_alone.iter().map(|&prim| self.entities()[prim as usize])
     }
 }
 
