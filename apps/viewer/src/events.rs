@@ -36,7 +36,7 @@ impl App {
             }
             WindowEvent::KeyboardInput { event: key, .. } => self.key(screen, event, key),
             WindowEvent::DroppedFile(path) if dropped::picture::is_picture(path) => {
-                self.picture_dropped(path)
+                self.picture_dropped(path);
             }
             WindowEvent::DroppedFile(path) if dropped::model::is_model(path) => self.model_dropped(path),
             WindowEvent::DroppedFile(path) => self.viewer.leave(Next::Open(path.clone())),

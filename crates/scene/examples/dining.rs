@@ -39,7 +39,7 @@ fn main() -> std::io::Result<()> {
     let [seat, cushion, leg] =
         [(SEAT, wood), (CUSHION, cloth), (LEG, wood)].map(|(profile, worn)| file.turned(profile, worn));
     let parts = vec![file.node("Top", top, [0.0; 3]), file.node("Pillar", pillar, [0.0; 3])];
-    let mut all = vec![file.group("Table", parts, [0.0; 3])];
+    let mut all = vec![file.group("Table", &parts, [0.0; 3])];
     for number in 0..4 {
         let mut parts = vec![file.node("Seat", seat, [0.0; 3]), file.node("Cushion", cushion, [0.0; 3])];
         for third in 0..3 {
@@ -48,7 +48,7 @@ fn main() -> std::io::Result<()> {
         }
         let angle = TAU * (number as f32 / 4.0 + 0.1);
         let name = format!("Stool {}", number + 1);
-        all.push(file.group(&name, parts, [0.85 * angle.cos(), 0.0, 0.85 * angle.sin()]));
+        all.push(file.group(&name, &parts, [0.85 * angle.cos(), 0.0, 0.85 * angle.sin()]));
     }
     std::fs::write(path, file.bytes(&all))
 }
@@ -123,7 +123,7 @@ impl Glb {
         self.nodes.len() - 1
     }
 
-    fn group(&mut self, name: &str, children: Vec<usize>, at: [f32; 3]) -> usize {
+    fn group(&mut self, name: &str, children: &[usize], at: [f32; 3]) -> usize {
         self.nodes.push(json!({ "name": name, "children": children, "translation": at }));
         self.nodes.len() - 1
     }

@@ -11,7 +11,7 @@ fn run(folder: &Path, line: &str) -> Ran {
 fn picture(folder: &Path, line: &str) -> Vec<u8> {
     let ran = run(folder, &format!("{line} -o a.exr"));
     assert_eq!(ran.code, 0, "{line} {}", ran.err);
-    std::fs::read(folder.join("a.exr")).unwrap()
+    std::fs::read(folder.join("a.exr")).expect("a picture")
 }
 
 const LINE: &str = "render scene.kdl --size 41x30 --integrator path";
