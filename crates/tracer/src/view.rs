@@ -84,9 +84,6 @@ pub struct View {
     /// Whether, under [`Whitted`](Integrator::Whitted), light comes through clear matter in shadows: straight, as an approximation,
     /// with what surfaces and insides leave of it.
     pub clear_shadows: bool,
-    /// Whether light from points and from afar fades smoothly where a smooth mesh turns away from it; see
-    /// [`soft_terminator`](catoptra_core::lobe::soft_terminator).
-    pub soft_terminator: bool,
     /// Rays that could add less than this share of what they meet are not traced; 0 traces them all. A pixel is darker
     /// for it by at most this share of the brightest radiance that any such ray would have met, and never brighter.
     pub weight_cutoff: f32,
@@ -201,7 +198,6 @@ impl View {
             max_depth: 5,
             path_depth: u32::MAX,
             clear_shadows: true,
-            soft_terminator: false,
             weight_cutoff: WEIGHT_CUTOFF,
             occlusion_distance: f64::INFINITY,
             seed: 0,
@@ -229,7 +225,6 @@ impl View {
             max_depth: settings.max_depth(),
             occlusion_distance: settings.occlusion_distance().unwrap_or(f64::INFINITY),
             samples: settings.samples(),
-            soft_terminator: settings.soft_terminator(),
             ..Self::new(camera, size)
         }
     }

@@ -31,7 +31,6 @@ mod scatter_checks;
 mod sheen;
 mod smooth_interface;
 mod smooth_reflection;
-mod terminator;
 mod thin_wall;
 
 pub use boundary::{Boundary, Roughness};
@@ -52,7 +51,6 @@ pub use rough_interface::RoughInterface;
 pub use sheen::Sheen;
 pub use smooth_interface::SmoothInterface;
 pub use smooth_reflection::SmoothReflection;
-pub use terminator::soft_terminator;
 pub use thin_wall::ThinWall;
 
 use crate::{Lane, Triple};

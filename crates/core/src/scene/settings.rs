@@ -16,7 +16,6 @@ pub struct Settings {
     samples: u32,
     max_error: Option<f64>,
     exposure: f64,
-    soft_terminator: bool,
 }
 
 const BACKGROUND: &str = "background";
@@ -26,7 +25,6 @@ const OCCLUSION_DISTANCE: &str = "occlusion-distance";
 const SAMPLES: &str = "samples";
 const MAX_ERROR: &str = "max-error";
 const EXPOSURE: &str = "exposure";
-const SOFT_TERMINATOR: &str = "soft-terminator";
 
 impl Settings {
     /// How to make settings from named values.
@@ -128,13 +126,6 @@ impl Settings {
         self.exposure
     }
 
-    /// Whether light from points and from afar fades smoothly where a smooth mesh turns away from it; see
-    /// [`soft_terminator`](crate::lobe::soft_terminator).
-    #[must_use]
-    pub fn soft_terminator(&self) -> bool {
-        self.soft_terminator
-    }
-
     /// The values by field name.
     #[must_use]
     pub fn values(&self) -> Values {
@@ -163,7 +154,6 @@ impl Default for Settings {
             samples: 1,
             max_error: None,
             exposure: 0.0,
-            soft_terminator: false,
         }
     }
 }
@@ -201,13 +191,6 @@ impl Part for Settings {
         .optional(),
         Field::required(EXPOSURE, FieldKind::Number, "stops", "By how many factors of 2 light is brightened for display.")
             .or(|| Value::Number(0.0)),
-        Field::required(
-            SOFT_TERMINATOR,
-            FieldKind::Flag,
-            "",
-            "Whether lights fade where a mesh with normals of its own turns away from them, instead of stopping at the edges of its triangles.",
-        )
-        .or(|| Value::Flag(false)),
     ];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
@@ -225,7 +208,6 @@ impl Part for Settings {
             samples: given.whole(SAMPLES, 1, Self::MAX_SAMPLES)?,
             max_error: given.has(MAX_ERROR).then(|| given.positive(MAX_ERROR)).transpose()?,
             exposure,
-            soft_terminator: given.flag(SOFT_TERMINATOR)?,
         })
     }
 
@@ -235,8 +217,7 @@ impl Part for Settings {
             .with(MAX_DEPTH, Value::Number(f64::from(self.max_depth)))
             .with(INTEGRATOR, Value::Word(self.integrator.name().to_owned()))
             .with(SAMPLES, Value::Number(f64::from(self.samples)))
-            .with(EXPOSURE, Value::Number(self.exposure))
-            .with(SOFT_TERMINATOR, Value::Flag(self.soft_terminator));
+            .with(EXPOSURE, Value::Number(self.exposure));
         let optional = [(OCCLUSION_DISTANCE, self.occlusion_distance), (MAX_ERROR, self.max_error)];
         let given = optional.into_iter().filter_map(|(name, value)| value.map(|value| (name, value)));
         given.fold(values, |values, (name, value)| values.with(name, Value::Number(value)))

@@ -1,7 +1,6 @@
 //! Direct light: adds what every light contributes to the packets of a chunk, and traces shadow rays.
 
 use catoptra_core::light::LightVisitor;
-use catoptra_core::lobe::soft_terminator;
 use catoptra_core::{Arithmetic, Arrival, Emitter, Lane, LaneMask};
 use fearless_simd::Simd;
 
@@ -85,12 +84,7 @@ impl<S: Simd, B: Batch<S>> AddLight<'_, '_, S, B> {
         let color = F3::of(zero, light.color());
         let mut faced = Faced::default();
         for packet in 0..self.count.min(CHUNK) {
-            let mut facing = face(self.shader.chunk, light, packet, smooth, &mut faced);
-            if smooth && self.shader.view.soft_terminator {
-                let (chunk, direction) = (&self.shader.chunk, facing.arrival.direction);
-                let share = soft_terminator(chunk.normal[packet], chunk.smooth[packet], direction);
-                facing.arrival.strength = facing.arrival.strength * share;
-            }
+            let facing = face(self.shader.chunk, light, packet, smooth, &mut faced);
             let reached = if open {
                 facing.lanes
             } else {

@@ -58,8 +58,7 @@ impl<S: Search> Walker<'_, S> {
             return Rgb::BLACK;
         }
         let brought = lamp.irradiance(&arrival);
-        let share = self.faced_share(&vertex.surface, arrival.direction);
-        let light = shown * Rgb::new(brought.x, brought.y, brought.z) * share;
+        let light = shown * Rgb::new(brought.x, brought.y, brought.z);
         if !lamp.shadow() {
             self.stats.skipped.shadow_off += 1;
             return light;

@@ -2,7 +2,6 @@
 //! that carries the weight of what is still to come.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::lobe::soft_terminator;
 use catoptra_core::{Arrival, Light, Lobes, Ray, Rgb, Span, Triple};
 
 use crate::Hit;
@@ -66,19 +65,10 @@ impl<S: Search> Walker<'_, S> {
             let arrival = lamp.arriving::<f64>(surface.point.into());
             if let Some(cosine) = self.arrives(surface, lamp, &arrival) {
                 let shown = lobes.evaluate(&surface.shading, arrival.direction, cosine);
-                let share = self.faced_share(surface, arrival.direction);
-                light += rgb(shown.times(lamp.irradiance(&arrival))) * share;
+                light += rgb(shown.times(lamp.irradiance(&arrival)));
             }
         }
         light + self.lamplight(surface, lobes, drawn)
-    }
-
-    /// The share of light from a direction that counts where a surface is lit by another normal than its own.
-    pub(in crate::integrator) fn faced_share(&self, surface: &SurfaceHit<'_>, to_light: Triple<f64>) -> f64 {
-        if !self.frame.view.soft_terminator {
-            return 1.0;
-        }
-        soft_terminator(surface.normal.into(), surface.shading.normal, to_light)
     }
 
     /// The cosine under which a light reaches the surface, if it does.
