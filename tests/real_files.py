@@ -126,6 +126,8 @@ def agreement(program, file, folder):
         line.startswith(b"f ") and len(line.split()) > 5 for line in file.read_bytes().splitlines()
     ):
         raise RuntimeError("the other reader cuts polygons as if all were convex")
+    if b'"skins"' in file.read_bytes():
+        raise RuntimeError("the other reader poses no skins")
     loaded = trimesh.load(file, process=False)
     mesh = loaded.dump(concatenate=True) if isinstance(loaded, trimesh.Scene) else loaded
     corners = np.asarray(mesh.triangles, float)
