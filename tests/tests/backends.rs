@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use catoptra_core::Scene;
+use catoptra_core::{Role, Scene};
 use catoptra_lab::scenes::placed_mesh_under_the_sun;
 use catoptra_tests::{Comparison, Rates, film, is_by_chance, parsed, shipped_scenes, triangles};
 use catoptra_tracer::{Size, backends};
@@ -15,11 +15,11 @@ const RATES: Rates = Rates { surfaces: 1e-4, colors: 1e-4 };
 /// By how much the means of pictures may differ whose paths lanes choose by chance in a way of their own.
 const MEANS_APART: f64 = 0.03;
 
-/// A size at which trying every triangle for every ray stays a matter of seconds.
+/// A size at which trying every shape and triangle for every ray stays a matter of seconds.
 fn affordable(scene: &Scene) -> Size {
-    match triangles(scene) {
-        0 => Size::new(450, 450),
-        1..1_000 => Size::new(200, 150),
+    match triangles(scene) + scene.entities_of(Role::Shape).count() {
+        ..100 => Size::new(450, 450),
+        100..1_000 => Size::new(200, 150),
         _ => Size::new(128, 80),
     }
 }
