@@ -21,6 +21,10 @@ tetrahedron "tetrahedron" material="grey" { a -1 -1 0; b 1 -1 0; c 0 1 0; d 0 0 
 rectangle "rectangle" material="grey" { corner -1 -1 0; edge-u 2 0 0; edge-v 0 2 0 }
 disk "disk" material="grey" { center 0 0 0; normal 0 0 1; radius 1 }
 box "box" material="grey" { min -1 -1 -1; max 1 1 1 }
+cylinder "cylinder" material="grey" { from -0.6 -0.8 0; to 0.6 0.8 0.3; radius 0.7 }
+cone "cone" material="grey" { from -0.6 -0.8 0; to 0.6 0.8 0.3; radius 1; top-radius 0.3 }
+capsule "capsule" material="grey" { from -0.6 -0.8 0; to 0.6 0.8 0.3; radius 0.6 }
+torus "torus" material="grey" { center 0 0 0; axis 0.2 0.5 1; major 0.8; minor 0.3 }
 "#;
 
 /// So many rays from a point in front, through a square twice as wide as the shapes.
