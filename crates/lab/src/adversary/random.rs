@@ -65,6 +65,21 @@ impl Random {
         }
     }
 
+    /// A point of the circle round the origin through two vectors, which are as long as each other and perpendicular; exact at both
+    /// of them and opposite.
+    pub fn on_circle(&mut self, [u, v]: [DVec3; 2]) -> DVec3 {
+        match self.below(6) {
+            0 => u,
+            1 => -u,
+            2 => v,
+            3 => -v,
+            _ => {
+                let t = self.between(-4.0, 4.0);
+                (u * (1.0 - t * t) + v * (2.0 * t)) / (1.0 + t * t)
+            }
+        }
+    }
+
     /// The point, each coordinate up to so many steps of `f32` beside itself.
     pub fn beside(&mut self, point: DVec3, steps: usize) -> DVec3 {
         DVec3::from(point.to_array().map(|c| {

@@ -71,24 +71,9 @@ impl Ring {
         Torus::new(self.center, self.axis, self.radii[0], self.radii[1])
     }
 
-    /// A vector away from the axis, 7 long; exact along both vectors across.
-    fn out(&self, random: &mut Random) -> DVec3 {
-        let [u, v] = self.across;
-        match random.below(6) {
-            0 => u,
-            1 => -u,
-            2 => v,
-            3 => -v,
-            _ => {
-                let t = random.between(-4.0, 4.0);
-                (u * (1.0 - t * t) + v * (2.0 * t)) / (1.0 + t * t)
-            }
-        }
-    }
-
     fn ray(&self, random: &mut Random) -> Ray {
         let [major, minor] = self.radii;
-        let out = self.out(random);
+        let out = random.on_circle(self.across);
         let (up, around) =
             (self.axis * (7.0 / self.axis.length()), self.axis.cross(out) / self.axis.length());
         // Where the tube's cross section is highest, lowest, innermost or outermost, or anywhere.

@@ -96,25 +96,10 @@ impl Round {
         Self { ends: [from, to], radii, across, unit }
     }
 
-    /// A vector away from the axis, one unit long; exact along both vectors across.
-    fn out(&self, random: &mut Random) -> DVec3 {
-        let [u, v] = self.across;
-        match random.below(6) {
-            0 => u,
-            1 => -u,
-            2 => v,
-            3 => -v,
-            _ => {
-                let t = random.between(-4.0, 4.0);
-                (u * (1.0 - t * t) + v * (2.0 * t)) / (1.0 + t * t)
-            }
-        }
-    }
-
     /// A ray that is hard to tell from its neighbours.
     fn ray(&self, random: &mut Random) -> Ray {
         let ([from, to], axis) = (self.ends, self.ends[1] - self.ends[0]);
-        let out = self.out(random);
+        let out = random.on_circle(self.across);
         let rims = [0, 1].map(|i| self.ends[i] + out * (self.radii[i] / self.unit));
         let share = [0.0, 1.0, 0.5, random.between(-0.2, 1.2)][random.below(4)];
         let on_side = rims[0].lerp(rims[1], share);
