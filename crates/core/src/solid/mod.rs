@@ -47,6 +47,12 @@ impl Solid {
         &self.shapes
     }
 
+    /// When a point is inside.
+    #[must_use]
+    pub fn rule(&self) -> &Rule {
+        &self.rule
+    }
+
     /// The same, placed elsewhere.
     #[must_use]
     pub fn placed(&self, placement: &Placement) -> Self {
@@ -143,6 +149,12 @@ impl Member {
     #[must_use]
     pub fn number(&self) -> u32 {
         self.number
+    }
+
+    /// The solid that it is a part of.
+    #[must_use]
+    pub fn solid(&self) -> &Solid {
+        &self.solid
     }
 
     /// The whole shape.

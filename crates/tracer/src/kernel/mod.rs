@@ -14,6 +14,7 @@ pub(crate) mod mesh;
 mod plane;
 mod rectangle;
 mod round;
+mod solid;
 mod sphere;
 mod triangle;
 
@@ -32,6 +33,7 @@ pub(crate) use flat::FlatRow;
 pub(crate) use plane::PlaneRow;
 use rectangle::RectangleOutline;
 pub(crate) use round::RoundRow;
+pub(crate) use solid::SolidRow;
 pub(crate) use sphere::SphereRow;
 pub(crate) use triangle::TriangleRow;
 

@@ -1,7 +1,9 @@
 //! The list of kernels, and which of them each shape uses.
 
 use super::Instance;
-use crate::kernel::{CuboidRow, Faces, FlatRow, Kernel, PlaneRow, RoundRow, SphereRow, TriangleRow};
+use crate::kernel::{
+    CuboidRow, Faces, FlatRow, Kernel, PlaneRow, RoundRow, SolidRow, SphereRow, TriangleRow,
+};
 
 /// Work that is compiled once per kernel; called with the kernel of one shape.
 pub(crate) trait KernelVisitor: Sized {
@@ -71,5 +73,5 @@ macro_rules! rows {
 
 rows! {
     common: planes: Plane(PlaneRow), spheres: Sphere(SphereRow);
-    other: flats: Flat(FlatRow), cuboids: Cuboid(CuboidRow), rounds: Round(RoundRow);
+    other: flats: Flat(FlatRow), cuboids: Cuboid(CuboidRow), rounds: Round(RoundRow), solids: Solid(SolidRow);
 }
