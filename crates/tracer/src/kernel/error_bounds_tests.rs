@@ -3,14 +3,14 @@
 //! of all errors must come near the bound, so that a bound cut down would be found out.
 
 use catoptra_core::geometry::{
-    Capsule, Cone, Cuboid, Cylinder, Disk, Plane, Polyhedron, Rectangle, Sphere, Triangle,
+    Capsule, Cone, Cuboid, Cylinder, Disk, Plane, Polyhedron, Rectangle, Sphere, Torus, Triangle,
 };
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, Placement, Ray, Shape, Span};
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::{
-    CuboidRow, FlatRow, Kernel, Leaving, PlaneRow, Proposal, Rays, RoundRow, SolidRow, SphereRow,
+    CuboidRow, FlatRow, Kernel, Leaving, PlaneRow, Proposal, Rays, RoundRow, SolidRow, SphereRow, TorusRow,
     TriangleRow, Tried,
 };
 use crate::film::NOTHING;
@@ -95,15 +95,16 @@ fn propose<S: Simd>(s: S, shape: &Shape, shots: &[Shot]) -> Option<(Proposal<S>,
         Shape::Cone(c) => return Some(RoundRow::new(c.ends(), c.radii(), false).propose(s, rays)),
         Shape::Capsule(c) => return Some(RoundRow::new(c.ends(), [c.radius(); 2], true).propose(s, rays)),
         Shape::Triangle(triangle) => TriangleRow::new(triangle.corners(), 0, 0)?.propose(s, rays),
+        Shape::Torus(torus) => return Some(propose_of(s, &TorusRow::new(torus), rays, leaving)),
         shape => return Some(propose_of(s, &SolidRow::whole(shape, shape, 0)?, rays, leaving)),
     };
     Some((proposal, U::splat(s, 0)))
 }
 
-/// What the kernel of a convex shape says, or of a part of a solid, of rays that leave these facets of it.
+/// What a kernel says of rays that leave these facets of its shape.
 pub(super) fn propose_of<S: Simd>(
     s: S,
-    kernel: &SolidRow,
+    kernel: &impl Kernel,
     rays: &Rays<S>,
     leaving: U<S>,
 ) -> (Proposal<S>, U<S>) {
@@ -317,6 +318,38 @@ fn polyhedra() {
 #[test]
 fn polyhedra_from_within() {
     let record = attack_by(from_within, hull);
+    assert!(record.within > 1000, "{}", record.within);
+    assert_attacked(&record, 0.02);
+}
+
+/// A torus, and points of its outer and inner rims and of its tops.
+fn some_torus(random: &mut Random, unit: f64) -> Option<Target> {
+    let (center, major, axis, _) = round(random, unit);
+    let minor = major * [0.5, random.power(-6, -1), 1.0 - random.power(-6, -1)][random.bits() as usize % 3];
+    let [a, b] = [axis.any_orthonormal_vector(), axis.cross(axis.any_orthonormal_vector())];
+    let rim = (0..24_u32).map(|i| {
+        let out = a * f64::from(i).sin() + b * f64::from(i).cos();
+        center + out * major + [out, -out, axis, -axis][i as usize % 4] * minor
+    });
+    Some((Torus::new(center, axis, major, minor).ok()?.into(), rim.collect()))
+}
+
+#[test]
+fn tori() {
+    assert_attacked(&attack(some_torus), 0.02);
+}
+
+/// From its surface across its hole, or away.
+fn from_outside(random: &mut Random, target: &Target, unit: f64, reach: f64) -> Shot {
+    let (ray, _) = from_afar(random, target, unit, reach);
+    let Some(met) = target.0.cross(&ray, Span::AHEAD, None) else { return (ray, None) };
+    let from = ray.at(met.t);
+    (Ray::new(from, place_near(random, &target.1, unit) - from), Some(met.facet))
+}
+
+#[test]
+fn tori_that_rays_leave() {
+    let record = attack_by(from_outside, some_torus);
     assert!(record.within > 1000, "{}", record.within);
     assert_attacked(&record, 0.02);
 }

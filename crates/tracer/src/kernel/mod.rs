@@ -16,6 +16,7 @@ mod rectangle;
 mod round;
 mod solid;
 mod sphere;
+mod torus;
 mod triangle;
 
 use catoptra_core::Lane;
@@ -35,6 +36,7 @@ use rectangle::RectangleOutline;
 pub(crate) use round::RoundRow;
 pub(crate) use solid::SolidRow;
 pub(crate) use sphere::SphereRow;
+pub(crate) use torus::TorusRow;
 pub(crate) use triangle::TriangleRow;
 
 /// Rays as kernels see them.

@@ -11,7 +11,9 @@ use super::Prim;
 use super::origin::relative;
 use super::rows::{KernelVisitor, Row, Rows};
 use crate::accel::MeshTree;
-use crate::kernel::{CuboidRow, FlatRow, Kernel, PlaneRow, RoundRow, SolidRow, SphereRow, TriangleRow};
+use crate::kernel::{
+    CuboidRow, FlatRow, Kernel, PlaneRow, RoundRow, SolidRow, SphereRow, TorusRow, TriangleRow,
+};
 use crate::lanes::outlined;
 use crate::numeric::ORDINARY;
 
@@ -125,7 +127,7 @@ impl Columns {
     /// Whether a shape with a kernel is flat or a convex solid: rays that leave it outwards do not meet it again.
     pub(crate) fn is_convex(&self, prim: u32) -> bool {
         match self.rows[prim as usize] {
-            Row::Instance(_) | Row::General => false,
+            Row::Instance(_) | Row::Torus(_) | Row::General => false,
             Row::Solid(at) => self.solids[at as usize].is_convex(),
             _ => true,
         }
@@ -221,6 +223,7 @@ impl Columns {
             Shape::Cylinder(c) if !c.is_open() => self.add_round(c.ends(), [c.radius(); 2], false),
             Shape::Cone(c) if !c.is_open() => self.add_round(c.ends(), c.radii(), false),
             Shape::Capsule(c) => self.add_round(c.ends(), [c.radius(); 2], true),
+            Shape::Torus(torus) => Row::Torus(push(&mut self.kernels.tori, TorusRow::new(torus))),
             Shape::Triangle(t) => self.add_facets(id, &[t.corners()]),
             Shape::Tetrahedron(t) => self.add_facets(id, &[0, 1, 2, 3].map(|face| t.face(face))),
             _ => self.add_solid(SolidRow::whole(shape, &prim.shape, id)),

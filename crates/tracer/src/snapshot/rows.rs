@@ -2,7 +2,7 @@
 
 use super::Instance;
 use crate::kernel::{
-    CuboidRow, Faces, FlatRow, Kernel, PlaneRow, RoundRow, SolidRow, SphereRow, TriangleRow,
+    CuboidRow, Faces, FlatRow, Kernel, PlaneRow, RoundRow, SolidRow, SphereRow, TorusRow, TriangleRow,
 };
 
 /// Work that is compiled once per kernel; called with the kernel of one shape.
@@ -73,5 +73,5 @@ macro_rules! rows {
 
 rows! {
     common: planes: Plane(PlaneRow), spheres: Sphere(SphereRow);
-    other: flats: Flat(FlatRow), cuboids: Cuboid(CuboidRow), rounds: Round(RoundRow), solids: Solid(SolidRow);
+    other: flats: Flat(FlatRow), cuboids: Cuboid(CuboidRow), rounds: Round(RoundRow), solids: Solid(SolidRow), tori: Torus(TorusRow);
 }
