@@ -3,6 +3,7 @@
 //! A kernel may leave a lane undecided, never decide it wrongly: undecided lanes go to `f64`, one ray at a time.
 //! A shape without a kernel leaves every lane undecided: slower, the same answer.
 
+mod apart;
 mod contract;
 mod cuboid;
 mod disk;
@@ -26,6 +27,7 @@ use fearless_simd::Simd;
 use crate::lanes::{F, F3, M};
 use crate::numeric::CERTAIN;
 
+pub(crate) use apart::Apart;
 pub(crate) use contract::{Crossing, Facet, Kernel, Leaving, NearHit, Obstacle, Tried};
 pub(crate) use cuboid::CuboidRow;
 use disk::DiskOutline;

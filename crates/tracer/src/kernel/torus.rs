@@ -13,7 +13,7 @@ use catoptra_core::{Arithmetic, Lane, LaneMask};
 use fearless_simd::Simd;
 
 use super::{Crossing, Facet, Kernel, NearHit, PlaneRow, Proposal, Rays, Tried, bound};
-use crate::lanes::{D, D3, F, F3, M, narrow3, outlined, splat_wide, splat3, unit, widen3};
+use crate::lanes::{D, D3, F, F3, M, narrow3, splat_wide, splat3, unit, widen3};
 use crate::numeric::{DIRECTION_ERROR, POINT_ERROR, TORUS_ERROR, magnitude_of, rounded};
 
 /// After as many steps a ray is left to `f64`.
@@ -247,12 +247,7 @@ impl Kernel for TorusRow {
 
     #[inline(always)]
     fn propose<S: Simd>(&self, s: S, rays: &Rays<S>, tried: &Tried<S>, mut found: impl FnMut(Crossing<S>)) {
-        let (leaving, rays) = (tried.leaving.from(s, tried.prim, 0), *rays);
-        let proposal = outlined(
-            s,
-            #[inline(always)]
-            || self.nearest(s, &rays, leaving),
-        );
+        let proposal = self.nearest(s, rays, tried.leaving.from(s, tried.prim, 0));
         found(Crossing { proposal, facet: Facet::Same(0), lanes: tried.lanes });
     }
 

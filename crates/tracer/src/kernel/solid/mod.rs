@@ -14,7 +14,7 @@ use fearless_simd::Simd;
 use smallvec::SmallVec;
 
 use super::{Crossing, Facet, Kernel, NearHit, PlaneRow, Proposal, Rays, Tried, bound};
-use crate::lanes::{D, D3, F, F3, M, U, outlined};
+use crate::lanes::{D, D3, F, F3, M, U};
 use crate::numeric::{DIRECTION_ERROR, PLAN_MARGIN};
 use condition::Conditions;
 use convex::Convex;
@@ -158,12 +158,7 @@ impl Kernel for SolidRow {
                 lanes = lanes & !left.own;
             }
         }
-        let rays = *rays;
-        let (proposal, facet) = outlined(
-            s,
-            #[inline(always)]
-            || self.nearest(s, &rays, &left),
-        );
+        let (proposal, facet) = self.nearest(s, rays, &left);
         found(Crossing { proposal, facet: Facet::ByLane(facet), lanes });
     }
 
