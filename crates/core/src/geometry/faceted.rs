@@ -4,14 +4,17 @@
 //! of its plane, and triangles that share their corners leave no gap whatever rounding does. A facet counts as one piece: a ray
 //! that leaves it skips all its triangles.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::triangle::{meet_triangle, unit_normal};
+use super::crossings::Crossings;
+use super::triangle::{area, meet_triangle, unit_normal};
 use super::{FacetRoot, Parametrization};
 use crate::exact::{Located, Number, Vector, Verdict};
 use crate::numeric::EDGE_ROUNDING;
+use crate::solid::Passage;
 use crate::{Aabb, Crossing, Placement, Ray, Span};
 
 /// A solid with flat facets; their normals point outwards.
@@ -159,7 +162,9 @@ impl Faceted {
     ) -> Verdict<Option<FacetRoot<N>>> {
         match leaving {
             Some(left) if left == facet => return Ok(None),
-            Some(left) if self.plan.is_convex && left < self.count() && self.runs_out::<N>(left, own)? => {
+            Some(left)
+                if self.plan.is_convex && left < self.count() && self.side_of::<N>(left, own)?.is_gt() =>
+            {
                 return Ok(None);
             }
             _ => {}
@@ -178,14 +183,26 @@ impl Faceted {
         Ok(best)
     }
 
-    /// Whether a ray runs to the outer side of a facet: by its area as a vector, the sum of its triangles'.
-    fn runs_out<N: Number>(&self, facet: u32, ray: &Ray) -> Verdict<bool> {
+    /// To which side of a facet a ray runs, `Greater` outwards: by its area as a vector, the sum of its triangles'.
+    fn side_of<N: Number>(&self, facet: u32, ray: &Ray) -> Verdict<Ordering> {
         let direction = Vector::<N>::of(ray.direction);
-        let sides = self.triangles(facet).map(|triangle| {
-            let [p, q, r] = triangle.map(Vector::of);
-            q.minus(&p).cross(&r.minus(&p)).dot(&direction)
-        });
-        Ok(sides.fold(N::of(0.0), |sum, side| sum.plus(&side)).sign()?.is_gt())
+        let sides = self.triangles(facet).map(|triangle| area(&triangle).dot(&direction));
+        sides.fold(N::of(0.0), |sum, side| sum.plus(&side)).sign()
+    }
+
+    /// Where the line of a ray runs inside it; as [`Geometry::passage`](super::Geometry::passage), and right for concave ones.
+    pub(super) fn passage<N: Number>(&self, own: &Ray, leaving: Option<u32>) -> Verdict<Passage<N>> {
+        let mut crossings = Crossings::new(own);
+        for facet in 0..self.count() {
+            for triangle in self.triangles(facet) {
+                crossings.add(&triangle, facet)?;
+            }
+        }
+        let passage = crossings.passage()?;
+        match leaving.filter(|&left| left < self.count()) {
+            Some(left) => passage.after_leaving(left, self.side_of::<N>(left, own)?),
+            None => Ok(passage),
+        }
     }
 
     pub(super) fn crossing(&self, at: Located, facet: u32) -> Option<Crossing> {
@@ -274,7 +291,19 @@ macro_rules! faceted_geometry {
         }
 
         fn is_solid(&self) -> bool {
-            self.solid.is_convex()
+            true
+        }
+
+        fn passage<N: $crate::exact::Number>(
+            &self,
+            own: &$crate::Ray,
+            leaving: Option<u32>,
+        ) -> $crate::exact::Verdict<$crate::solid::Passage<N>> {
+            if self.solid.is_convex() {
+                $crate::solid::convex(self, own, leaving)
+            } else {
+                self.solid.passage(own, leaving)
+            }
         }
 
         fn faceted(&self) -> Option<&$crate::geometry::Faceted> {
