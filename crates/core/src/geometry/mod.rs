@@ -10,6 +10,7 @@ mod cylinder;
 mod disk;
 mod ears;
 mod faceted;
+mod faceted_geometry;
 mod half_spaces;
 mod heightfield;
 mod hull;

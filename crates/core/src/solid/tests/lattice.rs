@@ -59,12 +59,12 @@ impl Body {
             Self::Octahedron(center, reach) => {
                 let tip = |i: usize| {
                     let mut tip = *center;
-                    tip[i / 2] += if i % 2 == 0 { *reach } else { -reach };
+                    tip[i / 2] += if i.is_multiple_of(2) { *reach } else { -reach };
                     tip.map(|c| c as f32)
                 };
                 let face = |signs: usize| {
                     let [x, y, z] = [0, 1, 2].map(|axis| (2 * axis + (signs >> axis & 1)) as u32);
-                    if signs.count_ones() % 2 == 0 { [x, y, z] } else { [x, z, y] }
+                    if signs.count_ones().is_multiple_of(2) { [x, y, z] } else { [x, z, y] }
                 };
                 mesh((0..6).map(tip).collect(), (0..8).map(face).collect())
             }
@@ -254,16 +254,16 @@ fn a_box_of_triangles_and_a_box_are_one() {
 }
 
 #[test]
-fn what_lies_on_an_edge_between_members_is_of_one_that_grows() {
-    // Two halves whose common face the ray runs along: neither alone changes the first, both together do.
-    let [left, right] =
-        [cuboid([0.0; 3], [1.0; 3]), cuboid([1.0, 0.0, 0.0], [2.0, 1.0, 1.0])].map(|half| half);
-    let inner = Rule::Combined(Operation::Intersection, vec![Rule::Shape(0), Rule::Shape(1)]);
-    let rule = Rule::Combined(Operation::Difference, vec![inner, Rule::Shape(2)]);
-    let beside = cuboid([0.5, 0.25, -1.0], [1.5, 0.75, 0.0]);
-    let solid = Arc::new(Solid::new(vec![left, right, beside], rule).unwrap());
-    assert_eq!(
-        met(&solid, [1.0, 0.5, -9.0], [0.0, 0.0, 1.0]).map(|(t, member, _)| (t, member)),
-        Some((9.0, 0))
+fn a_face_of_many_members_is_of_one_that_helps_the_solid_to_begin() {
+    // (0 − 1) ∪ (2 ∩ 3): 1 begins where 2 and 3 do, of which neither alone makes anything.
+    let pair = |operation, a, b| Rule::Combined(operation, vec![Rule::Shape(a), Rule::Shape(b)]);
+    let rule = Rule::Combined(
+        Operation::Union,
+        vec![pair(Operation::Difference, 0, 1), pair(Operation::Intersection, 2, 3)],
     );
+    let unit = || cuboid([0.0; 3], [1.0; 3]);
+    let shapes = vec![cuboid([5.0; 3], [6.0; 3]), unit(), crate_of(DVec3::ZERO, DVec3::ONE), unit()];
+    let solid = Arc::new(Solid::new(shapes, rule).unwrap());
+    assert_eq!(met(&solid, [0.5, 0.25, 9.0], [0.0, 0.0, -1.0]), Some((8.0, 2, DVec3::Z)));
+    assert_eq!(met(&solid, [0.5, 0.25, 0.5], [0.0, 0.0, -1.0]), Some((0.5, 2, DVec3::NEG_Z)));
 }
