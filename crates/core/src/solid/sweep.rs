@@ -1,7 +1,5 @@
 //! Where along a ray does a solid begin and end, given where all its members do?
 
-use std::cmp::Ordering;
-
 use smallvec::SmallVec;
 
 use super::{End, Passage, Rule};
@@ -43,7 +41,9 @@ impl<N: Number> Sweep<N> {
             let mut met = None;
             // Twice where the line touches the shape.
             while let Some(end) = self.head(shape).cloned() {
-                if end.root.compare(&place)? != Ordering::Equal {
+                // Numbers with errors cannot tell that a root is the same as itself.
+                let is_first = shape == first && met.is_none();
+                if !is_first && end.root.compare(&place)?.is_ne() {
                     break;
                 }
                 self.passed[shape] += 1;
