@@ -6,7 +6,7 @@ mod scenes;
 
 pub use bits::{assert_same_bits, assert_same_part};
 pub use comparison::{Comparison, Rates, picture};
-pub use scenes::{camera_of, is_by_chance, load, parsed, scene_file, shipped_scenes, triangles};
+pub use scenes::{camera_of, is_by_chance, load, parsed, parsed_in, scene_file, shipped_scenes, triangles};
 
 use catoptra_core::Scene;
 use catoptra_tracer::{Control, Film, Pool, Size, Snapshot, View, backend_named, render};

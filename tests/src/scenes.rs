@@ -70,7 +70,15 @@ pub fn is_by_chance(name: &str) -> bool {
 /// # Panics
 /// When the text is no scene.
 pub fn parsed(text: &str) -> Scene {
-    match catoptra_scene::parse(text, "test", None) {
+    parsed_in(None, text)
+}
+
+/// A scene written in a test, whose files lie in a folder.
+///
+/// # Panics
+/// When the text is no scene.
+pub fn parsed_in(folder: Option<&Path>, text: &str) -> Scene {
+    match catoptra_scene::parse(text, "test", folder) {
         Ok((scene, _)) => scene,
         Err(error) => panic!("{error:?}"),
     }

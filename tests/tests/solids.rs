@@ -4,7 +4,7 @@
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Edit, Operation, Ray, Scene};
-use catoptra_tests::{assert_same_bits, camera_of, parsed, traced};
+use catoptra_tests::{assert_same_bits, camera_of, parsed, parsed_in, scene_file, traced};
 use catoptra_tracer::query::{RayList, find_nearest, find_occluded};
 use catoptra_tracer::{Film, Hit, Instructions, Pool, Size, Snapshot, View, backends};
 
@@ -19,6 +19,14 @@ const SCENE: &str = "camera \"c\" { eye 0 3 8; target 0 0.7 0; fov 40 }\nchecker
      box \"s3\" material=\"red\" { min 1 0.5 0; max 2 1 1 }\n tetrahedron \"t\" material=\"yellow\" { a 0 0.5 0; b 1 0.5 0; c 0 0.5 1; d 0 1.5 0 }\n}\n\
     intersection \"dome\" {\n sphere \"ball\" material=\"yellow\" { center 3.2 0 -1; radius 0.9 }\n plane \"cut\" material=\"blue\" { point 0 0.6 0; normal 0 1 0 }\n}\n\
     point-light \"p\" { position 3 6 5; intensity 40 }\nambient-light \"a\" { radiance 0.2 }";
+
+/// Members with several stretches on a ray: a ring, a star and a mesh.
+const CONCAVE: &str = "difference \"bitten ring\" {\n torus \"ring\" material=\"blue\" { center 0 2 -2; major 1; minor 0.3 }\n\
+     box \"bite\" material=\"red\" { min 0 1 -2; max 2 3 0 }\n}\n\
+    intersection \"medal\" {\n prism \"star\" material=\"yellow\" { point 1 0; point 0.3 0.3; point 0 1; point -0.3 0.3; point -1 0; point -0.3 -0.3; \
+      point 0 -1; point 0.3 -0.3; height 0.5; from -2 2 -2 }\n sphere \"round\" material=\"red\" { center -2 2 -2; radius 0.8 }\n}\n\
+    difference \"cut knot\" {\n mesh \"knot\" material=\"red\" { file \"meshes/knot.ply\"; scale 0.5; move 0 2 2 }\n\
+     plane \"halving\" material=\"blue\" { point 0 2 2; normal 1 1 0 }\n}\n";
 
 /// Numbers from -1 to 1 that look random (SplitMix64).
 struct Numbers(u64);
@@ -43,10 +51,11 @@ impl Numbers {
 
 #[test]
 fn every_backend_meets_what_the_search_without_trees_meets() {
-    let (scene, pool) = (parsed(SCENE), Pool::new(2).unwrap());
+    let pool = Pool::new(2).unwrap();
+    let scene = parsed_in(Some(&scene_file("gallery")), &format!("{SCENE}\n{CONCAVE}"));
     let snapshot = Snapshot::extract(&scene, &pool);
     let (mut numbers, mut rays, mut list) = (Numbers(1), Vec::new(), RayList::new());
-    for at in 0..20_000 {
+    for at in 0..50_000 {
         let ray = match at % 2 {
             0 => Ray::new(numbers.vector() * 4.0, numbers.vector()),
             _ => Ray::new(numbers.lattice(), numbers.lattice()),
@@ -59,7 +68,7 @@ fn every_backend_meets_what_the_search_without_trees_meets() {
     let span = catoptra_core::Span::FROM_ORIGIN;
     let right: Vec<Option<Hit>> =
         rays.iter().map(|ray| snapshot.nearest_of_all(&snapshot.own_ray(ray), span, None)).collect();
-    assert!(right.iter().flatten().count() > 5000);
+    assert!(right.iter().flatten().count() > 12_000);
     for backend in backends() {
         let (mut hits, mut occluded) = (Default::default(), Vec::new());
         find_nearest(*backend, &snapshot, &list, &mut hits, &pool);
@@ -138,3 +147,29 @@ fn a_changed_part_changes_the_whole_solid() {
         "\"pip\" cannot be a part of the solid \"die\": only planes, closed shapes and other solids can"
     );
 }
+
+#[test]
+fn the_edge_of_shade_is_round_on_a_mesh_that_is_subdivided() {
+    // The largest step from pixel to pixel where a ball of few triangles turns from the light.
+    let step = |levels: u32| {
+        let text = format!(
+            "camera \"c\" {{ eye 0 0 6; target 0 0 0; fov 20 }}\nmatte \"m\" {{ color 1 1 1 }}\n\
+             mesh \"ball\" material=\"m\" {{ file \"ball.obj\"; subdivision {levels} }}\ndirectional-light \"sun\" {{ direction -1 -0.3 0; irradiance 3 }}"
+        );
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("ball.obj"), OCTAHEDRON).unwrap();
+        let scene = parsed_in(Some(folder.path()), &text);
+        let size = Size::new(96, 96);
+        let film = traced(&scene, "wide", &View::of(&scene, camera_of(&scene), size), Film::new(size), 1);
+        let light = |x: u32, y: u32| f64::from(film.radiance(x, y)[0]);
+        let inside = |x: u32, y: u32| (f64::from(x) - 47.5).hypot(f64::from(y) - 47.5) < 20.0;
+        let pixels = (0..95).flat_map(|y| (0..95).map(move |x| (x, y))).filter(|&(x, y)| inside(x, y));
+        pixels.map(|(x, y)| (light(x + 1, y) - light(x, y)).abs()).fold(0.0, f64::max)
+    };
+    let (coarse, fine) = (step(0), step(4));
+    println!("{coarse} {fine}");
+    assert!(coarse > 0.1 && fine < coarse / 3.0, "{coarse} {fine}");
+}
+
+const OCTAHEDRON: &str = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nvn 1 0 0\nvn -1 0 0\nvn 0 1 0\nvn 0 -1 0\nvn 0 0 1\nvn 0 0 -1\n\
+    f 1//1 3//3 5//5\nf 3//3 2//2 5//5\nf 2//2 4//4 5//5\nf 4//4 1//1 5//5\nf 3//3 1//1 6//6\nf 2//2 3//3 6//6\nf 4//4 2//2 6//6\nf 1//1 4//4 6//6\n";
