@@ -9,7 +9,7 @@ use crate::actions;
 use crate::app::App;
 use crate::dropped;
 use crate::guard::{Answer, Next};
-use crate::input::{Button, Mode};
+use crate::input::{Button, Held, Mode};
 use crate::keys::{self, Command};
 use crate::screen::Screen;
 
@@ -97,8 +97,7 @@ impl App {
 
     /// The pointer tells that a handle can be dragged.
     fn show_grip(&self, screen: &Screen, at: (f64, f64)) {
-        let selection: Vec<_> = self.viewer.selection.into_iter().collect();
-        let grip = self.viewer.overlay(&self.viewer.camera, &selection).grip_at(at.0, at.1);
+        let grip = self.viewer.overlay(&self.viewer.camera).grip_at(at.0, at.1);
         screen.window.set_cursor(if grip.is_some() { CursorIcon::Grab } else { CursorIcon::Default });
     }
 
@@ -113,10 +112,10 @@ impl App {
             actions::gesture(&mut self.viewer, gesture);
         } else if self.over_picture && !self.asks() {
             let (x, y) = self.viewer.pointer.at;
-            let selection: Vec<_> = self.viewer.selection.into_iter().collect();
-            let grip = self.viewer.overlay(&self.viewer.camera, &selection).grip_at(x, y);
+            let grip = self.viewer.overlay(&self.viewer.camera).grip_at(x, y);
             let mode: Mode = self.viewer.settings.mode;
-            self.viewer.pointer.press(button, self.modifiers.shift_key(), mode, grip);
+            let held = Held { shift: self.modifiers.shift_key(), ctrl: self.modifiers.control_key() };
+            self.viewer.pointer.press(button, held, mode, grip);
             screen.egui.memory_mut(|memory| {
                 if let Some(focused) = memory.focused() {
                     memory.surrender_focus(focused);

@@ -102,6 +102,7 @@ pub(crate) const BINDINGS: &[Binding] = &[
 /// What the mouse does, and keys that go through buttons, for the help: what is done, and what follows.
 pub(crate) const OTHERS: &[(&str, &str)] = &[
     ("Click", "select what is under the pointer"),
+    ("Shift or Ctrl click", "select one more, or one less; Shift in the tree: all up to there"),
     ("Left drag", "orbit the camera; turntable: turn the objects"),
     ("Right or Shift drag", "pan"),
     ("Left drag on a ring", "change a spot light's cone angle"),

@@ -24,6 +24,7 @@ mod redraw;
 mod refine;
 mod retype;
 mod screen;
+mod selection;
 mod status;
 mod tracing;
 mod viewer;

@@ -18,6 +18,7 @@ use crate::latest::Latest;
 use crate::loader::Opened;
 use crate::naming::Named;
 use crate::preview::Preview;
+use crate::selection::{Picking, Selection};
 use crate::tracing::Request;
 
 /// Samples a pixel where each is one direction that sees the sky or does not: a quarter of the noise of a single one.
@@ -72,7 +73,7 @@ pub(crate) struct Viewer {
     /// The scene's camera that was last looked through.
     pub(crate) through: Option<EntityId>,
     pub(crate) settings: ViewSettings,
-    pub(crate) selection: Option<EntityId>,
+    pub(crate) selection: Selection,
     /// The texture whose fields are shown.
     pub(crate) texture: Option<TextureId>,
     /// The picture of a material.
@@ -121,7 +122,7 @@ impl Viewer {
                 display: Display::Srgb,
                 style,
             },
-            selection: None,
+            selection: Selection::default(),
             texture: None,
             preview: Preview::default(),
             typed_name: None,
@@ -145,7 +146,7 @@ impl Viewer {
         self.extraction = opened.extraction;
         self.latest = opened.latest;
         self.seen = self.document.scene().revision();
-        self.selection = None;
+        self.selection = Selection::default();
         self.texture = None;
         self.typed_name = None;
         self.error = None;
@@ -269,22 +270,37 @@ impl Viewer {
     }
 
     /// The overlays as seen by `camera` on a picture of that size.
-    pub(crate) fn overlay<'a>(&'a self, camera: &'a Camera, selection: &'a [EntityId]) -> Overlay<'a> {
+    pub(crate) fn overlay<'a>(&'a self, camera: &'a Camera) -> Overlay<'a> {
         let style = if self.shown.overlays {
             self.settings.style
         } else {
             OverlayStyle { scale: self.settings.style.scale, ..OverlayStyle::NONE }
         };
         let (width, height) = self.size;
-        Overlay { scene: self.document.scene(), camera, width, height, depth: None, selection, style }
+        let (scene, selection) = (self.document.scene(), self.selection.ids());
+        Overlay { scene, camera, width, height, depth: None, selection, style }
     }
 
-    /// Selects something or nothing. Cones are shown from the first spot light on that is selected.
+    /// Selects one thing alone, or nothing.
     pub(crate) fn select(&mut self, id: Option<EntityId>) {
-        if self.selection != id {
+        self.select_all(id.into_iter().collect());
+    }
+
+    /// Takes in a click on a thing, or on nothing.
+    pub(crate) fn click_on(&mut self, id: Option<EntityId>, picking: Picking) {
+        match (id, picking) {
+            (Some(id), _) => self.select_all(self.selection.picked(id, picking)),
+            (None, Picking::Only) => self.select(None),
+            (None, Picking::Toggle) => {}
+        }
+    }
+
+    /// Selects these. Cones are shown from the first spot light on that becomes the active one.
+    pub(crate) fn select_all(&mut self, selection: Selection) {
+        if self.selection != selection {
             self.finish_name();
-            self.selection = id;
-            let light = id.and_then(|id| self.document.scene().light(id));
+            self.selection = selection;
+            let light = self.selection.active().and_then(|id| self.document.scene().light(id));
             let is_spot = light.is_some_and(|l| l.position().is_some() && l.direction().is_some());
             self.settings.style.cones |= is_spot;
             self.stale.overlay = true;
@@ -330,9 +346,7 @@ impl Viewer {
         let moved = self.through.filter(|id| changes.iter().any(|c| c.subject == Subject::Entity(*id)));
         self.seen = scene.revision();
         self.extraction = Arc::new(Extraction::of(scene));
-        if self.selection.is_some_and(|id| !scene.contains(id)) {
-            self.selection = None;
-        }
+        self.selection = self.selection.without(|id| !scene.contains(id));
         self.texture = self.texture.filter(|id| scene.find_texture(*id).is_some());
         if moved.is_some() {
             self.adopt(moved);

@@ -5,6 +5,7 @@ mod desktop;
 mod guards;
 mod picture;
 mod programs;
+mod selecting;
 mod stage;
 
 use std::time::{Duration, Instant};

@@ -148,7 +148,7 @@ mod tests {
         drop_on(&mut viewer, &triangle(folder.path(), "flag.obj", 1.0));
         let scene = viewer.document.scene();
         let root = scene.entity_named("flag").unwrap();
-        assert_eq!((viewer.selection, scene.role(root)), (Some(root), Some(Role::Group)));
+        assert_eq!((viewer.selection.ids(), scene.role(root)), (&[root][..], Some(Role::Group)));
         let bounds = scene.world_bounds(root).unwrap();
         // On the ball's nearest point, its foot in the middle.
         assert!((bounds.min - DVec3::new(-0.5, 0.0, 0.0)).length() < 1e-2, "{bounds:?}");
@@ -173,7 +173,7 @@ mod tests {
         let mut viewer = viewer(folder.path());
         for (size, low, high) in [(2.0, 2.0, 2.0), (1000.0, 0.5, 10.0), (0.001, 0.5, 10.0)] {
             drop_on(&mut viewer, &triangle(folder.path(), "flag.obj", size));
-            let root = viewer.selection.unwrap();
+            let root = viewer.selection.active().unwrap();
             let bounds = viewer.document.scene().world_bounds(root).unwrap();
             let shown = bounds.max.y - bounds.min.y;
             assert!(shown >= low * 0.999 && shown <= high * 1.001, "{size}: {shown}");

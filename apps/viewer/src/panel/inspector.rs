@@ -12,10 +12,14 @@ use crate::viewer::Viewer;
 
 /// Shows what is selected.
 pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
-    let Some(id) = viewer.selection else {
-        ui.weak("Click something to select it.");
+    let Some(id) = viewer.selection.active() else {
+        ui.weak("Click something to select it; with Shift or Ctrl, several things.");
         return;
     };
+    let count = viewer.selection.ids().len();
+    if count > 1 {
+        ui.weak(format!("{count} selected: the fields are those of the last"));
+    }
     heading(ui, viewer, id);
     shape(ui, viewer, id);
     light(ui, viewer, id);

@@ -71,7 +71,11 @@ fn choose_material(ui: &mut Ui, viewer: &mut Viewer, id: EntityId, worn: Materia
         }
     });
     if let Some(other) = chosen.filter(|other| *other != worn) {
-        viewer.edit(Edit::MaterialOf(id, other));
+        let scene = viewer.document.scene();
+        let shapes =
+            viewer.selection.ids().iter().chain([&id]).filter(|id| scene.material_of(**id).is_some());
+        let worn = shapes.map(|shape| Edit::MaterialOf(*shape, other)).collect();
+        viewer.edit(Edit::Batch(worn));
     }
 }
 
