@@ -17,6 +17,7 @@ mod build;
 mod disk;
 mod excerpt;
 mod file;
+mod flags;
 mod foreign;
 pub mod ies;
 pub mod image;

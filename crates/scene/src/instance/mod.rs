@@ -8,7 +8,7 @@ mod parts;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use catoptra_core::scene::{EntityId, MaterialId, Node, Scene, TextureId};
+use catoptra_core::scene::{EntityId, Flags, MaterialId, Node, Scene, TextureId};
 use catoptra_core::{InvalidPart, Placement};
 
 use crate::build::Id;
@@ -33,6 +33,7 @@ pub(crate) struct Override {
     pub(crate) placement: Option<Placement>,
     pub(crate) material: Option<MaterialId>,
     pub(crate) removed: bool,
+    pub(crate) flags: Flags,
 }
 
 /// What the text says of parts, by their names in the file.

@@ -4,9 +4,9 @@ use catoptra_core::scene::Scene;
 use catoptra_core::{Field, FieldKind, Value};
 
 use super::layout::{self, INDENT};
-use super::splice::Splice;
+use super::splice::{Splice, without_space};
 use super::value::{number, quoted, words};
-use super::{node, paint, placement};
+use super::{flags, node, paint, placement};
 use crate::build::Id;
 use crate::outline::{FieldText, Item, Outline, Part, Sort};
 use crate::scan;
@@ -44,7 +44,8 @@ fn edit_item(text: &str, item: &Item, now: &State, scene: &Scene, splices: &mut 
         splices.push(Splice::new(old.span.clone(), quoted(new)));
     }
     let mut lines = edit_fields(text, item, &now.part, scene, splices);
-    let steps = placement::edit(text, item, &now.placement, splices);
+    let mut steps = placement::edit(text, item, &now.placement, splices);
+    steps.extend(flags::edit(text, item, &now.flags, splices));
     if now.part.sort().has_members() {
         put_at_start(text, item, &steps, splices);
     } else {
@@ -165,9 +166,7 @@ impl Change<'_> {
 
 fn removal(text: &str, written: &FieldText) -> Splice {
     if written.property {
-        // The space before it goes with it.
-        let before = &text[..written.span.start];
-        Splice::new(before.trim_end_matches([' ', '\t']).len()..written.span.end, "")
+        without_space(text, &written.span)
     } else {
         Splice::new(layout::whole_node(text, &written.span), "")
     }

@@ -18,6 +18,12 @@ impl Splice {
     }
 }
 
+/// Takes out a property and the space before it.
+pub(super) fn without_space(text: &str, property: &Span) -> Splice {
+    let before = &text[..property.start];
+    Splice::new(before.trim_end_matches([' ', '\t']).len()..property.end, "")
+}
+
 /// Applies splices that do not overlap. Answers with the new text, where each place of `kept` has gone (`None` if
 /// it was replaced), and the ids of the new nodes with the places at which their text begins.
 pub(crate) fn apply(
