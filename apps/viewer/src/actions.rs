@@ -6,7 +6,9 @@ use catoptra_core::Aabb;
 use catoptra_core::scene::{Edit, EntityId, Role};
 use catoptra_raster::Grip;
 
+use crate::browse::Purpose;
 use crate::camera_control::{self, NOTCH, ORBIT_PER_PIXEL};
+use crate::deeds::Deed;
 use crate::guard::Next;
 use crate::input::{Drag, Gesture, Mode};
 use crate::keys::Command;
@@ -58,6 +60,10 @@ pub(crate) fn run(viewer: &mut Viewer, command: Command) {
         Command::Undo => undo(viewer),
         Command::Redo => redo(viewer),
         Command::Save => viewer.save(),
+        Command::SaveAs => viewer.save_elsewhere(None),
+        Command::New => viewer.leave(Next::New),
+        Command::Open => open(viewer),
+        Command::Reload => reload(viewer),
         Command::Picture => viewer.picture_wanted = true,
     }
 }
@@ -100,12 +106,26 @@ fn next_camera(viewer: &mut Viewer) {
 }
 
 fn escape(viewer: &mut Viewer) {
-    if viewer.error.take().is_none() {
-        if viewer.shown.help {
-            viewer.shown.help = false;
-        } else {
-            viewer.select(None);
-        }
+    match () {
+        () if viewer.error.take().is_some() || viewer.failure.take().is_some() => {}
+        () if viewer.shown.help => viewer.shown.help = false,
+        () => viewer.select(None),
+    }
+}
+
+fn open(viewer: &mut Viewer) {
+    viewer.finish_name();
+    let folder = viewer.document.folder();
+    viewer.browse(Purpose::Open, folder, String::new());
+}
+
+fn reload(viewer: &mut Viewer) {
+    match viewer.error.as_ref().map(|broken| broken.source.clone()) {
+        Some(broken) => viewer.leave(broken),
+        None => match viewer.document.source().map(Path::to_owned) {
+            Some(file) => viewer.leave(Next::Open(file)),
+            None => viewer.notify("this scene has no file to be read again"),
+        },
     }
 }
 
@@ -117,19 +137,22 @@ fn delete(viewer: &mut Viewer) {
 }
 
 fn undo(viewer: &mut Viewer) {
-    if viewer.document.undo() {
-        viewer.notify("undone");
-    } else {
-        viewer.notify("nothing to undo");
-    }
+    let deed = viewer.document.undo();
+    tell(viewer, deed, "undo");
 }
 
 fn redo(viewer: &mut Viewer) {
-    if viewer.document.redo() {
-        viewer.notify("redone");
-    } else {
-        viewer.notify("nothing to redo");
+    let deed = viewer.document.redo();
+    tell(viewer, deed, "redo");
+}
+
+/// Tells what a step did, and selects what came with it.
+fn tell(viewer: &mut Viewer, deed: Option<Deed>, way: &str) {
+    let Some(deed) = deed else { return viewer.notify(format!("nothing to {way}")) };
+    if !deed.brought.is_empty() {
+        viewer.select_all(deed.brought.into_iter().collect());
     }
+    viewer.notify(format!("{way}: {}", deed.words));
 }
 
 /// Writes the picture as it was traced, without overlays, under a free name in the current folder.
@@ -351,6 +374,8 @@ mod tests {
         assert!(viewer.selection.is_empty());
         run(&mut viewer, Command::Undo);
         assert_eq!(viewer.document.scene().entity_named("floor"), floor);
+        assert_eq!(viewer.selection.active(), floor, "it is selected again");
+        assert_eq!(viewer.notice.as_ref().unwrap().0, "undo: delete floor");
     }
 
     #[test]

@@ -60,9 +60,9 @@ impl App {
         }
     }
 
-    /// Whether a question stands in the window: then all keys and clicks are for it.
+    /// Whether a question stands in the window, or a file is chosen: then all keys and clicks are for that.
     fn asks(&self) -> bool {
-        self.viewer.guard.question().is_some()
+        self.viewer.guard.question().is_some() || self.viewer.browser.is_some()
     }
 
     /// Gives an event to egui.
@@ -114,8 +114,7 @@ impl App {
             let (x, y) = self.viewer.pointer.at;
             let grip = self.viewer.overlay(&self.viewer.camera).grip_at(x, y);
             let mode: Mode = self.viewer.settings.mode;
-            let held = Held { shift: self.modifiers.shift_key(), ctrl: self.modifiers.control_key() };
-            self.viewer.pointer.press(button, held, mode, grip);
+            self.viewer.pointer.press(button, self.held(), mode, grip);
             screen.egui.memory_mut(|memory| {
                 if let Some(focused) = memory.focused() {
                     memory.surrender_focus(focused);
@@ -137,7 +136,7 @@ impl App {
     fn key(&mut self, screen: &mut Screen, event: &WindowEvent, key: &KeyEvent) {
         let typing = screen.egui.egui_wants_keyboard_input();
         let command = self.command(key);
-        let everywhere = matches!(command, Some(Command::Save | Command::Quit | Command::Help));
+        let everywhere = command.is_some_and(Command::is_everywhere);
         if key.state == ElementState::Pressed
             && let Some(command) = command
             && (!typing || everywhere)
@@ -153,15 +152,28 @@ impl App {
     /// While something is asked, Esc cancels, Ctrl+Q asks anew, and all other keys go to the buttons.
     fn key_to_question(&mut self, screen: &mut Screen, event: &WindowEvent, key: &KeyEvent) {
         match self.command(key) {
-            Some(Command::Escape) if key.state == ElementState::Pressed => self.viewer.answer(Answer::Cancel),
+            Some(Command::Escape) if key.state == ElementState::Pressed => self.cancel(),
             Some(Command::Quit) if key.state == ElementState::Pressed => self.viewer.leave(Next::Close),
             _ => self.forward(screen, event),
         }
     }
 
+    /// Takes away what stands over the window.
+    fn cancel(&mut self) {
+        if self.viewer.browser.take().is_none() {
+            self.viewer.answer(Answer::Cancel);
+        }
+        self.viewer.stale.panel = true;
+    }
+
     /// What that key asks for under the modifiers that are held.
     fn command(&self, key: &KeyEvent) -> Option<Command> {
-        let control = self.modifiers.control_key() || self.modifiers.super_key();
-        keys::command(&key.logical_key, control, self.modifiers.shift_key())
+        keys::command(&key.logical_key, self.held())
+    }
+
+    /// The keys that are held.
+    fn held(&self) -> Held {
+        let keys = self.modifiers;
+        Held { shift: keys.shift_key(), ctrl: keys.control_key() || keys.super_key(), alt: keys.alt_key() }
     }
 }

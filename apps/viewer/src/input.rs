@@ -45,13 +45,15 @@ pub(crate) enum Button {
     Other,
 }
 
-/// Which keys are held while a button goes down.
+/// Which keys are held while a button or another key goes down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Held {
     /// Either of the Shift keys.
     pub(crate) shift: bool,
     /// Either of the Ctrl keys.
     pub(crate) ctrl: bool,
+    /// Alt.
+    pub(crate) alt: bool,
 }
 
 /// What a drag changes.
@@ -167,9 +169,9 @@ impl Pointer {
 mod tests {
     use super::*;
 
-    const SHIFT: Held = Held { shift: true, ctrl: false };
-    const CTRL: Held = Held { shift: false, ctrl: true };
-    const NONE: Held = Held { shift: false, ctrl: false };
+    const SHIFT: Held = Held { shift: true, ctrl: false, alt: false };
+    const CTRL: Held = Held { shift: false, ctrl: true, alt: false };
+    const NONE: Held = Held { shift: false, ctrl: false, alt: false };
 
     fn pressed(button: Button, held: Held, mode: Mode) -> Pointer {
         let mut pointer = Pointer { at: (10.0, 10.0), press: None };

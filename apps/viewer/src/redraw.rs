@@ -49,6 +49,8 @@ impl App {
         if self.shown_title != title {
             screen.window.set_title(&title);
             self.shown_title = title;
+            // The scene was saved, or edited, or is another.
+            self.watch_files();
         }
         screen.present(changed)
     }

@@ -1,7 +1,7 @@
 //! What does the viewer know, and what follows from what a person does? The open scene, the view on it, what is
 //! selected and shown; no window, no drawing.
 
-use std::path::Path;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -10,9 +10,10 @@ use catoptra_core::{Aabb, Camera, Integrator};
 use catoptra_raster::{Overlay, OverlayStyle};
 use catoptra_tracer::{Backend, Display, Extraction, Pick, Size, Tone, View, backends, pick};
 
+use crate::browse::Browser;
 use crate::camera_control;
 use crate::document::Document;
-use crate::guard::{Answer, Guard, Next};
+use crate::guard::{Guard, Next};
 use crate::input::{Mode, Pointer};
 use crate::latest::Latest;
 use crate::loader::Opened;
@@ -62,6 +63,22 @@ pub(crate) struct ViewSettings {
     pub(crate) style: OverlayStyle,
 }
 
+/// What the window is to do that the viewer cannot do by itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// Read a model and put it into the scene.
+    Model(PathBuf),
+}
+
+/// A file that could not be read.
+#[derive(Debug, Clone)]
+pub(crate) struct Broken {
+    /// What is wrong, with its line.
+    pub(crate) report: String,
+    /// What was to be read.
+    pub(crate) source: Next,
+}
+
 /// The viewer's state.
 pub(crate) struct Viewer {
     pub(crate) document: Document,
@@ -86,8 +103,14 @@ pub(crate) struct Viewer {
     pub(crate) size: (u32, u32),
     /// A line for the person, and since when it stands.
     pub(crate) notice: Option<(String, Instant)>,
-    /// A report of what is wrong with a file.
-    pub(crate) error: Option<String>,
+    /// What is wrong with a file.
+    pub(crate) error: Option<Broken>,
+    /// What could not be done; it stands until it is done or taken away.
+    pub(crate) failure: Option<String>,
+    /// What the window is to do.
+    pub(crate) wanted: Option<Wanted>,
+    /// The way to a file that is wanted.
+    pub(crate) browser: Option<Browser>,
     /// What is asked before work is lost.
     pub(crate) guard: Guard,
     /// A picture is to be written as soon as it is finished.
@@ -131,6 +154,9 @@ impl Viewer {
             size: (0, 0),
             notice: None,
             error: None,
+            failure: None,
+            browser: None,
+            wanted: None,
             guard: Guard::default(),
             picture_wanted: false,
             stale: Stale { trace: true, overlay: true, panel: true },
@@ -140,8 +166,12 @@ impl Viewer {
         viewer
     }
 
-    /// Shows another scene from its own camera; what is switched on stays.
+    /// Shows another scene from its own camera, or the same file read again from where one looks now; what is switched on
+    /// stays.
     pub(crate) fn show(&mut self, opened: Opened) {
+        let again = self.document.source().is_some() && self.document.source() == opened.document.source();
+        let kept = again.then(|| self.kept_view());
+        self.document.settle();
         self.document = opened.document;
         self.extraction = opened.extraction;
         self.latest = opened.latest;
@@ -150,43 +180,25 @@ impl Viewer {
         self.texture = None;
         self.typed_name = None;
         self.error = None;
+        self.failure = None;
+        self.browser = None;
         self.guard.forget();
-        self.adopt(self.document.scene().main_camera());
+        match kept {
+            Some((selected, through)) => {
+                let scene = self.document.scene();
+                self.selection = selected.iter().filter_map(|name| scene.entity_named(name)).collect();
+                self.through = through.and_then(|name| scene.entity_named(&name));
+            }
+            None => self.adopt(self.document.scene().main_camera()),
+        }
         self.stale = Stale { trace: true, overlay: true, panel: true };
     }
 
-    /// Closes the window or opens another scene, once the edits are saved or given up.
-    pub(crate) fn leave(&mut self, next: Next) {
-        self.finish_name();
-        self.guard.leave(next, &self.document);
-        self.stale.panel = true;
-    }
-
-    /// Whether a scene that was wished for at that revision may be shown; else edits made since are asked about.
-    pub(crate) fn lets_in(&mut self, file: &Path, wished_at: u64) -> bool {
-        self.finish_name();
-        self.stale.panel = true;
-        self.guard.lets_in(file, wished_at, &self.document)
-    }
-
-    /// Saves the scene, unless its file was changed by someone else: then it is asked about.
-    pub(crate) fn save(&mut self) {
-        self.finish_name();
-        let told = self.guard.save(&mut self.document);
-        self.tell(told);
-    }
-
-    /// Answers what is asked.
-    pub(crate) fn answer(&mut self, answer: Answer) {
-        let told = self.guard.answer(answer, &mut self.document);
-        self.tell(told);
-    }
-
-    fn tell(&mut self, told: Option<String>) {
-        self.stale.panel = true;
-        if let Some(told) = told {
-            self.notify(told);
-        }
+    /// The names of what is selected and of the camera that was looked through.
+    fn kept_view(&self) -> (Vec<String>, Option<String>) {
+        let scene = self.document.scene();
+        let selected = self.selection.ids().iter().filter_map(|id| scene.name(*id)).collect();
+        (selected, self.through.and_then(|id| scene.name(id)))
     }
 
     /// Tells the person something.

@@ -158,11 +158,11 @@ mod tests {
         let node = saved.strip_prefix(TEXT).unwrap();
         assert!(node.starts_with("model \"flag\" {\n    file \"flag.obj\"\n    move "), "{node}");
         assert!(Document::open(&path).unwrap().scene().entity_named("flag/Flag").is_some());
-        assert!(viewer.document.undo());
+        assert!(viewer.document.undo().is_some());
         assert_eq!(viewer.document.scene().entity_named("flag"), None);
         viewer.document.save().unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), TEXT);
-        assert!(viewer.document.redo());
+        assert!(viewer.document.redo().is_some());
         viewer.document.save().unwrap();
         assert_eq!(std::fs::read_to_string(&path).unwrap(), saved);
     }
@@ -177,7 +177,7 @@ mod tests {
             let bounds = viewer.document.scene().world_bounds(root).unwrap();
             let shown = bounds.max.y - bounds.min.y;
             assert!(shown >= low * 0.999 && shown <= high * 1.001, "{size}: {shown}");
-            assert!(viewer.document.undo());
+            assert!(viewer.document.undo().is_some());
         }
     }
 

@@ -99,7 +99,7 @@ impl Bench {
     }
 
     fn undo(&mut self) {
-        assert!(self.viewer.document.undo());
+        assert!(self.viewer.document.undo().is_some());
         assert!(self.viewer.document.is_saved(), "it was one step");
     }
 }

@@ -5,6 +5,7 @@
 mod clicks;
 mod dialogs;
 mod fields;
+mod files;
 mod inspector;
 mod material;
 mod paint;
@@ -44,6 +45,8 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, status: &str) -> Rect {
     dialogs::turntable(ui, viewer, room);
     dialogs::help(ui, viewer, room);
     dialogs::error(ui, viewer, room);
+    dialogs::failure(ui, viewer, room);
+    files::show(ui, viewer, whole);
     question::show(ui, viewer, whole);
     if ui.input(|input| input.pointer.any_released()) {
         viewer.document.end_step();
