@@ -12,6 +12,7 @@ use crate::deeds::Deed;
 use crate::guard::Next;
 use crate::input::{Drag, Gesture, Mode};
 use crate::keys::Command;
+use crate::making;
 use crate::selection::Picking;
 use crate::tracing::Frame;
 use crate::viewer::Viewer;
@@ -56,7 +57,24 @@ pub(crate) fn run(viewer: &mut Viewer, command: Command) {
             viewer.stale.overlay = true;
         }
         Command::Escape => escape(viewer),
-        Command::Delete => delete(viewer),
+        Command::Delete => making::delete(viewer),
+        Command::Add => making::choose(viewer),
+        Command::Duplicate => making::duplicate(viewer),
+        Command::Cut => making::cut(viewer),
+        Command::Copy => {
+            making::copy(viewer);
+        }
+        Command::Paste => making::ask_to_paste(viewer),
+        Command::Rename => making::rename(viewer),
+        Command::Group => making::group(viewer),
+        Command::Ungroup => making::ungroup(viewer),
+        Command::Hide => making::hide(viewer),
+        Command::ShowAll => making::show_all(viewer),
+        Command::Lock => making::lock(viewer),
+        Command::SelectAll => {
+            let all = viewer.document.scene().children(None);
+            viewer.select_all(all.into_iter().collect());
+        }
         Command::Undo => undo(viewer),
         Command::Redo => redo(viewer),
         Command::Save => viewer.save(),
@@ -129,13 +147,6 @@ fn reload(viewer: &mut Viewer) {
     }
 }
 
-fn delete(viewer: &mut Viewer) {
-    let selected = viewer.selection.tops(viewer.document.scene());
-    if !selected.is_empty() {
-        viewer.edit(Edit::Batch(selected.into_iter().map(Edit::Remove).collect()));
-    }
-}
-
 fn undo(viewer: &mut Viewer) {
     let deed = viewer.document.undo();
     tell(viewer, deed, "undo");
@@ -184,6 +195,7 @@ pub(crate) fn gesture(viewer: &mut Viewer, gesture: Gesture) {
 fn click(viewer: &mut Viewer, (x, y): (f64, f64), picking: Picking) {
     let mark = viewer.overlay(&viewer.camera).mark_at(x, y);
     let found = mark.or_else(|| viewer.pick(x, y).map(|hit| hit.entity));
+    let found = found.filter(|id| !viewer.document.scene().is_locked(*id));
     viewer.click_on(found, picking);
 }
 

@@ -60,9 +60,10 @@ impl App {
         }
     }
 
-    /// Whether a question stands in the window, or a file is chosen: then all keys and clicks are for that.
+    /// Whether a question stands in the window, or something is chosen: then all keys and clicks are for that.
     fn asks(&self) -> bool {
-        self.viewer.guard.question().is_some() || self.viewer.browser.is_some()
+        let viewer = &self.viewer;
+        viewer.guard.question().is_some() || viewer.browser.is_some() || viewer.adding.is_some()
     }
 
     /// Gives an event to egui.
@@ -160,7 +161,7 @@ impl App {
 
     /// Takes away what stands over the window.
     fn cancel(&mut self) {
-        if self.viewer.browser.take().is_none() {
+        if self.viewer.adding.take().is_none() && self.viewer.browser.take().is_none() {
             self.viewer.answer(Answer::Cancel);
         }
         self.viewer.stale.panel = true;

@@ -27,8 +27,32 @@ pub(crate) enum Command {
     ToggleOverlays,
     /// Select nothing, close what is open.
     Escape,
-    /// Take the selected thing out of the scene.
+    /// Take what is selected out of the scene.
     Delete,
+    /// Choose something to be added.
+    Add,
+    /// Make one more of what is selected.
+    Duplicate,
+    /// Take what is selected to the clipboard.
+    Cut,
+    /// Put what is selected on the clipboard.
+    Copy,
+    /// Put into the scene what is on the clipboard.
+    Paste,
+    /// Give the selected thing another name.
+    Rename,
+    /// Make a group of what is selected.
+    Group,
+    /// Take the members out of the selected groups.
+    Ungroup,
+    /// Hide what is selected, or show it again.
+    Hide,
+    /// Show all that is hidden.
+    ShowAll,
+    /// Lock what is selected, or unlock it.
+    Lock,
+    /// Select all that stands at the top of the scene.
+    SelectAll,
     /// Take the last edit back.
     Undo,
     /// Make the last edit that was taken back again.
@@ -81,6 +105,8 @@ pub(crate) struct Binding {
 
 const NONE: Held = Held { ctrl: false, shift: false, alt: false };
 const CTRL: Held = Held { ctrl: true, ..NONE };
+const SHIFT: Held = Held { shift: true, ..NONE };
+const ALT: Held = Held { alt: true, ..NONE };
 const CTRL_SHIFT: Held = Held { ctrl: true, shift: true, ..NONE };
 
 const fn named(key: NamedKey, label: &'static str, command: Command, doc: &'static str) -> Binding {
@@ -112,7 +138,20 @@ pub(crate) const BINDINGS: &[Binding] = &[
     letter(NONE, "t", "T", Command::ToggleMode, "orbit the camera, or turn the objects (an edit)"),
     letter(NONE, "o", "O", Command::ToggleOverlays, "show or hide all overlays"),
     letter(NONE, "p", "P", Command::Picture, "write the picture as PNG"),
-    named(NamedKey::Delete, "Delete", Command::Delete, "take the selected thing out"),
+    named(NamedKey::Delete, "Delete", Command::Delete, "delete what is selected"),
+    letter(SHIFT, "a", "Shift+A", Command::Add, "add something, where the pointer is"),
+    letter(CTRL, "d", "Ctrl+D", Command::Duplicate, "duplicate what is selected"),
+    letter(SHIFT, "d", "Shift+D", Command::Duplicate, "duplicate what is selected"),
+    letter(CTRL, "x", "Ctrl+X", Command::Cut, "cut what is selected, as scene text"),
+    letter(CTRL, "c", "Ctrl+C", Command::Copy, "copy what is selected, as scene text"),
+    letter(CTRL, "v", "Ctrl+V", Command::Paste, "paste scene text"),
+    named(NamedKey::F2, "F2", Command::Rename, "rename the selected thing"),
+    letter(CTRL, "g", "Ctrl+G", Command::Group, "group what is selected"),
+    letter(CTRL_SHIFT, "g", "Ctrl+Shift+G", Command::Ungroup, "ungroup the selected groups"),
+    letter(NONE, "h", "H", Command::Hide, "hide what is selected, or show it again"),
+    letter(ALT, "h", "Alt+H", Command::ShowAll, "show all that is hidden"),
+    letter(CTRL, "l", "Ctrl+L", Command::Lock, "lock what is selected, or unlock it"),
+    letter(CTRL, "a", "Ctrl+A", Command::SelectAll, "select everything"),
     named(NamedKey::Escape, "Esc", Command::Escape, "select nothing, close or cancel what is open"),
     letter(CTRL, "n", "Ctrl+N", Command::New, "begin a new scene; asks about unsaved edits"),
     letter(CTRL, "o", "Ctrl+O", Command::Open, "open a file; asks about unsaved edits"),
@@ -137,6 +176,7 @@ pub(crate) const OTHERS: &[(&str, &str)] = &[
     ("Ctrl wheel", "the other of the two"),
     ("Drop a scene", "open it; asks about unsaved edits"),
     ("Drop a picture", "make it the texture of the selected shape"),
+    ("Right click in the tree", "what can be done with what is selected"),
     ("Tab, Enter", "go through a question's buttons, press one"),
 ];
 

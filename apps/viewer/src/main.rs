@@ -18,6 +18,7 @@ mod input;
 mod keys;
 mod latest;
 mod loader;
+mod making;
 mod naming;
 mod opening;
 mod options;

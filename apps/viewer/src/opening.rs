@@ -8,7 +8,7 @@ use crate::app::{App, Wake};
 use crate::guard::Next;
 use crate::loader::{self, Outcome};
 use crate::viewer::{Broken, Wanted};
-use crate::{dropped, recent, recovery};
+use crate::{dropped, making, recent, recovery};
 
 impl App {
     /// Starts to read what comes next; the scene shown stays until that is there, and goes then with the edits made so far.
@@ -123,6 +123,15 @@ impl App {
         match self.viewer.wanted.take() {
             None => {}
             Some(Wanted::Model(file)) => self.model_dropped(&file),
+            Some(Wanted::Copy(text)) => {
+                if let Some(screen) = &mut self.screen {
+                    screen.input.set_clipboard_text(text);
+                }
+            }
+            Some(Wanted::Paste) => {
+                let text = self.screen.as_mut().and_then(|screen| screen.input.clipboard_text());
+                making::paste(&mut self.viewer, &text.unwrap_or_default());
+            }
         }
     }
 

@@ -1,6 +1,61 @@
-//! How does a material become one of another kind? It keeps what both kinds call by the same name.
+//! How does a part become one of another kind? It keeps what both kinds call by the same name; a shape or a light stays about
+//! where it is, and as large.
 
-use catoptra_core::{Field, FieldKind, InvalidPart, Kind, Material, Rgb, Value, Values};
+use catoptra_core::glam::DVec3;
+use catoptra_core::{
+    Aabb, Field, FieldKind, InvalidPart, Kind, Light, Material, Placement, Rgb, Shape, Value, Values,
+};
+
+use crate::making::starters;
+
+/// The shape of that kind: as large as the old one and in its place, with those of its values that both kinds have.
+///
+/// # Errors
+/// A kind that needs a file.
+pub(crate) fn shape(old: &Shape, kind: &'static str) -> Result<Shape, InvalidPart> {
+    let new = starters::shape(kind).ok_or(InvalidPart::new("kind", "must need no file", kind))?;
+    let new = match (old.bounds(), new.bounds()) {
+        (Some(from), Some(to)) => new.placed(&fitting(&to, &from)),
+        _ => new,
+    };
+    Ok(keeping(new, &old.values(), |shape, field, value| shape.with(field, value).ok()))
+}
+
+/// The light of that kind: in the place of the old one, with those of its values that both kinds have.
+///
+/// # Errors
+/// A kind that needs a file.
+pub(crate) fn light(old: &Light, kind: &'static str) -> Result<Light, InvalidPart> {
+    let new = starters::light(kind).ok_or(InvalidPart::new("kind", "must need no file", kind))?;
+    let surface = old.lamp().and_then(|lamp| lamp.shape.bounds());
+    let at = surface.map(|bounds| bounds.centre()).or_else(|| old.position());
+    let size = surface.map_or(1.0, |bounds| bounds.size().max_element());
+    let placed =
+        |size: f64| Placement::IDENTITY.scaled(size).and_then(|p| p.moved(at.unwrap_or(DVec3::ZERO)));
+    let new = if new.lamp().is_some() || new.position().is_some() {
+        placed(if new.lamp().is_some() { size } else { 1.0 }).map(|to| new.placed(&to)).unwrap_or(new)
+    } else {
+        new
+    };
+    Ok(keeping(new, &old.values(), |light, field, value| light.with(field, value).ok()))
+}
+
+/// A part with those values that it takes, one after the other.
+fn keeping<T>(mut part: T, old: &Values, with: impl Fn(&T, &'static str, Value) -> Option<T>) -> T {
+    for (name, value) in old.iter() {
+        if let Some(kept) = with(&part, name, value.clone()) {
+            part = kept;
+        }
+    }
+    part
+}
+
+/// What brings a box into the place of another, as large in its largest side.
+fn fitting(from: &Aabb, to: &Aabb) -> Placement {
+    let factor = to.size().max_element() / from.size().max_element();
+    let scaled = Placement::IDENTITY.scaled(factor).unwrap_or_default();
+    scaled.moved(to.centre() - scaled.point(from.centre())).unwrap_or(scaled)
+}
 
 /// The material of that kind which keeps every value that the kind knows by name and accepts; without its texture, if it
 /// accepts it only so. All else is as when left out; a colour that must be given is the first one of the old material, and a
@@ -82,6 +137,37 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn every_shape_becomes_every_other_in_its_place() {
+        let all = || Shape::KINDS.iter().filter_map(|kind| starters::shape(kind.name));
+        for old in all() {
+            let old = old
+                .placed(&Placement::IDENTITY.scaled(3.0).unwrap().moved(DVec3::new(5.0, 1.0, 2.0)).unwrap());
+            for new in all() {
+                let new = shape(&old, new.kind_name()).unwrap();
+                let Some((was, is)) = old.bounds().zip(new.bounds()) else { continue };
+                let apart = was.centre().distance(is.centre());
+                assert!(apart < was.size().max_element(), "{} as {}", old.kind_name(), new.kind_name());
+            }
+        }
+    }
+
+    #[test]
+    fn a_light_keeps_its_place_and_what_both_kinds_have() {
+        let spot = starters::light("spot-light").unwrap();
+        let at = DVec3::new(1.0, 2.0, 3.0);
+        let spot = spot.placed(&Placement::IDENTITY.moved(at).unwrap());
+        for kind in Light::KINDS {
+            let new = light(&spot, kind.name).unwrap();
+            assert_eq!(new.kind_name(), kind.name);
+            assert!(new.position().is_none_or(|position| position == at), "{}", kind.name);
+            let lamp = new.lamp().and_then(|lamp| lamp.shape.bounds());
+            assert!(lamp.is_none_or(|bounds| bounds.centre().distance(at) < 1e-9), "{}", kind.name);
+        }
+        let point = light(&spot, "point-light").unwrap();
+        assert_eq!(point.values().get("intensity"), spot.values().get("intensity"));
     }
 
     #[test]

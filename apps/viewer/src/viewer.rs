@@ -17,6 +17,7 @@ use crate::guard::{Guard, Next};
 use crate::input::{Mode, Pointer};
 use crate::latest::Latest;
 use crate::loader::Opened;
+use crate::making::add::Adding;
 use crate::naming::Named;
 use crate::preview::Preview;
 use crate::selection::{Picking, Selection};
@@ -68,6 +69,10 @@ pub(crate) struct ViewSettings {
 pub(crate) enum Wanted {
     /// Read a model and put it into the scene.
     Model(PathBuf),
+    /// Put a text on the clipboard.
+    Copy(String),
+    /// Paste what is on the clipboard.
+    Paste,
 }
 
 /// A file that could not be read.
@@ -109,6 +114,10 @@ pub(crate) struct Viewer {
     pub(crate) failure: Option<String>,
     /// What the window is to do.
     pub(crate) wanted: Option<Wanted>,
+    /// What is being chosen to be added.
+    pub(crate) adding: Option<Adding>,
+    /// The field of the name that is being typed is to have the keys.
+    pub(crate) names_next: bool,
     /// The way to a file that is wanted.
     pub(crate) browser: Option<Browser>,
     /// What is asked before work is lost.
@@ -157,6 +166,8 @@ impl Viewer {
             failure: None,
             browser: None,
             wanted: None,
+            adding: None,
+            names_next: false,
             guard: Guard::default(),
             picture_wanted: false,
             stale: Stale { trace: true, overlay: true, panel: true },
@@ -182,6 +193,7 @@ impl Viewer {
         self.error = None;
         self.failure = None;
         self.browser = None;
+        self.adding = None;
         self.guard.forget();
         match kept {
             Some((selected, through)) => {
@@ -328,10 +340,12 @@ impl Viewer {
         }
     }
 
-    /// Changes the scene as one step to undo; a refusal is told.
-    pub(crate) fn edit(&mut self, edit: Edit) {
+    /// Changes the scene as one step to undo; `false` for a refusal, which is told.
+    pub(crate) fn edit(&mut self, edit: Edit) -> bool {
         let outcome = self.document.edit(edit);
+        let done = outcome.is_ok();
         self.after_edit(outcome);
+        done
     }
 
     /// Changes the scene as a part of the step with that key; a refusal is told.

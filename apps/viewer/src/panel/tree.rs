@@ -1,10 +1,11 @@
 //! What is in the scene? A tree of groups, shapes, lights and cameras; a click selects, with Shift all up to there, with Ctrl
 //! one more.
 
-use catoptra_core::scene::{EntityId, Role, Scene};
+use catoptra_core::scene::{EntityId, Flags, Role, Scene};
 use egui::{Id, ScrollArea, Sense, Ui};
 
-use super::theme;
+use super::{menus, theme};
+use crate::making;
 use crate::selection::Picking;
 use crate::viewer::Viewer;
 
@@ -57,7 +58,20 @@ fn show_row(ui: &mut Ui, viewer: &mut Viewer, rows: &[Row], row: &Row) {
         let name = viewer.document.scene().name(row.id).unwrap_or_default();
         let selected = viewer.selection.contains(row.id);
         let kind = kind_name(viewer.document.scene(), row.id);
-        if ui.selectable_label(selected, name).on_hover_text(kind).clicked() {
+        let hidden = viewer.document.scene().is_hidden(row.id);
+        let mut text = egui::RichText::new(name);
+        if hidden {
+            text = text.weak().italics();
+        }
+        let label = ui.selectable_label(selected, text).on_hover_text(kind);
+        flags(ui, viewer.document.scene().flags(row.id));
+        if label.secondary_clicked() && !selected {
+            viewer.select(Some(row.id));
+        }
+        label.context_menu(|ui| menus::selected(ui, viewer));
+        if label.double_clicked() {
+            making::rename(viewer);
+        } else if label.clicked() {
             let held = ui.input(|input| input.modifiers);
             let alone = viewer.selection.ids() == [row.id];
             match () {
@@ -67,6 +81,15 @@ fn show_row(ui: &mut Ui, viewer: &mut Viewer, rows: &[Row], row: &Row) {
             }
         }
     });
+}
+
+/// What is set aside about a thing.
+fn flags(ui: &mut Ui, flags: Flags) {
+    for (is_set, word) in [(flags.hidden, "hidden"), (flags.locked, "locked")] {
+        if is_set {
+            ui.weak(word);
+        }
+    }
 }
 
 /// The rows from the active one to that one, which comes last.

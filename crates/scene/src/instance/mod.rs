@@ -15,6 +15,7 @@ use crate::build::Id;
 use crate::model::Model;
 use crate::state::State;
 pub(crate) use find::{find, find_mut, image_named, mesh_named, names};
+pub(crate) use looks::repainted;
 use making::Making;
 use parts::FilePart;
 pub(crate) use parts::{PartNow, Wish};
