@@ -134,7 +134,7 @@ fn escape(viewer: &mut Viewer) {
 fn open(viewer: &mut Viewer) {
     viewer.finish_name();
     let folder = viewer.document.folder();
-    viewer.browse(Purpose::Open, folder, String::new());
+    viewer.browse(Purpose::Open, &folder, String::new());
 }
 
 fn reload(viewer: &mut Viewer) {

@@ -38,10 +38,10 @@ pub(crate) struct Browser {
 
 impl Browser {
     /// In that folder, with a name to begin with.
-    pub(crate) fn new(purpose: Purpose, folder: PathBuf, typed: String) -> Self {
+    pub(crate) fn new(purpose: Purpose, folder: &Path, typed: String) -> Self {
         let (entries, problem, replaces) = (Vec::new(), None, None);
         let mut browser = Self { purpose, folder: PathBuf::new(), typed, entries, problem, replaces };
-        browser.go(&folder);
+        browser.go(folder);
         browser
     }
 
@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn folders_come_first_and_only_what_fits_is_listed() {
         let folder = folder();
-        let at = |purpose| Browser::new(purpose, folder.path().to_owned(), String::new());
+        let at = |purpose| Browser::new(purpose, folder.path(), String::new());
         assert_eq!(names(&at(Purpose::Open)), ["inner", "A.kdl", "b.kdl", "c.obj"]);
         assert_eq!(names(&at(Purpose::Save(None))), ["inner", "A.kdl", "b.kdl"]);
         assert_eq!(names(&at(Purpose::Model)), ["inner", "c.obj"]);
@@ -164,7 +164,7 @@ mod tests {
     #[test]
     fn a_folder_is_gone_to_and_a_file_is_answered_with() {
         let folder = folder();
-        let mut browser = Browser::new(Purpose::Open, folder.path().to_owned(), "inner".to_owned());
+        let mut browser = Browser::new(Purpose::Open, folder.path(), "inner".to_owned());
         assert_eq!(browser.choose(), None);
         assert_eq!((names(&browser), browser.typed.as_str()), (Vec::new(), ""));
         browser.go_up();
@@ -179,7 +179,7 @@ mod tests {
     #[test]
     fn a_file_is_replaced_only_when_chosen_twice() {
         let folder = folder();
-        let mut browser = Browser::new(Purpose::Save(None), folder.path().to_owned(), "new".to_owned());
+        let mut browser = Browser::new(Purpose::Save(None), folder.path(), "new".to_owned());
         assert_eq!(browser.choose(), Some(folder.path().join("new.kdl")));
         browser.typed = "A".to_owned();
         assert_eq!(browser.choose(), None);

@@ -185,8 +185,12 @@ fn verb(what: ChangeKind) -> &'static str {
         ChangeKind::Order => "reorder",
         ChangeKind::Name => "rename",
         ChangeKind::Finish => "change the finish of",
-        ChangeKind::Shape | ChangeKind::Light | ChangeKind::Camera => "change",
-        ChangeKind::Operation | ChangeKind::Value | ChangeKind::Flags => "change",
+        ChangeKind::Shape
+        | ChangeKind::Light
+        | ChangeKind::Camera
+        | ChangeKind::Operation
+        | ChangeKind::Value
+        | ChangeKind::Flags => "change",
     }
 }
 

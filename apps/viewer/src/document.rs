@@ -80,7 +80,7 @@ impl Document {
     }
 
     /// Whose edits it holds, and the text with them, to be kept where they are not saved.
-    pub(crate) fn to_keep(&mut self) -> (Origin, String) {
+    pub(crate) fn text_to_keep(&mut self) -> (Origin, String) {
         self.file.update(&self.scene);
         let origin = match &self.path {
             Some(path) => Origin::File(path.clone()),

@@ -92,11 +92,12 @@ impl App {
 
     /// Offers edits that an earlier run has kept, one after the other.
     pub(crate) fn offer_kept(&mut self) {
-        if !self.starting && self.viewer.guard.question().is_none() {
-            if let Some(kept) = self.kept.pop() {
-                self.viewer.guard.offer(kept);
-                self.viewer.stale.panel = true;
-            }
+        if !self.starting
+            && self.viewer.guard.question().is_none()
+            && let Some(kept) = self.kept.pop()
+        {
+            self.viewer.guard.offer(kept);
+            self.viewer.stale.panel = true;
         }
     }
 
@@ -109,7 +110,7 @@ impl App {
         if self.viewer.document.is_saved() {
             return Ok(());
         }
-        let (origin, text) = self.viewer.document.to_keep();
+        let (origin, text) = self.viewer.document.text_to_keep();
         let folder = recovery::folder().ok_or("there is no folder to keep unsaved edits in")?;
         let place =
             recovery::keep(&folder, &origin, &text).map_err(|e| format!("unsaved edits are lost: {e}"))?;

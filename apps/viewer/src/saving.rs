@@ -32,13 +32,13 @@ impl Viewer {
     pub(crate) fn save_elsewhere(&mut self, next: Option<Next>) {
         self.finish_name();
         let place = self.document.place();
-        let folder = place.parent().unwrap_or(Path::new("")).to_owned();
+        let folder = place.parent().unwrap_or(Path::new(""));
         let name = place.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         self.browse(Purpose::Save(next), folder, name);
     }
 
     /// Asks for a file.
-    pub(crate) fn browse(&mut self, purpose: Purpose, folder: PathBuf, name: String) {
+    pub(crate) fn browse(&mut self, purpose: Purpose, folder: &Path, name: String) {
         self.browser = Some(Browser::new(purpose, folder, name));
         self.stale.panel = true;
     }

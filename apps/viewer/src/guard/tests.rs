@@ -215,7 +215,7 @@ fn kept_edits_are_brought_back_unsaved_or_forgotten() {
     {
         let folder = tempfile::tempdir().unwrap();
         let (path, mut document) = edited(folder.path());
-        let (origin, kept) = document.to_keep();
+        let (origin, kept) = document.text_to_keep();
         let place = crate::recovery::keep(folder.path(), &origin, &kept).unwrap();
         let kept = Kept { place, origin };
         let mut guard = Guard::default();

@@ -33,7 +33,7 @@ pub(crate) fn add(viewer: &mut Viewer, what: Addable, at: Option<(f64, f64)>) {
         Addable::Solid(operation) => grouping::group(viewer, Some(operation)),
         Addable::Model => {
             let folder = viewer.document.folder();
-            viewer.browse(Purpose::Model, folder, String::new());
+            viewer.browse(Purpose::Model, &folder, String::new());
         }
     }
 }

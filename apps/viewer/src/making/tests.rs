@@ -64,7 +64,7 @@ impl Bench {
     }
 
     /// What was done is one step, is saved and read again as it is, and leaves nothing behind when it is undone.
-    fn is_one_step(mut self) {
+    fn assert_one_step(mut self) {
         let text = self.saved();
         let again = Document::open(&self.folder.path().join("room.kdl")).unwrap();
         let scene = self.viewer.document.scene();
@@ -97,7 +97,7 @@ fn whatever_is_added_is_selected_and_one_step() {
                 assert_eq!(scene.entities().len(), before + 1, "{what:?}: {:?}", bench.viewer.notice);
                 assert_eq!(bench.selected(), [what.name()]);
             }
-            bench.is_one_step();
+            bench.assert_one_step();
         }
     }
 }
@@ -123,7 +123,7 @@ fn a_material_is_added_to_what_is_selected() {
     let scene = bench.viewer.document.scene();
     let glass = scene.material_named("glass").unwrap();
     assert_eq!(scene.wearers(glass), [bench.id("ball"), bench.id("block")]);
-    bench.is_one_step();
+    bench.assert_one_step();
 }
 
 #[test]
@@ -135,7 +135,7 @@ fn duplicates_stand_beside_their_originals_and_are_selected() {
     assert!(new.min.x >= old.max.x && (new.min.y - old.min.y).abs() < 1e-6, "{old:?} and {new:?}");
     let scene = bench.viewer.document.scene();
     assert_eq!(scene.parent(bench.id("ball 2")), Some(bench.id("things")));
-    bench.is_one_step();
+    bench.assert_one_step();
 }
 
 #[test]
@@ -145,7 +145,7 @@ fn a_group_that_is_duplicated_has_members_of_its_own() {
     assert_eq!(bench.selected(), ["things 2"], "its member is in it");
     let scene = bench.viewer.document.scene();
     assert_eq!(scene.parent(bench.id("ball 2")), Some(bench.id("things 2")));
-    bench.is_one_step();
+    bench.assert_one_step();
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn grouping_and_ungrouping_leave_things_where_they_stand() {
     let scene = bench.viewer.document.scene();
     assert_eq!(scene.children(Some(bench.id("group"))), [bench.id("ball"), bench.id("lamp")]);
     assert!(near(&bench.bounds("ball"), &ball));
-    bench.is_one_step();
+    bench.assert_one_step();
     let mut bench = Bench::new(&["things"]);
     let (ball, block) = (bench.bounds("ball"), bench.bounds("block"));
     ungroup(&mut bench.viewer);
@@ -193,7 +193,7 @@ fn what_is_copied_can_be_pasted_here_and_elsewhere() {
     assert_eq!(bench.selected(), ["things 2"]);
     assert!(bench.bounds("things 2").min.x > bench.bounds("things").min.x, "beside the one that is there");
     assert_eq!(bench.viewer.document.scene().materials().count(), 1);
-    bench.is_one_step();
+    bench.assert_one_step();
     let mut bench = Bench::new(&[]);
     paste(&mut bench.viewer, "no scene { at all");
     assert!(bench.viewer.document.is_saved());
@@ -223,7 +223,7 @@ fn a_shared_material_is_made_single() {
     let own = scene.material_of(bench.id("ball")).unwrap();
     assert_eq!((scene.wearers(own).len(), scene.wearers(shared).len()), (1, 2));
     assert_eq!(scene.material(own), scene.material(shared));
-    bench.is_one_step();
+    bench.assert_one_step();
 }
 
 #[test]
