@@ -18,7 +18,9 @@ pub(crate) fn shape(old: &Shape, kind: &'static str) -> Result<Shape, InvalidPar
         (Some(from), Some(to)) => new.placed(&fitting(&to, &from)),
         _ => new,
     };
-    Ok(keeping(new, &old.values(), |shape, field, value| shape.with(field, value).ok()))
+    Ok(keeping(new, &old.values(), Shape::values, |values| {
+        Shape::kind_named(kind).and_then(|kind| (kind.make)(values).ok())
+    }))
 }
 
 /// The light of that kind: in the place of the old one, with those of its values that both kinds have.
@@ -37,13 +39,23 @@ pub(crate) fn light(old: &Light, kind: &'static str) -> Result<Light, InvalidPar
     } else {
         new
     };
-    Ok(keeping(new, &old.values(), |light, field, value| light.with(field, value).ok()))
+    Ok(keeping(new, &old.values(), Light::values, |values| {
+        Light::kind_named(kind).and_then(|kind| (kind.make)(values).ok())
+    }))
 }
 
-/// A part with those values that it takes, one after the other.
-fn keeping<T>(mut part: T, old: &Values, with: impl Fn(&T, &'static str, Value) -> Option<T>) -> T {
-    for (name, value) in old.iter() {
-        if let Some(kept) = with(&part, name, value.clone()) {
+/// A part with the values of an old one that it has by the same names: all at once, or else those that it takes one after
+/// the other.
+fn keeping<T>(new: T, old: &Values, values: impl Fn(&T) -> Values, make: impl Fn(&Values) -> Option<T>) -> T {
+    let own = values(&new);
+    let common = || old.iter().filter(|(name, _)| own.get(name).is_some());
+    let all = common().fold(own.clone(), |all, (name, value)| all.with(name, value.clone()));
+    if let Some(part) = make(&all) {
+        return part;
+    }
+    let mut part = new;
+    for (name, value) in common() {
+        if let Some(kept) = make(&values(&part).with(name, value.clone())) {
             part = kept;
         }
     }

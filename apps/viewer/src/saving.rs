@@ -79,3 +79,46 @@ impl Viewer {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use catoptra_core::scene::Edit;
+    use catoptra_tracer::Pool;
+
+    use super::*;
+    use crate::document::Document;
+    use crate::loader::Opened;
+
+    #[test]
+    fn what_could_not_be_saved_is_told_until_it_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let inner = folder.path().join("inner");
+        std::fs::create_dir(&inner).unwrap();
+        let path = inner.join("a.kdl");
+        std::fs::write(&path, "ambient-light \"sky\" { radiance 1 }\n").unwrap();
+        let mut viewer = Viewer::new(Opened::new(Document::open(&path).unwrap(), &Pool::new(1).unwrap()));
+        let sky = viewer.document.scene().entity_named("sky").unwrap();
+        viewer.edit(Edit::Name(sky, "heaven".to_owned()));
+        std::fs::remove_dir_all(&inner).unwrap();
+        viewer.save();
+        assert!(viewer.failure.as_ref().is_some_and(|told| told.contains("was not saved")));
+        viewer.notify("something else");
+        assert!(viewer.failure.is_some() && !viewer.document.is_saved());
+        std::fs::create_dir(&inner).unwrap();
+        viewer.save();
+        assert!(viewer.failure.is_none() && viewer.document.is_saved());
+    }
+
+    #[test]
+    fn a_scene_without_a_file_is_saved_where_a_person_says() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut viewer = Viewer::new(Opened::new(Document::empty().unwrap(), &Pool::new(1).unwrap()));
+        viewer.save();
+        assert_eq!(viewer.take_next(), None);
+        assert_eq!(viewer.browser.take().unwrap().purpose, Purpose::Save(None));
+        viewer.save_to(folder.path().join("mine.kdl"), Some(Next::Close));
+        assert_eq!((viewer.take_next(), viewer.document.name()), (Some(Next::Close), "mine".to_owned()));
+        let again = Document::open(&folder.path().join("mine.kdl")).unwrap();
+        assert_eq!(again.scene().entities().len(), viewer.document.scene().entities().len());
+    }
+}

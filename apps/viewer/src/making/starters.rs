@@ -19,7 +19,7 @@ const STARTERS: &[(&str, &str)] = &[
     ("platonic", "solid \"icosahedron\"; radius 0.5"),
     (
         "prism",
-        "outline -0.5 -0.3; outline 0.5 -0.3; outline 0.5 0; outline 0 0; outline 0 0.3; outline -0.5 0.3; \
+        "point -0.5 -0.3; point 0.5 -0.3; point 0.5 0; point 0 0; point 0 0.3; point -0.5 0.3; \
         height 0.6",
     ),
     ("point-light", "position 0 0 0; intensity 1"),

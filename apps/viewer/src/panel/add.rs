@@ -1,6 +1,6 @@
 //! How is chosen what is to be added? A list in sections, with a field to find one by its name.
 
-use egui::{Frame, Id, Key, Modal, Rect, RichText, TextEdit, Ui};
+use egui::{Frame, Id, Key, Modal, Rect, RichText, ScrollArea, TextEdit, Ui};
 
 use crate::making::add::{self, Adding};
 use crate::making::starters::Addable;
@@ -9,21 +9,27 @@ use crate::viewer::Viewer;
 /// Width of a section in points.
 const SECTION: f32 = 118.0;
 
+/// Height of the sections in points, where the window has room.
+const HEIGHT: f32 = 330.0;
+
 /// Shows the list while something is being chosen. All keys and clicks are for it.
 pub(super) fn show(ui: &Ui, viewer: &mut Viewer, window: Rect) {
     let Some(mut adding) = viewer.adding.take() else { return };
     let frame = Frame::window(ui.style()).inner_margin(12);
     let modal = Modal::new(Id::new("adding")).frame(frame).show(ui.ctx(), |ui| {
-        ui.set_max_width((window.width() - 40.0).max(60.0));
+        ui.set_width((window.width() - 40.0).clamp(60.0, 4.2 * SECTION));
         ui.label(RichText::new("Add").strong().size(15.0));
         let field = ui.add(TextEdit::singleline(&mut adding.typed).hint_text("find").desired_width(160.0));
+        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         if ui.memory(|memory| memory.focused().is_none()) {
             field.request_focus();
         }
-        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        let height = (window.height() - 130.0).max(40.0);
+        let height = (window.height() - 130.0).clamp(40.0, HEIGHT);
         let mut chosen = None;
-        egui::ScrollArea::both().max_height(height).show(ui, |ui| chosen = sections(ui, &adding));
+        ScrollArea::both()
+            .auto_shrink([false, false])
+            .max_height(height)
+            .show(ui, |ui| chosen = sections(ui, &adding));
         let first =
             Addable::sections().into_iter().flat_map(|(_, all)| all).find(|what| fits(*what, &adding));
         chosen.or_else(|| first.filter(|_| entered))

@@ -63,10 +63,10 @@ fn contents(ui: &mut Ui, browser: &mut Browser, height: f32) -> Step {
     if field.changed() {
         (browser.problem, browser.replaces) = (None, None);
     }
+    let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     if ui.memory(|memory| memory.focused().is_none()) {
         field.request_focus();
     }
-    let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     if let Some(problem) = &browser.problem {
         ui.label(RichText::new(problem).color(theme::ACCENT));
     }

@@ -18,7 +18,7 @@ pub(super) fn edit(text: &str, item: &Item, now: &Flags, splices: &mut Vec<Splic
                 splices.push(Splice::new(written.span.clone(), format!("{}{equals}#true", flag.word)));
             }
             Some(written) if written.property => splices.push(without_space(text, &written.span)),
-            Some(written) => splices.push(Splice::new(layout::whole_node(text, &written.span), "")),
+            Some(written) => splices.push(Splice::new(layout::taken_out(text, &written.span), "")),
             None => lines.push(format!("{} #true", flag.word)),
         }
     }

@@ -121,7 +121,7 @@ fn steps(placement: &Placement) -> Vec<String> {
 
 /// Changes a node so that it says what has become of its part.
 fn edit_node(text: &str, item: &Item, id: Id, part: &PartNow<'_>, scene: &Scene, splices: &mut Vec<Splice>) {
-    let take_out = |span: &std::ops::Range<usize>| Splice::new(layout::whole_node(text, span), "");
+    let take_out = |span: &std::ops::Range<usize>| Splice::new(layout::taken_out(text, span), "");
     match part.wish {
         Wish::Whatever => {}
         Wish::Removed if item.removed => {}
@@ -186,7 +186,7 @@ fn place(
     }
     let as_in_file = *to == part.placement;
     if as_in_file || placement::steps(to).is_empty() || item.steps.is_empty() {
-        splices.extend(item.steps.iter().map(|step| Splice::new(layout::whole_node(text, &step.span), "")));
+        splices.extend(item.steps.iter().map(|step| Splice::new(layout::taken_out(text, &step.span), "")));
         let steps = if as_in_file { Vec::new() } else { steps(to) };
         return put_at_start(text, item, &[steps, flags].concat(), splices);
     }

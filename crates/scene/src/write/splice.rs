@@ -35,8 +35,12 @@ pub(crate) fn apply(
     let mut out = String::with_capacity(text.len());
     let mut from = 0;
     for splice in &splices {
-        // An overlap would be a mistake of ours; the earlier splice then stands.
+        // Neighbours that are taken out may both take what stands between them. Any other overlap would be a mistake of
+        // ours; the earlier splice then stands.
         if splice.range.start < from {
+            if splice.text.is_empty() {
+                from = from.max(splice.range.end);
+            }
             continue;
         }
         out.push_str(&text[from..splice.range.start]);
