@@ -47,6 +47,16 @@ fn steps_come_and_go_on_the_line() {
 }
 
 #[test]
+fn another_kind_keeps_the_line() {
+    let values = catoptra_core::Values::new()
+        .with("min", catoptra_core::Value::Vector(DVec3::ZERO))
+        .with("max", catoptra_core::Value::Vector(DVec3::ONE));
+    let make = catoptra_core::Shape::kind_named("box").unwrap().make;
+    let changed = there_and_back("ball", |id| Edit::Shape(id, make(&values).unwrap()));
+    assert!(changed.contains("box \"ball\" material=\"m\" { min 0 0 0; max 1 1 1 } // round"), "{changed}");
+}
+
+#[test]
 fn what_stands_first_or_alone_goes_with_what_sets_it_apart() {
     for (block, left) in [
         ("{ move 1 0 0 }", ""),

@@ -69,8 +69,8 @@ pub(crate) fn in_one_line(text: &str, item: &Item, place: Place, lines: &str) ->
         Place::Start => (block.start + 1, format!(" {lines};")),
         Place::End => {
             let end = block.start + 1 + inside.trim_end().len();
-            let apart = if inside.trim_end().ends_with(';') { " " } else { "; " };
-            (end, format!("{apart}{lines}"))
+            let closed = inside.trim_end().ends_with(';');
+            (end, if closed { format!(" {lines};") } else { format!("; {lines}") })
         }
     })
 }
