@@ -2,11 +2,9 @@
 //! where it is, and as large.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{
-    Aabb, Field, FieldKind, InvalidPart, Kind, Light, Material, Placement, Rgb, Shape, Value, Values,
-};
+use catoptra_core::{Aabb, Field, FieldKind, InvalidPart, Kind, Light, Material, Rgb, Shape, Value, Values};
 
-use crate::making::starters;
+use crate::making::{sizing, starters};
 
 /// The shape of that kind: as large as the old one and in its place, with those of its values that both kinds have.
 ///
@@ -15,7 +13,9 @@ use crate::making::starters;
 pub(crate) fn shape(old: &Shape, kind: &'static str) -> Result<Shape, InvalidPart> {
     let new = starters::shape(kind).ok_or(InvalidPart::new("kind", "must need no file", kind))?;
     let new = match (old.bounds(), new.bounds()) {
-        (Some(from), Some(to)) => new.placed(&fitting(&to, &from)),
+        (Some(to), Some(from)) => fitted(new.kind().fields, &new.values(), &from, &to)
+            .and_then(|values| (new.kind().make)(&values).ok())
+            .unwrap_or(new),
         _ => new,
     };
     Ok(keeping(new, &old.values(), Shape::values, |values| {
@@ -32,13 +32,13 @@ pub(crate) fn light(old: &Light, kind: &'static str) -> Result<Light, InvalidPar
     let surface = old.lamp().and_then(|lamp| lamp.shape.bounds());
     let at = surface.map(|bounds| bounds.centre()).or_else(|| old.position());
     let size = surface.map_or(1.0, |bounds| bounds.size().max_element());
-    let placed =
-        |size: f64| Placement::IDENTITY.scaled(size).and_then(|p| p.moved(at.unwrap_or(DVec3::ZERO)));
-    let new = if new.lamp().is_some() || new.position().is_some() {
-        placed(if new.lamp().is_some() { size } else { 1.0 }).map(|to| new.placed(&to)).unwrap_or(new)
-    } else {
-        new
-    };
+    let size = if new.lamp().is_some() { size } else { 1.0 };
+    let fields = new.kind().fields;
+    let values = sizing::scaled(fields, &new.values(), size);
+    let middle =
+        new.lamp().and_then(|lamp| lamp.shape.bounds()).map_or(DVec3::ZERO, |bounds| bounds.centre());
+    let by = at.map_or(DVec3::ZERO, |at| at - middle * size);
+    let new = (new.kind().make)(&sizing::moved(fields, &values, by)).unwrap_or(new);
     Ok(keeping(new, &old.values(), Light::values, |values| {
         Light::kind_named(kind).and_then(|kind| (kind.make)(values).ok())
     }))
@@ -62,11 +62,14 @@ fn keeping<T>(new: T, old: &Values, values: impl Fn(&T) -> Values, make: impl Fn
     part
 }
 
-/// What brings a box into the place of another, as large in its largest side.
-fn fitting(from: &Aabb, to: &Aabb) -> Placement {
+/// Values of a part in another place: what fills one box fills the other, as large in its largest side.
+fn fitted(fields: &[Field], values: &Values, from: &Aabb, to: &Aabb) -> Option<Values> {
     let factor = to.size().max_element() / from.size().max_element();
-    let scaled = Placement::IDENTITY.scaled(factor).unwrap_or_default();
-    scaled.moved(to.centre() - scaled.point(from.centre())).unwrap_or(scaled)
+    if !(factor.is_finite() && factor > 0.0) {
+        return None;
+    }
+    let scaled = sizing::scaled(fields, values, factor);
+    Some(sizing::moved(fields, &scaled, to.centre() - from.centre() * factor))
 }
 
 /// The material of that kind which keeps every value that the kind knows by name and accepts; without its texture, if it
@@ -155,10 +158,12 @@ mod tests {
     fn every_shape_becomes_every_other_in_its_place() {
         let all = || Shape::KINDS.iter().filter_map(|kind| starters::shape(kind.name));
         for old in all() {
-            let old = old
-                .placed(&Placement::IDENTITY.scaled(3.0).unwrap().moved(DVec3::new(5.0, 1.0, 2.0)).unwrap());
+            let values = sizing::scaled(old.kind().fields, &old.values(), 3.0);
+            let values = sizing::moved(old.kind().fields, &values, DVec3::new(5.0, 1.0, 2.0));
+            let old = (old.kind().make)(&values).unwrap();
             for new in all() {
                 let new = shape(&old, new.kind_name()).unwrap();
+                assert_eq!(Some(&(new.kind().make)(&new.values()).unwrap()), Some(&new), "it can be saved");
                 let Some((was, is)) = old.bounds().zip(new.bounds()) else { continue };
                 let apart = was.centre().distance(is.centre());
                 assert!(apart < was.size().max_element(), "{} as {}", old.kind_name(), new.kind_name());
@@ -170,7 +175,7 @@ mod tests {
     fn a_light_keeps_its_place_and_what_both_kinds_have() {
         let spot = starters::light("spot-light").unwrap();
         let at = DVec3::new(1.0, 2.0, 3.0);
-        let spot = spot.placed(&Placement::IDENTITY.moved(at).unwrap());
+        let spot = spot.with("position", Value::Vector(at)).unwrap();
         for kind in Light::KINDS {
             let new = light(&spot, kind.name).unwrap();
             assert_eq!(new.kind_name(), kind.name);

@@ -4,7 +4,7 @@ use catoptra_core::scene::{Edit, EntityId, Node, Subtree};
 use catoptra_core::{Light, Placement, Value};
 
 use super::starters::{self, Addable};
-use super::{grouping, place};
+use super::{grouping, place, sizing};
 use crate::browse::Purpose;
 use crate::viewer::Viewer;
 
@@ -41,7 +41,8 @@ pub(crate) fn add(viewer: &mut Viewer, what: Addable, at: Option<(f64, f64)>) {
 fn add_shape(viewer: &mut Viewer, kind: &'static str, at: Option<(f64, f64)>) {
     let Some(shape) = starters::shape(kind) else { return };
     let spot = place::spot(viewer, at);
-    let sized = Placement::IDENTITY.scaled(spot.size).map(|by| shape.placed(&by)).unwrap_or(shape);
+    let fields = shape.kind().fields;
+    let sized = (shape.kind().make)(&sizing::scaled(fields, &shape.values(), spot.size)).unwrap_or(shape);
     let placement = sized.bounds().map_or(Placement::IDENTITY, |bounds| spot.stand(&bounds));
     let scene = viewer.document.scene();
     let material = scene.next_material_id();
@@ -59,8 +60,9 @@ fn add_light(viewer: &mut Viewer, kind: &'static str, at: Option<(f64, f64)>) {
     let spot = place::spot(viewer, at);
     let has_place = light.position().is_some() || light.lamp().is_some();
     let (light, placement) = if has_place {
-        let scaled = Placement::IDENTITY.scaled(spot.size).map(|by| light.placed(&by)).unwrap_or(light);
-        (bright(&scaled, kind, spot.size), spot.hang())
+        let fields = light.kind().fields;
+        let sized = (light.kind().make)(&sizing::scaled(fields, &light.values(), spot.size)).unwrap_or(light);
+        (bright(&sized, kind, spot.size), spot.hang())
     } else {
         (light, Placement::IDENTITY)
     };

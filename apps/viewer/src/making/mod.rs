@@ -4,6 +4,7 @@ pub(crate) mod add;
 mod copying;
 mod grouping;
 mod place;
+pub(crate) mod sizing;
 pub(crate) mod starters;
 #[cfg(test)]
 mod tests;
