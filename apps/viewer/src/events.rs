@@ -137,6 +137,10 @@ impl App {
     fn key(&mut self, screen: &mut Screen, event: &WindowEvent, key: &KeyEvent) {
         let typing = screen.egui.egui_wants_keyboard_input();
         let command = self.command(key);
+        if command == Some(Command::Escape) && egui::Popup::is_any_open(&screen.egui) {
+            // It closes the menu and nothing more.
+            return self.forward(screen, event);
+        }
         let everywhere = command.is_some_and(Command::is_everywhere);
         if key.state == ElementState::Pressed
             && let Some(command) = command

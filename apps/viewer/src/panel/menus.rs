@@ -51,7 +51,7 @@ pub(super) fn bar(ui: &mut Ui, viewer: &mut Viewer) {
             ui.separator();
             commands(ui, viewer, SELECTED);
         });
-        if ui.button("New…").on_hover_text("Add something (Shift+A).").clicked() {
+        if ui.button("Add…").on_hover_text("Add something (Shift+A).").clicked() {
             viewer.adding = Some(crate::making::add::Adding::default());
         }
     });
