@@ -135,6 +135,6 @@ fn a_changed_part_changes_the_whole_solid() {
     let refused = scene.apply(Edit::Shape(members[2], open.into())).unwrap_err();
     assert_eq!(
         refused.to_string(),
-        "\"pip\" cannot be a part of the solid \"die\": only planes, closed convex shapes and other solids can"
+        "\"pip\" cannot be a part of the solid \"die\": only planes, closed shapes and other solids can"
     );
 }

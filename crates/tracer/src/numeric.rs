@@ -73,6 +73,11 @@ pub(crate) const ROUND_END_ERROR: f32 = 4.0;
 /// the way there. Along the ray it is twice that: 10u of the point's distance, below 2R, come from the direction.
 pub(crate) const ROUND_BALL_ERROR: f32 = 2.0;
 
+/// The error of a distance from a torus that `kernel/torus.rs` computes, in units of e as in [`ROUND_CHORD_ERROR`]: a point is off
+/// by 4e (√3 · 2e of q, and 5u of its distance from there), as is what is no larger than how far points are apart; the axis
+/// by 2u of the torus, sums and roots by 8u of it, below e each. Rounded up.
+pub(crate) const TORUS_ERROR: f32 = 8.0;
+
 /// Relative error of a scalar product with a unit direction: three roundings in each of its components (conversion,
 /// length, scaling), one in those of the other vector, and three in the sum of products; doubled for the products'
 /// sum of magnitudes, which is at most √3 of the vectors' lengths.

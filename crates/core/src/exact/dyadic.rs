@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use dashu_int::ops::{BitTest, SquareRoot};
 use dashu_int::{IBig, Sign, UBig, Word};
+use smallvec::SmallVec;
 
 use super::isolated::Surd;
 use super::{Isolated, Located, Number, Root, Verdict};
@@ -231,6 +232,10 @@ impl Number for Dyadic {
             }
         }
         Ok(None)
+    }
+
+    fn sign_changes(coefficients: &[Self; 5], _: f64) -> Verdict<SmallVec<[Root<Self>; 4]>> {
+        Ok(Isolated::sign_changes_of(coefficients).into_iter().map(Root::isolated).collect())
     }
 
     fn compare_isolated(a: &Root<Self>, b: &Root<Self>) -> Verdict<Ordering> {

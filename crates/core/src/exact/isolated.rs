@@ -39,6 +39,22 @@ impl Isolated {
         found
     }
 
+    /// Those of its roots at which a polynomial changes its sign: all that it has an odd number of times.
+    #[must_use]
+    pub fn sign_changes_of(coefficients: &[Dyadic]) -> Vec<Self> {
+        let (polynomial, one) = (Polynomial::new(coefficients.to_vec()), Dyadic::of(1.0));
+        let mut roots = Self::all_of(coefficients);
+        let Some((first, last)) = roots.first().zip(roots.last()) else { return roots };
+        // One place before each root and one behind all, where the polynomial is not 0.
+        let between = roots.windows(2).map(|pair| pair[0].high.plus(&pair[1].low).doubled(-1));
+        let places = std::iter::once(first.low.minus(&one)).chain(between);
+        let signs: Vec<Ordering> =
+            places.chain([last.high.plus(&one)]).map(|x| polynomial.at(&x).signum()).collect();
+        let mut pairs = signs.windows(2);
+        roots.retain(|_| pairs.next().is_some_and(|pair| pair[0] != pair[1]));
+        roots
+    }
+
     /// The number of the opposite sign.
     pub(super) fn negated(&self) -> Self {
         Self { polynomial: self.polynomial.mirrored(), low: self.high.negative(), high: self.low.negative() }
@@ -228,6 +244,21 @@ mod tests {
         let one = Dyadic::of(1.0);
         assert_eq!(roots[1].compare_number(&one), Ordering::Equal);
         assert_eq!(roots[2].compare_number(&one), Ordering::Greater);
+    }
+
+    #[test]
+    fn signs_change_at_roots_that_are_there_an_odd_number_of_times() {
+        // (x − 1)² (x² − 2), and (x + 1)³ x.
+        for (coefficients, changes) in [
+            ([-2.0, 4.0, -1.0, -2.0, 1.0], vec![-(2.0_f64.sqrt()), 2.0_f64.sqrt()]),
+            ([0.0, 1.0, 3.0, 3.0, 1.0], vec![-1.0, 0.0]),
+        ] {
+            let found = Isolated::sign_changes_of(&coefficients.map(Dyadic::of));
+            let found: Vec<f64> = found.iter().map(|root| root.rounded(60).to_f64()).collect();
+            assert_eq!(found, changes);
+        }
+        assert!(Isolated::sign_changes_of(&[1.0, 2.0, 1.0].map(Dyadic::of)).is_empty());
+        assert!(Isolated::sign_changes_of(&[Dyadic::of(3.0)]).is_empty());
     }
 
     #[test]

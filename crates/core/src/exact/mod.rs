@@ -19,6 +19,8 @@ mod vector;
 use std::cell::Cell;
 use std::cmp::Ordering;
 
+use smallvec::SmallVec;
+
 pub use bounded::Bounded;
 pub use dyadic::Dyadic;
 pub use isolated::Isolated;
@@ -95,6 +97,20 @@ pub trait Number: Clone {
         reach: f64,
         take: impl FnMut(Root<Self>) -> Verdict<Option<T>>,
     ) -> Verdict<Option<T>>;
+
+    /// Where the polynomial with these coefficients changes its sign, in order; as for [`find_root`](Self::find_root).
+    ///
+    /// # Errors
+    /// When the errors of such numbers hide how many roots there are.
+    fn sign_changes(coefficients: &[Self; 5], reach: f64) -> Verdict<SmallVec<[Root<Self>; 4]>> {
+        let mut found = SmallVec::new();
+        // Numbers with errors find none but simple roots.
+        Self::find_root(coefficients, reach, |root| {
+            found.push(root);
+            Ok(None::<()>)
+        })?;
+        Ok(found)
+    }
 
     /// How two roots compare of which one is [isolated](Root::isolated).
     ///

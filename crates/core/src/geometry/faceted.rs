@@ -4,14 +4,17 @@
 //! of its plane, and triangles that share their corners leave no gap whatever rounding does. A facet counts as one piece: a ray
 //! that leaves it skips all its triangles.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::triangle::{meet_triangle, unit_normal};
+use super::crossings::Crossings;
+use super::triangle::{area, meet_triangle, unit_normal};
 use super::{FacetRoot, Parametrization};
 use crate::exact::{Located, Number, Vector, Verdict};
 use crate::numeric::EDGE_ROUNDING;
+use crate::solid::Passage;
 use crate::{Aabb, Crossing, Placement, Ray, Span};
 
 /// A solid with flat facets; their normals point outwards.
@@ -159,7 +162,9 @@ impl Faceted {
     ) -> Verdict<Option<FacetRoot<N>>> {
         match leaving {
             Some(left) if left == facet => return Ok(None),
-            Some(left) if self.plan.is_convex && left < self.count() && self.runs_out::<N>(left, own)? => {
+            Some(left)
+                if self.plan.is_convex && left < self.count() && self.side_of::<N>(left, own)?.is_gt() =>
+            {
                 return Ok(None);
             }
             _ => {}
@@ -178,14 +183,26 @@ impl Faceted {
         Ok(best)
     }
 
-    /// Whether a ray runs to the outer side of a facet: by its area as a vector, the sum of its triangles'.
-    fn runs_out<N: Number>(&self, facet: u32, ray: &Ray) -> Verdict<bool> {
+    /// To which side of a facet a ray runs, `Greater` outwards: by its area as a vector, the sum of its triangles'.
+    fn side_of<N: Number>(&self, facet: u32, ray: &Ray) -> Verdict<Ordering> {
         let direction = Vector::<N>::of(ray.direction);
-        let sides = self.triangles(facet).map(|triangle| {
-            let [p, q, r] = triangle.map(Vector::of);
-            q.minus(&p).cross(&r.minus(&p)).dot(&direction)
-        });
-        Ok(sides.fold(N::of(0.0), |sum, side| sum.plus(&side)).sign()?.is_gt())
+        let sides = self.triangles(facet).map(|triangle| area(&triangle).dot(&direction));
+        sides.fold(N::of(0.0), |sum, side| sum.plus(&side)).sign()
+    }
+
+    /// Where the line of a ray runs inside it; as [`Geometry::passage`](super::Geometry::passage), and right for concave ones.
+    pub(super) fn passage<N: Number>(&self, own: &Ray, leaving: Option<u32>) -> Verdict<Passage<N>> {
+        let mut crossings = Crossings::new(own);
+        for facet in 0..self.count() {
+            for triangle in self.triangles(facet) {
+                crossings.add(&triangle, facet)?;
+            }
+        }
+        let passage = crossings.passage()?;
+        match leaving.filter(|&left| left < self.count()) {
+            Some(left) => passage.after_leaving(left, self.side_of::<N>(left, own)?),
+            None => Ok(passage),
+        }
     }
 
     pub(super) fn crossing(&self, at: Located, facet: u32) -> Option<Crossing> {
@@ -229,57 +246,3 @@ fn normals(corners: &[DVec3], facets: &[Facet]) -> Vec<DVec3> {
     };
     facets.iter().map(normal).collect()
 }
-
-/// What the trait [`Geometry`](super::Geometry) asks of a shape whose field `solid` is [`Faceted`].
-macro_rules! faceted_geometry {
-    () => {
-        fn pieces(&self) -> u32 {
-            self.solid.count()
-        }
-
-        fn nearest_root<N: $crate::exact::Number>(
-            &self,
-            facet: u32,
-            own: &$crate::Ray,
-            span: $crate::Span,
-            leaving: Option<u32>,
-        ) -> $crate::exact::Verdict<Option<$crate::geometry::FacetRoot<N>>> {
-            self.solid.nearest_root(facet, own, span, leaving)
-        }
-
-        fn crossing(
-            &self,
-            _: &$crate::Ray,
-            at: $crate::exact::Located,
-            facet: u32,
-        ) -> Option<$crate::Crossing> {
-            self.solid.crossing(at, facet)
-        }
-
-        fn bounds(&self) -> Option<$crate::Aabb> {
-            Some(self.solid.bounds())
-        }
-
-        /// Its corners go along; its values stay those of its own space.
-        fn placed(&self, placement: &$crate::Placement) -> Self {
-            Self { solid: self.solid.placed(placement), ..self.clone() }
-        }
-
-        fn parametrization(&self, point: glam::DVec3, facet: u32) -> $crate::geometry::Parametrization {
-            self.solid.parametrization(point, facet)
-        }
-
-        fn is_closed(&self) -> bool {
-            true
-        }
-
-        fn is_solid(&self) -> bool {
-            self.solid.is_convex()
-        }
-
-        fn faceted(&self) -> Option<&$crate::geometry::Faceted> {
-            Some(&self.solid)
-        }
-    };
-}
-pub(super) use faceted_geometry;

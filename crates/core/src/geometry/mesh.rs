@@ -2,11 +2,13 @@
 
 use glam::DVec3;
 
+use super::crossings::Crossings;
 use super::parametrization::{BARYCENTRIC, in_triangle};
-use super::triangle::{meet_triangle, unit_normal, weights};
+use super::triangle::{area, meet_triangle, unit_normal, weights};
 use super::{FacetRoot, Geometry, Parametrization};
-use crate::exact::{Located, Number, Verdict};
+use crate::exact::{Located, Number, Vector, Verdict};
 use crate::part::Given;
+use crate::solid::Passage;
 use crate::{
     Aabb, Crossing, Field, FieldKind, InvalidPart, MeshSource, Part, Placement, Ray, Rgb, Span, TriangleMesh,
     Value, Values,
@@ -147,7 +149,25 @@ impl Geometry for Mesh {
     }
 
     fn is_closed(&self) -> bool {
-        false
+        self.source.mesh.open_edge().is_none()
+    }
+
+    fn is_solid(&self) -> bool {
+        self.is_closed()
+    }
+
+    fn passage<N: Number>(&self, own: &Ray, leaving: Option<u32>) -> Verdict<Passage<N>> {
+        let mesh = &self.source.mesh;
+        let mut crossings = Crossings::new(own);
+        mesh.along(own, |triangle| crossings.add(&mesh.corners(triangle), triangle))?;
+        let passage = crossings.passage()?;
+        match leaving.filter(|&left| left < self.pieces()) {
+            Some(left) => {
+                let side = area::<N>(&mesh.corners(left)).dot(&Vector::of(own.direction)).sign()?;
+                passage.after_leaving(left, side)
+            }
+            None => Ok(passage),
+        }
     }
 
     fn as_mesh(&self) -> Option<&Mesh> {

@@ -4,15 +4,18 @@
 
 mod capsule;
 mod cone;
+mod crossings;
 mod cuboid;
 mod cylinder;
 mod disk;
 mod ears;
 mod faceted;
+mod faceted_geometry;
 mod half_spaces;
 mod heightfield;
 mod hull;
 mod lateral;
+mod line_tree;
 mod mesh;
 mod parametrization;
 mod plane;
@@ -26,6 +29,7 @@ mod tetrahedron;
 mod torus;
 mod triangle;
 mod triangle_mesh;
+mod watertight;
 
 use std::cmp::Ordering;
 
@@ -48,6 +52,7 @@ pub use tetrahedron::Tetrahedron;
 pub use torus::Torus;
 pub use triangle::{Triangle, unit_normal};
 pub use triangle_mesh::TriangleMesh;
+pub use watertight::OpenEdge;
 
 use crate::exact::{Bounded, Dyadic, Located, Number, Root, Verdict, decide};
 use crate::solid::Passage;
@@ -206,7 +211,7 @@ pub trait Geometry {
     /// [is solid](Self::is_solid). With `leaving` a ray that leaves a facet of this very shape: what lies behind its origin is
     /// left out then.
     ///
-    /// As it stands it is right for convex shapes.
+    /// As it stands it is right for convex shapes. What the line runs along, a face or an edge, counts as inside.
     ///
     /// # Errors
     /// When such numbers cannot decide.

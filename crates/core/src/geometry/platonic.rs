@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::Geometry;
-use super::faceted::{Faceted, faceted_geometry};
+use super::faceted::Faceted;
+use super::faceted_geometry::faceted_geometry;
 use crate::part::Given;
 use crate::{Field, FieldKind, InvalidPart, Part, Value, Values};
 

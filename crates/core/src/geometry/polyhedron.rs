@@ -5,7 +5,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::Geometry;
-use super::faceted::{Faceted, faceted_geometry};
+use super::faceted::Faceted;
+use super::faceted_geometry::faceted_geometry;
 use super::half_spaces::{HalfSpace, common};
 use super::hull::hull;
 use crate::part::Given;

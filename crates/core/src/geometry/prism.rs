@@ -6,7 +6,8 @@ use glam::{DVec2, DVec3};
 
 use super::Geometry;
 use super::ears::{Fault, check, is_counter_clockwise, side, triangles};
-use super::faceted::{Chart, Facet, Faceted, faceted_geometry};
+use super::faceted::{Chart, Facet, Faceted};
+use super::faceted_geometry::faceted_geometry;
 use super::parametrization::level_axes;
 use crate::part::Given;
 use crate::{Field, FieldKind, InvalidPart, Part, Rows, Value, Values};

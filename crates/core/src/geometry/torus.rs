@@ -1,7 +1,6 @@
 //! The torus: a ring with a round cross section.
-//!
-//! With x from the middle to a point of the ray, a the axis, R and r the radii: (x² + R² − r²)² a² = 4 R² |x × a|², which is of
-//! degree four in the ray's parameter and negative inside.
+
+mod equation;
 
 use std::f64::consts::TAU;
 
@@ -10,9 +9,9 @@ use glam::{DVec2, DVec3};
 use super::disk::disk_bounds;
 use super::parametrization::turn_about;
 use super::{FacetRoot, Geometry, Parametrization};
-use crate::exact::{Located, Number, Root, Vector, Verdict};
-use crate::numeric::HELD_WITHIN;
+use crate::exact::{Located, Number, Verdict};
 use crate::part::Given;
+use crate::solid::{End, Passage};
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
 
 /// All points at `minor` from the circle round `center`, across `axis`, at `major`.
@@ -68,46 +67,12 @@ impl Torus {
         (self.across(point).1.length() - self.minor).abs()
     }
 
-    /// The equation's coefficients along a ray whose parameter begins at `shift`, from the constant one upwards; `None` where
-    /// the ray certainly passes by the ball round the torus.
-    fn equation<N: Number>(&self, ray: &Ray, shift: f64) -> Option<[N; 5]> {
-        let (a, d) = (Vector::<N>::of(self.upwards), Vector::of(ray.direction));
-        let x = Vector::of(ray.origin).minus(&Vector::of(self.center)).plus(&d.scaled(&N::of(shift)));
-        let [major, minor] = self.radii().map(N::of);
-        let (d2, reach) = (d.squared(), major.plus(&minor));
-        let clearance = x.cross(&d).squared().minus(&reach.squared().times(&d2));
-        if clearance.sign().is_ok_and(std::cmp::Ordering::is_gt) {
-            return None;
-        }
-        // x² + R² − r² is q₀ + 2 q₁ s + d² s², and |x × a|² is m² + 2 m·n s + n² s².
-        let (m, n, a2) = (x.cross(&a), d.cross(&a), a.squared());
-        let q0 = x.squared().plus(&reach.times(&major.minus(&minor)));
-        let q1 = x.dot(&d);
-        let [two, four] = [2.0, 4.0].map(N::of);
-        let ring = four.times(&major.squared());
-        let mixed = two.times(&q1.squared()).plus(&q0.times(&d2)).times(&two);
-        Some([
-            a2.times(&q0.squared()).minus(&ring.times(&m.squared())),
-            four.times(&a2.times(&q0.times(&q1))).minus(&two.times(&ring.times(&m.dot(&n)))),
-            a2.times(&mixed).minus(&ring.times(&n.squared())),
-            four.times(&a2.times(&q1.times(&d2))),
-            a2.times(&d2.squared()),
-        ])
-    }
-
     /// From the middle of the ring to that of the tube beside a point, as a unit vector, and the point as seen from there.
     fn across(&self, point: DVec3) -> (DVec3, DVec3) {
         let from_center = point - self.center;
         let out = turn_about(self.axis, from_center).outwards;
         (out, from_center - out * self.major)
     }
-}
-
-/// A power of two that parameters from a point near a torus to all points of it are smaller than, given how far the point is
-/// from the middle and how far the torus reaches.
-fn reach(distance: f64, size: f64, ray: &Ray) -> f64 {
-    let most = (distance + size) * (1.0 + HELD_WITHIN) / ray.direction.length();
-    most.log2().ceil().exp2()
 }
 
 impl Part for Torus {
@@ -149,26 +114,8 @@ impl Geometry for Torus {
         span: Span,
         leaving: Option<u32>,
     ) -> Verdict<Option<FacetRoot<N>>> {
-        let from_center = own.origin - self.center;
-        // Numbers that are rounded keep their digits near the torus.
-        let shift = if N::EXACT || leaving.is_some() {
-            0.0
-        } else {
-            -from_center.dot(own.direction) / own.direction.length_squared()
-        };
-        let shift = if shift.is_finite() { shift } else { 0.0 };
-        let Some(mut equation) = self.equation::<N>(own, shift) else { return Ok(None) };
-        if leaving.is_some() {
-            equation.rotate_left(1);
-            equation[4] = N::of(0.0);
-        }
-        let coordinate = own.origin.abs().max_element() + self.center.abs().max_element();
-        let distance = (from_center + own.direction * shift).length() + HELD_WITHIN * coordinate;
-        let reach = reach(distance, self.major + self.minor, own);
-        N::find_root(&equation, reach, |root| {
-            let rational = root.rational.plus(&N::of(shift));
-            FacetRoot::on(span, Root { rational, ..root }, 0)
-        })
+        let Some(line) = self.along::<N>(own, leaving) else { return Ok(None) };
+        N::find_root(&line.equation, line.reach, |root| FacetRoot::on(span, line.root(root), 0))
     }
 
     fn crossing(&self, own: &Ray, at: Located, facet: u32) -> Option<Crossing> {
@@ -205,6 +152,23 @@ impl Geometry for Torus {
 
     fn is_closed(&self) -> bool {
         true
+    }
+
+    fn is_solid(&self) -> bool {
+        true
+    }
+
+    fn passage<N: Number>(&self, own: &Ray, leaving: Option<u32>) -> Verdict<Passage<N>> {
+        let Some(line) = self.along::<N>(own, leaving) else { return Ok(Passage::by()) };
+        let leaves = leaving.is_some();
+        let mut passage = Passage { inside: leaves && line.begins_inside()?, ..Passage::by() };
+        for root in N::sign_changes(&line.equation, line.reach)? {
+            let root = line.root(root);
+            if !leaves || root.side(&N::of(0.0), &N::of(1.0))?.is_gt() {
+                passage.ends.push(End { root, facet: 0 });
+            }
+        }
+        Ok(passage)
     }
 }
 

@@ -109,16 +109,21 @@ pub(super) fn meet_triangle<N: Number>(
     for sign in signs {
         sign?;
     }
-    let [p, q, r] = corners.map(Vector::<N>::of);
-    let normal = q.minus(&p).cross(&r.minus(&p));
+    let normal = area(corners);
     match Root::ratio(&normal.dot(&a), &normal.dot(&direction))? {
         Some(root) => FacetRoot::on(span, root, facet),
         None => Ok(None),
     }
 }
 
+/// `(q − p) × (r − p)` of a triangle with corners p, q and r: its normal, twice as long as its area is large.
+pub(super) fn area<N: Number>(corners: &[DVec3; 3]) -> Vector<N> {
+    let [p, q, r] = corners.map(Vector::of);
+    q.minus(&p).cross(&r.minus(&p))
+}
+
 /// Whether plain `f64` is certain that a line passes by a triangle: two of the three volumes have opposite signs.
-fn passes_by(corners: &[DVec3; 3], ray: &Ray) -> bool {
+pub(super) fn passes_by(corners: &[DVec3; 3], ray: &Ray) -> bool {
     let (volumes, error) = volumes(corners, ray);
     volumes.iter().any(|&v| v > error) && volumes.iter().any(|&v| v < -error)
 }

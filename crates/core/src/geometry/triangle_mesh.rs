@@ -2,9 +2,12 @@
 
 use glam::{DVec2, DVec3};
 
+use super::OpenEdge;
+use super::line_tree::LineTree;
 use super::parametrization::BARYCENTRIC;
 use super::tangents::Tangents;
-use crate::{Aabb, InvalidPart, Rgb};
+use super::watertight::Watertight;
+use crate::{Aabb, InvalidPart, Ray, Rgb};
 
 /// Triangles over shared corners, with optional normals, texture coordinates and colours per corner.
 ///
@@ -22,6 +25,8 @@ pub struct TriangleMesh {
     tangents: Tangents,
     offset: DVec3,
     bounds: Aabb,
+    watertight: Watertight,
+    lines: LineTree,
 }
 
 impl TriangleMesh {
@@ -65,6 +70,8 @@ impl TriangleMesh {
             tangents: Tangents::default(),
             offset: DVec3::ZERO,
             bounds,
+            watertight: Watertight::default(),
+            lines: LineTree::default(),
         })
     }
 
@@ -133,6 +140,18 @@ impl TriangleMesh {
     #[must_use]
     pub fn bounds(&self) -> Aabb {
         self.bounds
+    }
+
+    /// An edge where the surface is not closed; `None` of a mesh that encloses something. Sorts all
+    /// edges when first asked.
+    #[must_use]
+    pub fn open_edge(&self) -> Option<OpenEdge> {
+        self.watertight.open_edge(self)
+    }
+
+    /// Shows `visit` each triangle that the line of a ray in the mesh's own space may meet, in any order, until an error.
+    pub(super) fn along<E>(&self, ray: &Ray, visit: impl FnMut(u32) -> Result<(), E>) -> Result<(), E> {
+        self.lines.along(self, ray, visit)
     }
 
     /// The corners of a triangle.

@@ -88,10 +88,8 @@ impl Scene {
     /// Whether an entity may have another shape: one that encloses nothing is no part of a solid.
     pub(super) fn check_part_of_solid(&self, id: EntityId, shape: &Shape) -> Result<(), SceneError> {
         match self.parent(id).filter(|&parent| self.operation(parent).is_some()) {
-            Some(solid) if !shape.is_solid() => {
-                Err(SceneError::NotSolid { name: self.name_or_id(id), solid: self.name_or_id(solid) })
-            }
-            _ => Ok(()),
+            Some(solid) => check_encloses(shape, || self.name_or_id(id), || self.name_or_id(solid)),
+            None => Ok(()),
         }
     }
 
@@ -112,8 +110,24 @@ impl Scene {
 /// Whether a node can be a part of a solid.
 fn check_solid(node: &Node, solid: impl Fn() -> String) -> Result<(), SceneError> {
     match &node.content {
-        Content::Shape(shape, _) if shape.is_solid() => Ok(()),
+        Content::Shape(shape, _) => check_encloses(shape, || node.name.clone(), solid),
         Content::Solid(..) => Ok(()),
         _ => Err(SceneError::NotSolid { name: node.name.clone(), solid: solid() }),
     }
+}
+
+/// Whether a shape encloses something, so that a solid can be made of it.
+fn check_encloses(
+    shape: &Shape,
+    name: impl FnOnce() -> String,
+    solid: impl FnOnce() -> String,
+) -> Result<(), SceneError> {
+    if shape.is_solid() {
+        return Ok(());
+    }
+    let open = if let Shape::Mesh(mesh) = shape { mesh.triangles().open_edge() } else { None };
+    Err(match open {
+        Some(edge) => SceneError::OpenMesh { name: name(), solid: solid(), edge: edge.to_string() },
+        None => SceneError::NotSolid { name: name(), solid: solid() },
+    })
 }

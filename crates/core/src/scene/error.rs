@@ -57,15 +57,25 @@ pub enum SceneError {
         /// What it is.
         is: Role,
     },
-    /// Solids are made of planes, of closed convex shapes, and of other solids.
+    /// Solids are made of planes, of closed shapes, and of other solids.
     #[error(
-        "\"{name}\" cannot be a part of the solid \"{solid}\": only planes, closed convex shapes and other solids can"
+        "\"{name}\" cannot be a part of the solid \"{solid}\": only planes, closed shapes and other solids can"
     )]
     NotSolid {
         /// What was to become a part, or to have another shape.
         name: String,
         /// The solid.
         solid: String,
+    },
+    /// A mesh with holes encloses nothing.
+    #[error("\"{name}\" cannot be a part of the solid \"{solid}\": its mesh is not closed, {edge}")]
+    OpenMesh {
+        /// What was to become a part, or to have another shape.
+        name: String,
+        /// The solid.
+        solid: String,
+        /// Where its mesh is open.
+        edge: String,
     },
     /// A group may not be a member of itself, nor of a group inside it.
     #[error("\"{group}\" cannot become a member of \"{into}\", which is {}", if group == into {"itself"} else {"inside it"})]
@@ -98,6 +108,22 @@ pub enum SceneError {
         /// How many other materials are.
         others: usize,
     },
+}
+
+impl SceneError {
+    /// What to do about it; `None` where that is plain.
+    #[must_use]
+    pub fn hint(&self) -> Option<&'static str> {
+        match self {
+            Self::NotSolid { .. } => Some(
+                "take a shape that encloses something, as a box or a cylinder with caps, or put it beside the solid",
+            ),
+            Self::OpenMesh { .. } => Some(
+                "where the mesh was made, fill its holes and turn all its faces outwards, or put it beside the solid",
+            ),
+            _ => None,
+        }
+    }
 }
 
 fn and_others(count: usize, what: &str) -> String {

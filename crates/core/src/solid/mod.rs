@@ -8,8 +8,8 @@
 
 mod passage;
 mod rule;
+mod sweep;
 
-use std::cmp::Ordering;
 use std::sync::Arc;
 
 use smallvec::SmallVec;
@@ -23,6 +23,7 @@ use crate::{Aabb, Crossing, Placement, Ray, Shape, Span};
 pub(crate) use passage::convex;
 pub use passage::{End, Passage};
 pub use rule::{Operation, Rule};
+use sweep::Sweep;
 
 /// Shapes and the rule by which they make a solid.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +46,12 @@ impl Solid {
     #[must_use]
     pub fn shapes(&self) -> &[Shape] {
         &self.shapes
+    }
+
+    /// When a point is inside.
+    #[must_use]
+    pub fn rule(&self) -> &Rule {
+        &self.rule
     }
 
     /// The same, placed elsewhere.
@@ -145,6 +152,12 @@ impl Member {
         self.number
     }
 
+    /// The solid that it is a part of.
+    #[must_use]
+    pub fn solid(&self) -> &Solid {
+        &self.solid
+    }
+
     /// The whole shape.
     #[must_use]
     pub fn shape(&self) -> &Shape {
@@ -207,8 +220,8 @@ impl Member {
         }
         let mut sweep = Sweep::new(passages);
         while let Some(step) = sweep.next_step(&self.solid.rule)? {
-            if step.member == Some(self.number)
-                && let Some(at) = FacetRoot::on(span, step.end.root, step.end.facet)?
+            if let Some((_, end)) = step.surface.filter(|(member, _)| *member == self.number)
+                && let Some(at) = FacetRoot::on(span, end.root, end.facet)?
             {
                 return Ok(Some(Met { at, enters: step.enters }));
             }
@@ -219,80 +232,6 @@ impl Member {
 
 fn located<N>(met: Option<Met<N>>) -> Option<(crate::exact::Located, u32, bool)> {
     met.map(|met| (met.at.at, met.at.facet, met.enters))
-}
-
-/// A walk along a ray, from place to place where it crosses surfaces.
-struct Sweep<N> {
-    passages: SmallVec<[Passage<N>; 4]>,
-    /// How many places of each passage have been passed.
-    passed: SmallVec<[usize; 4]>,
-    inside: SmallVec<[bool; 4]>,
-}
-
-/// A place that was passed.
-struct Step<N> {
-    /// The member whose surface is the solid's there; `None` where none is.
-    member: Option<u32>,
-    /// On that member, or on any.
-    end: End<N>,
-    /// Whether the ray comes into the solid.
-    enters: bool,
-}
-
-impl<N: Number> Sweep<N> {
-    fn new(passages: SmallVec<[Passage<N>; 4]>) -> Self {
-        let inside = passages.iter().map(|passage| passage.inside).collect();
-        Self { passed: SmallVec::from_elem(0, passages.len()), inside, passages }
-    }
-
-    fn head(&self, shape: usize) -> Option<&End<N>> {
-        self.passages[shape].ends.get(self.passed[shape])
-    }
-
-    /// Passes the next place, with all that lie in the same one.
-    fn next_step(&mut self, rule: &Rule) -> Verdict<Option<Step<N>>> {
-        let Some(first) = self.first_head()? else { return Ok(None) };
-        let place = self.passages[first].ends[self.passed[first]].root.clone();
-        let was_inside = rule.holds(&self.inside);
-        let (mut alone, mut any) = (None, None);
-        let before = self.inside.clone();
-        for shape in 0..self.passages.len() {
-            // Twice where the line touches the shape.
-            while let Some(end) = self.head(shape).cloned() {
-                if end.root.compare(&place)? != Ordering::Equal {
-                    break;
-                }
-                self.passed[shape] += 1;
-                self.inside[shape] = !self.inside[shape];
-                let mut only = before.clone();
-                only[shape] = !only[shape];
-                let found = (shape as u32, end);
-                if alone.is_none() && rule.holds(&only) != was_inside {
-                    alone = Some(found.clone());
-                }
-                any.get_or_insert(found);
-            }
-        }
-        let enters = rule.holds(&self.inside);
-        let Some((member, end)) = alone.or(any) else { return Ok(None) };
-        Ok(Some(Step { member: (enters != was_inside).then_some(member), end, enters }))
-    }
-
-    /// The shape whose surface is crossed next.
-    fn first_head(&self) -> Verdict<Option<usize>> {
-        let mut first: Option<usize> = None;
-        for shape in 0..self.passages.len() {
-            let Some(head) = self.head(shape) else { continue };
-            let sooner = match first.and_then(|first| self.head(first)) {
-                None => true,
-                Some(best) => head.root.compare(&best.root)?.is_lt(),
-            };
-            if sooner {
-                first = Some(shape);
-            }
-        }
-        Ok(first)
-    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Where does a line run inside a shape that encloses something?
 
+use std::cmp::Ordering;
+
 use smallvec::SmallVec;
 
 use crate::exact::{Number, Root, Verdict};
@@ -29,6 +31,32 @@ impl<N> Passage<N> {
     #[must_use]
     pub fn by() -> Self {
         Self { inside: false, ends: SmallVec::new() }
+    }
+}
+
+impl<N: Number> Passage<N> {
+    /// What of a whole line's passage is ahead of a ray that leaves a facet, of which is told whether the ray runs to the outer
+    /// side of it (`Greater`) or to the inner one.
+    ///
+    /// All up to where the line crosses that facet is behind the ray, and as rounding may have put its origin beside the surface,
+    /// a first end that would not be one on the side that the ray runs to is none.
+    ///
+    /// # Errors
+    /// When such numbers cannot decide what is ahead.
+    pub(crate) fn after_leaving(mut self, facet: u32, side: Ordering) -> Verdict<Self> {
+        let mut behind = 0;
+        for (place, end) in self.ends.iter().enumerate() {
+            if end.facet == facet || end.root.side(&N::of(0.0), &N::of(1.0))?.is_le() {
+                behind = place + 1;
+            }
+        }
+        let is_inside = |behind: usize| self.inside != (behind % 2 == 1);
+        if side.is_ne() && is_inside(behind) != side.is_lt() && behind < self.ends.len() {
+            behind += 1;
+        }
+        self.inside = is_inside(behind);
+        self.ends.drain(..behind);
+        Ok(self)
     }
 }
 

@@ -60,6 +60,24 @@ impl Rule {
         }
     }
 
+    /// Whether the solid loses what a shape of that number gains: whether it stands behind the first members of an odd number
+    /// of differences. `false` where the rule does not name it.
+    #[must_use]
+    pub fn is_negative(&self, number: u32) -> bool {
+        self.takes_away(number).unwrap_or(false)
+    }
+
+    /// As [`is_negative`](Self::is_negative); `None` where the rule does not name it.
+    fn takes_away(&self, number: u32) -> Option<bool> {
+        match self {
+            Self::Shape(own) => (*own == number).then_some(false),
+            Self::Combined(operation, members) => members.iter().enumerate().find_map(|(place, member)| {
+                let is_other = *operation == Operation::Difference && place > 0;
+                member.takes_away(number).map(|within| within != is_other)
+            }),
+        }
+    }
+
     /// A box round all that is inside, given those of the shapes; `None` where that has no end.
     pub(crate) fn bounds(&self, shapes: &[Option<Aabb>]) -> Option<Aabb> {
         match self {
@@ -71,6 +89,34 @@ impl Rule {
                 members.iter().filter_map(|member| member.bounds(shapes)).reduce(Aabb::intersection)
             }
             Self::Combined(Operation::Difference, members) => members.first()?.bounds(shapes),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_difference_takes_away_is_negative_and_twice_is_positive() {
+        let of = |operation, members| Rule::Combined(operation, members);
+        // 0 − (1 ∪ (2 − 3)), and beside it 4 ∩ 5.
+        let inner = of(Operation::Difference, vec![Rule::Shape(2), Rule::Shape(3)]);
+        let taken = of(Operation::Union, vec![Rule::Shape(1), inner]);
+        let left = of(Operation::Difference, vec![Rule::Shape(0), taken]);
+        let beside = of(Operation::Intersection, vec![Rule::Shape(4), Rule::Shape(5)]);
+        let rule = of(Operation::Union, vec![left, beside]);
+        let negative: Vec<u32> = (0..7).filter(|&number| rule.is_negative(number)).collect();
+        assert_eq!(negative, [1, 2]);
+        // Whatever else is inside, a shape that is no more inside changes the solid to that side alone.
+        for number in 0..6_u32 {
+            for bits in 0..64_u32 {
+                let inside: Vec<bool> = (0..6).map(|i| bits >> i & 1 == 1 && i != number).collect();
+                let mut more = inside.clone();
+                more[number as usize] = true;
+                let [without, with] = [inside, more].map(|inside| rule.holds(&inside));
+                assert!(without == with || with != rule.is_negative(number), "{number} {bits:b}");
+            }
         }
     }
 }

@@ -1,3 +1,6 @@
+mod lattice;
+mod round;
+
 use std::collections::BTreeSet;
 
 use glam::DVec3;
@@ -27,6 +30,21 @@ fn hit(solid: &Arc<Solid>, ray: &Ray, leaving: Option<Left>) -> Option<(u32, Cro
         member.cross(ray, Span::AHEAD, leaving).map(|crossing| (number, crossing))
     });
     met.min_by(|a, b| a.1.t.total_cmp(&b.1.t))
+}
+
+/// All places ahead where a ray comes into a solid or out of it.
+fn all_hits(solid: &Arc<Solid>, ray: &Ray) -> Vec<(u32, Crossing)> {
+    let (mut found, mut span) = (Vec::new(), Span::AHEAD);
+    loop {
+        let members = 0..solid.shapes().len() as u32;
+        let met = members.filter_map(|number| {
+            let member = Member::new(Arc::clone(solid), number).unwrap();
+            member.cross(ray, span, None).map(|crossing| (number, crossing))
+        });
+        let Some(next) = met.min_by(|a, b| a.1.t.total_cmp(&b.1.t)) else { return found };
+        span.min = next.1.latest();
+        found.push(next);
+    }
 }
 
 fn met(solid: &Arc<Solid>, origin: [f64; 3], direction: [f64; 3]) -> Option<(f64, u32, DVec3)> {

@@ -238,7 +238,10 @@ impl<'a> Builder<'a> {
     fn refused(&mut self, item: &Item, error: &catoptra_core::scene::SceneError) {
         if self.complaints.count() == 0 {
             let span = item.name.as_ref().map_or(item.word.clone(), |name| name.span.clone());
-            self.complaints.add(span, error.to_string());
+            match error.hint() {
+                Some(hint) => self.complaints.add_with(span, error.to_string(), hint),
+                None => self.complaints.add(span, error.to_string()),
+            }
         }
     }
 }

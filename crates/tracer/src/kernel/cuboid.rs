@@ -9,6 +9,7 @@ use fearless_simd::Simd;
 
 use super::contract::{off_planes, surface_on_planes};
 use super::faces::planes_met;
+use super::solid as inside;
 use super::{Crossing, Facet, Kernel, NearHit, PlaneRow, Proposal, Rays, Tried, bound};
 use crate::film::NOTHING;
 use crate::lanes::{D3, F, F3, M, U, splat3};
@@ -94,6 +95,31 @@ impl CuboidRow {
             undecided: !misses & !hit,
         };
         (proposal, facet)
+    }
+}
+
+impl CuboidRow {
+    /// Where lines run inside it.
+    #[inline(always)]
+    pub(super) fn stretch<S: Simd>(&self, s: S, rays: &Rays<S>) -> inside::Stretch<S> {
+        let x = self.slabs[0].stretch(s, rays);
+        let y = self.slabs[1].stretch(s, rays);
+        let z = self.slabs[2].stretch(s, rays);
+        let enter = [latest(&x, &y, &z, 0), latest(&x, &y, &z, 1)];
+        let leave = [soonest(&x, &y, &z, 0), soonest(&x, &y, &z, 1)];
+        let slack = |t: F<S>| bound(s, t.abs() * F::splat(s, DIRECTION_ERROR));
+        let end = |at: [F<S>; 2], out: M<S>| {
+            let [by_x, by_y, by_z] = [&x, &y, &z].map(|slab| slab.may_count(out, at[0], at[1]));
+            let several = (by_x & by_y) | (by_y & by_z) | (by_z & by_x);
+            let facet = U::pick(by_y, y.facet(s, out, 2), x.facet(s, out, 0));
+            let facet = U::pick(by_z, z.facet(s, out, 4), facet);
+            inside::End { least: at[0] - slack(at[0]), most: at[1] + slack(at[1]), facet, known: !several }
+        };
+        let ends = [end(enter, M::splat(s, false)), end(leave, M::splat(s, true))];
+        let held = rays.reach.less(F::splat(s, f32::INFINITY));
+        let misses = ends[1].most.less(ends[0].least) | ends[1].most.less(F::splat(s, 0.0));
+        let crosses = ends[0].most.less(ends[1].least);
+        inside::Stretch { ends, misses: held & misses, crosses: held & crosses }
     }
 }
 

@@ -2,39 +2,44 @@
 //! the shapes' own exact answers: what a kernel is certain of must be right, `t` must lie within its bound, and the worst
 //! of all errors must come near the bound, so that a bound cut down would be found out.
 
-use catoptra_core::geometry::{Capsule, Cone, Cuboid, Cylinder, Disk, Plane, Rectangle, Sphere, Triangle};
+use catoptra_core::geometry::{
+    Capsule, Cone, Cuboid, Cylinder, Disk, Plane, Polyhedron, Rectangle, Sphere, Torus, Triangle,
+};
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, Placement, Ray, Shape, Span};
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::{CuboidRow, FlatRow, PlaneRow, Proposal, Rays, RoundRow, SphereRow, TriangleRow};
+use super::{
+    CuboidRow, FlatRow, Kernel, Leaving, PlaneRow, Proposal, Rays, RoundRow, SolidRow, SphereRow, TorusRow,
+    TriangleRow, Tried,
+};
 use crate::film::NOTHING;
 use crate::lanes::{F, F3, M, U, magnitude};
 use crate::numeric::DIRECTION_ERROR;
 use crate::random::Random;
 
 /// A shape and points of its rim.
-type Target = (Shape, Vec<DVec3>);
+pub(super) type Target = (Shape, Vec<DVec3>);
 
 /// A ray, and the facet of the target that it leaves for its inside.
-type Shot = (Ray, Option<u32>);
+pub(super) type Shot = (Ray, Option<u32>);
 
 /// How the kernel of a kind of shape did.
 #[derive(Default)]
-struct Record {
-    certain: u64,
+pub(super) struct Record {
+    pub(super) certain: u64,
     /// Of these, rays that begin on the shape and run through its inside.
-    within: u64,
-    undecided: u64,
+    pub(super) within: u64,
+    pub(super) undecided: u64,
     /// Largest error of `t` in units of its bound.
-    worst: f64,
+    pub(super) worst: f64,
 }
 
 /// Makes a ray at a target; the numbers are the target's size and the distance, in metres.
 type Aim = fn(&mut Random, &Target, f64, f64) -> Shot;
 
 /// A point near a rim of a shape whose size is about `unit` metres.
-fn place_near(random: &mut Random, rim: &[DVec3], unit: f64) -> DVec3 {
+pub(super) fn place_near(random: &mut Random, rim: &[DVec3], unit: f64) -> DVec3 {
     let (a, b) = (rim[random.bits() as usize % rim.len()], rim[random.bits() as usize % rim.len()]);
     let share = [0.0, 0.5, random.number()][random.bits() as usize % 3];
     a.lerp(b, share) + random.point() * unit * random.power(-40, -10)
@@ -62,7 +67,7 @@ fn from_within(random: &mut Random, target: &Target, unit: f64, reach: f64) -> S
 }
 
 /// Rays as the backend makes them.
-fn packet<S: Simd>(s: S, shots: &[Shot]) -> Rays<S> {
+pub(super) fn packet<S: Simd>(s: S, shots: &[Shot]) -> Rays<S> {
     let column = |of: &dyn Fn(&Ray) -> f64| {
         F::load(s, &shots.iter().map(|shot| of(&shot.0) as f32).collect::<Vec<_>>())
     };
@@ -90,9 +95,28 @@ fn propose<S: Simd>(s: S, shape: &Shape, shots: &[Shot]) -> Option<(Proposal<S>,
         Shape::Cone(c) => return Some(RoundRow::new(c.ends(), c.radii(), false).propose(s, rays)),
         Shape::Capsule(c) => return Some(RoundRow::new(c.ends(), [c.radius(); 2], true).propose(s, rays)),
         Shape::Triangle(triangle) => TriangleRow::new(triangle.corners(), 0, 0)?.propose(s, rays),
-        _ => return None,
+        Shape::Torus(torus) => return Some(propose_of(s, &TorusRow::new(torus), rays, leaving)),
+        shape => return Some(propose_of(s, &SolidRow::whole(shape, shape, 0)?, rays, leaving)),
     };
     Some((proposal, U::splat(s, 0)))
+}
+
+/// What a kernel says of rays that leave these facets of its shape.
+pub(super) fn propose_of<S: Simd>(
+    s: S,
+    kernel: &impl Kernel,
+    rays: &Rays<S>,
+    leaving: U<S>,
+) -> (Proposal<S>, U<S>) {
+    let (nothing, all) = (U::splat(s, NOTHING), M::splat(s, true));
+    let prim = U::pick(leaving.is(NOTHING), nothing, U::splat(s, 0));
+    let leaving = Leaving { prim, facet: leaving, any: true };
+    let tried = Tried { prim: 0, lanes: all, leaving, entered: nothing, outside: false };
+    let mut found = None;
+    kernel.propose(s, rays, &tried, |crossing| {
+        found = Some((crossing.proposal, crossing.facet.in_lanes(s)));
+    });
+    found.expect("it always proposes something")
 }
 
 /// Aims at targets of random sizes, which the function gets in metres.
@@ -137,7 +161,7 @@ fn try_one<S: Simd>(s: S, shape: &Shape, shot: &mut impl FnMut() -> Shot, record
 }
 
 /// Both sides of the bound are met.
-fn assert_attacked(record: &Record, least: f64) {
+pub(super) fn assert_attacked(record: &Record, least: f64) {
     let share = record.undecided as f64 / (record.certain + record.undecided) as f64;
     println!("worst {:.3} of the bound, {:.1} % undecided", record.worst, 100.0 * share);
     assert!(record.certain > 1000 && record.undecided > 10, "{} {}", record.certain, record.undecided);
@@ -188,7 +212,7 @@ fn disks() {
 }
 
 /// Ends, a radius, and two rims, points beyond the ends and places on the axis.
-fn swept(random: &mut Random, unit: f64) -> ([DVec3; 2], f64, Vec<DVec3>) {
+pub(super) fn swept(random: &mut Random, unit: f64) -> ([DVec3; 2], f64, Vec<DVec3>) {
     let (center, radius, axis, mut rim) = round(random, unit);
     let length = unit * random.power(-6, 6);
     let (to, up) = (center + axis * length, axis * radius);
@@ -238,7 +262,7 @@ fn rectangles() {
 }
 
 /// A box, turned or not.
-fn some_box(random: &mut Random, unit: f64) -> Option<Target> {
+pub(super) fn some_box(random: &mut Random, unit: f64) -> Option<Target> {
     let corner = random.point() * unit * random.power(-4, 6);
     let size = random.point().abs() * unit * random.power(-4, 4);
     let cuboid = Cuboid::new(corner, corner + size).ok()?;
@@ -272,5 +296,60 @@ fn triangles() {
         let [a, b, c] = [(); 3].map(|()| place + random.point() * size);
         Some((Triangle::new(a, b, c).ok()?.into(), vec![a, b, c]))
     });
+    assert_attacked(&record, 0.02);
+}
+
+/// The hull of some points, or of points on a ball.
+pub(super) fn hull(random: &mut Random, unit: f64) -> Option<Target> {
+    let (place, size) = (random.point() * unit * random.power(-4, 6), unit * random.power(-6, 4));
+    let on_ball = random.bits().is_multiple_of(2);
+    let points: Vec<_> = (0..4 + random.bits() % 12)
+        .map(|_| random.point())
+        .map(|p| place + size * if on_ball { p.normalize() } else { p })
+        .collect();
+    Some((Polyhedron::hull_of(points.iter().copied()).ok()?.into(), points))
+}
+
+#[test]
+fn polyhedra() {
+    assert_attacked(&attack(hull), 0.02);
+}
+
+#[test]
+fn polyhedra_from_within() {
+    let record = attack_by(from_within, hull);
+    assert!(record.within > 1000, "{}", record.within);
+    assert_attacked(&record, 0.02);
+}
+
+/// A torus, and points of its outer and inner rims and of its tops.
+fn some_torus(random: &mut Random, unit: f64) -> Option<Target> {
+    let (center, major, axis, _) = round(random, unit);
+    let minor = major * [0.5, random.power(-6, -1), 1.0 - random.power(-6, -1)][random.bits() as usize % 3];
+    let [a, b] = [axis.any_orthonormal_vector(), axis.cross(axis.any_orthonormal_vector())];
+    let rim = (0..24_u32).map(|i| {
+        let out = a * f64::from(i).sin() + b * f64::from(i).cos();
+        center + out * major + [out, -out, axis, -axis][i as usize % 4] * minor
+    });
+    Some((Torus::new(center, axis, major, minor).ok()?.into(), rim.collect()))
+}
+
+#[test]
+fn tori() {
+    assert_attacked(&attack(some_torus), 0.02);
+}
+
+/// From its surface across its hole, or away.
+fn from_outside(random: &mut Random, target: &Target, unit: f64, reach: f64) -> Shot {
+    let (ray, _) = from_afar(random, target, unit, reach);
+    let Some(met) = target.0.cross(&ray, Span::AHEAD, None) else { return (ray, None) };
+    let from = ray.at(met.t);
+    (Ray::new(from, place_near(random, &target.1, unit) - from), Some(met.facet))
+}
+
+#[test]
+fn tori_that_rays_leave() {
+    let record = attack_by(from_outside, some_torus);
+    assert!(record.within > 1000, "{}", record.within);
     assert_attacked(&record, 0.02);
 }

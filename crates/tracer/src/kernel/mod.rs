@@ -3,6 +3,7 @@
 //! A kernel may leave a lane undecided, never decide it wrongly: undecided lanes go to `f64`, one ray at a time.
 //! A shape without a kernel leaves every lane undecided: slower, the same answer.
 
+mod apart;
 mod contract;
 mod cuboid;
 mod disk;
@@ -14,7 +15,9 @@ pub(crate) mod mesh;
 mod plane;
 mod rectangle;
 mod round;
+mod solid;
 mod sphere;
+mod torus;
 mod triangle;
 
 use catoptra_core::Lane;
@@ -24,6 +27,7 @@ use fearless_simd::Simd;
 use crate::lanes::{F, F3, M};
 use crate::numeric::CERTAIN;
 
+pub(crate) use apart::Apart;
 pub(crate) use contract::{Crossing, Facet, Kernel, Leaving, NearHit, Obstacle, Tried};
 pub(crate) use cuboid::CuboidRow;
 use disk::DiskOutline;
@@ -32,7 +36,9 @@ pub(crate) use flat::FlatRow;
 pub(crate) use plane::PlaneRow;
 use rectangle::RectangleOutline;
 pub(crate) use round::RoundRow;
+pub(crate) use solid::SolidRow;
 pub(crate) use sphere::SphereRow;
+pub(crate) use torus::TorusRow;
 pub(crate) use triangle::TriangleRow;
 
 /// Rays as kernels see them.

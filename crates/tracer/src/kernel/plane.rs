@@ -49,7 +49,7 @@ impl PlaneRow {
     /// Signed distances of the origins from the plane, positive on the side the normal does not point to, and the
     /// bound on their error.
     #[inline(always)]
-    fn behind<S: Simd>(&self, s: S, rays: &Rays<S>) -> (F<S>, F<S>) {
+    pub(super) fn behind<S: Simd>(&self, s: S, rays: &Rays<S>) -> (F<S>, F<S>) {
         let n = splat3(s, self.normal32);
         let behind = F::splat(s, self.distance32) - n.dot(rays.origin);
         let error = (rays.reach + F::splat(s, self.reach)) * F::splat(s, POINT_ERROR);

@@ -4,10 +4,12 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
 
+use super::solid::{End, Stretch};
 use super::{
-    Blocking, Crossing, End, Facet, Kernel, NearHit, Obstacle, PlaneRow, Proposal, Rays, Target, Tried, bound,
+    Blocking, Crossing, End as TargetEnd, Facet, Kernel, NearHit, Obstacle, PlaneRow, Proposal, Rays, Target,
+    Tried, bound,
 };
-use crate::lanes::{D, D3, F, F3, M, narrow3, splat_wide, splat3};
+use crate::lanes::{D, D3, F, F3, M, U, narrow3, splat_wide, splat3};
 use crate::numeric::{PLAN_MARGIN, POINT_ERROR, magnitude_of, rounded};
 
 /// A sphere.
@@ -102,8 +104,8 @@ impl SphereRow {
     ) -> Blocking<S> {
         let most = self.radius * self.radius * (1.0 + PLAN_MARGIN);
         let may_end_inside = match target.end {
-            Some(End::At(point)) => point.distance_squared(self.center) <= most,
-            Some(End::AtInfinity(_)) => false,
+            Some(TargetEnd::At(point)) => point.distance_squared(self.center) <= most,
+            Some(TargetEnd::AtInfinity(_)) => false,
             None => true,
         };
         if may_end_inside || leaving.any() {
@@ -128,6 +130,22 @@ impl SphereRow {
         Blocking {
             blocked: crosses & between & is_outside,
             undecided: !(misses | (beyond & is_outside) | (crosses & between & is_outside)),
+        }
+    }
+}
+
+impl SphereRow {
+    /// Where lines run inside it.
+    #[inline(always)]
+    pub(super) fn stretch<S: Simd>(&self, s: S, rays: &Rays<S>) -> Stretch<S> {
+        let pass = self.pass(s, rays);
+        let half = pass.half_chord2.max(F::splat(s, 0.0)).sqrt();
+        let error = bound(s, pass.point_error + pass.error / half);
+        let end = |t: F<S>| End::about(t, error, U::splat(s, 0), M::splat(s, true));
+        Stretch {
+            ends: [end(pass.closest - half), end(pass.closest + half)],
+            misses: pass.half_chord2.less(-pass.error),
+            crosses: pass.error.less(pass.half_chord2),
         }
     }
 }

@@ -375,6 +375,12 @@ impl<S: Simd> U<S> {
         M(self.0.simd_eq(v))
     }
 
+    /// Lanes that hold the same number.
+    #[inline(always)]
+    pub(crate) fn equals(self, other: Self) -> M<S> {
+        M(self.0.simd_eq(other.0))
+    }
+
     #[inline(always)]
     pub(crate) fn pick(mask: M<S>, if_true: Self, if_false: Self) -> Self {
         Self(mask.0.select(if_true.0, if_false.0))

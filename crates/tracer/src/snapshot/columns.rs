@@ -4,14 +4,16 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Aabb, Placement, Shape};
+use catoptra_core::{Aabb, Member, Placement, Shape};
 use fearless_simd::Simd;
 
 use super::Prim;
 use super::origin::relative;
 use super::rows::{KernelVisitor, Row, Rows};
 use crate::accel::MeshTree;
-use crate::kernel::{CuboidRow, FlatRow, Kernel, PlaneRow, RoundRow, SphereRow, TriangleRow};
+use crate::kernel::{
+    CuboidRow, FlatRow, Kernel, PlaneRow, RoundRow, SolidRow, SphereRow, TorusRow, TriangleRow,
+};
 use crate::lanes::outlined;
 use crate::numeric::ORDINARY;
 
@@ -104,7 +106,7 @@ impl Columns {
         let balls = bounded.iter().filter_map(|&i| ball(i)).collect();
         let mut columns = Self { bounded: bounded.to_vec(), balls, ..Self::default() };
         for (prim, id) in prims.iter().zip(0..) {
-            let row = columns.add(prim, &relative(&prim.shape, origin), id, meshes);
+            let row = columns.add(prim, origin, id, meshes);
             columns.rows.push(row);
             columns.smooth |= match row {
                 Row::Instance(_) => prim.mesh.is_some_and(|m| meshes[m as usize].mesh().normals().is_some()),
@@ -124,7 +126,11 @@ impl Columns {
 
     /// Whether a shape with a kernel is flat or a convex solid: rays that leave it outwards do not meet it again.
     pub(crate) fn is_convex(&self, prim: u32) -> bool {
-        !matches!(self.rows[prim as usize], Row::Instance(_) | Row::General)
+        match self.rows[prim as usize] {
+            Row::Instance(_) | Row::Torus(_) | Row::General => false,
+            Row::Solid(at) => self.solids[at as usize].is_convex(),
+            _ => true,
+        }
     }
 
     /// The flat faces that make up a shape, if they have a kernel.
@@ -138,7 +144,7 @@ impl Columns {
     /// Whether a kernel tells of a shape which of its facets rays meet, and not of one facet how: what it leaves undecided
     /// is asked of the whole shape.
     pub(crate) fn is_asked_whole(&self, prim: u32) -> bool {
-        matches!(self.rows[prim as usize], Row::Triangles(..) | Row::Round(_))
+        matches!(self.rows[prim as usize], Row::Triangles(..) | Row::Round(_) | Row::Solid(_))
     }
 
     /// Calls a visitor with the kernel of a shape. Kernels of common shapes are inlined into the caller, the others
@@ -182,8 +188,12 @@ impl Columns {
         self.rows.iter().filter(|&&row| row == Row::General).count()
     }
 
-    fn add(&mut self, prim: &Prim, shape: &Shape, id: u32, meshes: &[Arc<MeshTree>]) -> Row {
-        if prim.member.is_some() || !is_ordinary(shape) {
+    fn add(&mut self, prim: &Prim, origin: DVec3, id: u32, meshes: &[Arc<MeshTree>]) -> Row {
+        let shape = &*relative(&prim.shape, origin);
+        if let Some(member) = &prim.member {
+            return self.add_member(member, origin, id);
+        }
+        if !is_ordinary(shape) {
             return Row::General;
         }
         if let Some(mesh) = shape.as_mesh() {
@@ -213,10 +223,22 @@ impl Columns {
             Shape::Cylinder(c) if !c.is_open() => self.add_round(c.ends(), [c.radius(); 2], false),
             Shape::Cone(c) if !c.is_open() => self.add_round(c.ends(), c.radii(), false),
             Shape::Capsule(c) => self.add_round(c.ends(), [c.radius(); 2], true),
+            Shape::Torus(torus) => Row::Torus(push(&mut self.kernels.tori, TorusRow::new(torus))),
             Shape::Triangle(t) => self.add_facets(id, &[t.corners()]),
             Shape::Tetrahedron(t) => self.add_facets(id, &[0, 1, 2, 3].map(|face| t.face(face))),
-            _ => Row::General,
+            _ => self.add_solid(SolidRow::whole(shape, &prim.shape, id)),
         }
+    }
+
+    /// Adds the part of a solid that a shape is. One without an end is tried by itself.
+    fn add_member(&mut self, member: &Member, origin: DVec3, id: u32) -> Row {
+        let place = |shape: &Shape| Some(relative(shape, origin).into_owned()).filter(is_ordinary);
+        let row = member.bounds().and_then(|_| SolidRow::member(member, place, id));
+        self.add_solid(row)
+    }
+
+    fn add_solid(&mut self, row: Option<SolidRow>) -> Row {
+        row.map_or(Row::General, |row| Row::Solid(push(&mut self.kernels.solids, row)))
     }
 
     fn add_round(&mut self, ends: [DVec3; 2], radii: [f64; 2], has_balls: bool) -> Row {

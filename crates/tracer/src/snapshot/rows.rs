@@ -1,7 +1,9 @@
 //! The list of kernels, and which of them each shape uses.
 
 use super::Instance;
-use crate::kernel::{CuboidRow, Faces, FlatRow, Kernel, PlaneRow, RoundRow, SphereRow, TriangleRow};
+use crate::kernel::{
+    Apart, CuboidRow, Faces, FlatRow, Kernel, PlaneRow, RoundRow, SolidRow, SphereRow, TorusRow, TriangleRow,
+};
 
 /// Work that is compiled once per kernel; called with the kernel of one shape.
 pub(crate) trait KernelVisitor: Sized {
@@ -19,14 +21,19 @@ pub(crate) trait KernelVisitor: Sized {
 }
 
 /// Declares the kernels: a column of rows for each, and the enum [`Row`] that names one. Those of common shapes come
-/// first.
+/// first, those that are compiled [`Apart`] last.
 macro_rules! rows {
-    (common: $($common:ident: $Common:ident($CommonRow:ident)),+; other: $($other:ident: $Other:ident($OtherRow:ident)),+;) => {
+    (
+        common: $($common:ident: $Common:ident($CommonRow:ident)),+;
+        other: $($other:ident: $Other:ident($OtherRow:ident)),+;
+        apart: $($apart:ident: $Apart:ident($ApartRow:ident)),+;
+    ) => {
         /// The kernel of a shape of the snapshot, with its index in that kernel's column.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub(crate) enum Row {
             $($Common(u32),)+
             $($Other(u32),)+
+            $($Apart(u32),)+
             /// The first of a number of triangles, the faces of one shape in order of their facets.
             Triangles(u32, u32),
             Instance(u32),
@@ -39,6 +46,7 @@ macro_rules! rows {
         pub(crate) struct Rows {
             $(pub(crate) $common: Vec<$CommonRow>,)+
             $(pub(crate) $other: Vec<$OtherRow>,)+
+            $(pub(crate) $apart: Vec<$ApartRow>,)+
             pub(crate) triangles: Vec<TriangleRow>,
             pub(crate) instances: Vec<Instance>,
         }
@@ -58,6 +66,7 @@ macro_rules! rows {
             pub(super) fn visit_other<V: KernelVisitor>(&self, row: Row, visitor: V) -> V::Output {
                 match row {
                     $(Row::$Other(at) => visitor.visit(&self.$other[at as usize]),)+
+                    $(Row::$Apart(at) => visitor.visit(&Apart(&self.$apart[at as usize])),)+
                     Row::Triangles(first, count) => {
                         visitor.visit(&Faces(&self.triangles[first as usize..(first + count) as usize]))
                     }
@@ -71,5 +80,6 @@ macro_rules! rows {
 
 rows! {
     common: planes: Plane(PlaneRow), spheres: Sphere(SphereRow);
-    other: flats: Flat(FlatRow), cuboids: Cuboid(CuboidRow), rounds: Round(RoundRow);
+    other: flats: Flat(FlatRow), cuboids: Cuboid(CuboidRow);
+    apart: rounds: Round(RoundRow), solids: Solid(SolidRow), tori: Torus(TorusRow);
 }

@@ -12,7 +12,7 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Lane, LaneMask};
 use fearless_simd::Simd;
 
-use super::{Proposal, Rays, bound};
+use super::{Proposal, Rays, bound, solid as inside};
 use crate::lanes::{F, F3, M, U, cross, splat3};
 use crate::numeric::{
     DIRECTION_ERROR, POINT_ERROR, ROUND_BALL_ERROR, ROUND_CHORD_ERROR, ROUND_END_ERROR, ROUND_ROOT_ERROR,
@@ -206,6 +206,22 @@ impl RoundRow {
         let same = outside & other_error.less(other_beyond);
         let by = if self.has_balls { same & misses } else { same };
         (passed, by)
+    }
+
+    /// Where lines run inside it.
+    #[inline(always)]
+    pub(super) fn stretch<S: Simd>(&self, s: S, rays: &Rays<S>) -> inside::Stretch<S> {
+        let seen = self.see(s, rays);
+        let wide = F::splat(s, self.ball) + seen.error + seen.error;
+        let side = self.side(s, &seen);
+        let (enters, by) = self.pass(s, &seen, &side, -1.0);
+        let (leaves, _) = self.pass(s, &seen, &side, 1.0);
+        let end = |at: Passed<S>| inside::End::about(at.t, at.error, at.facet, at.known);
+        inside::Stretch {
+            misses: (wide * wide).less(seen.q.dot(seen.q)) | side.misses | (side.crosses & by),
+            crosses: side.crosses & enters.known & leaves.known & !by,
+            ends: [end(enters), end(leaves)],
+        }
     }
 
     /// The crossing nearest ahead, and on which facet it lies.
