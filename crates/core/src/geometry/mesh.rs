@@ -1,9 +1,12 @@
 //! A triangle mesh standing somewhere.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::crossings::Crossings;
 use super::parametrization::{BARYCENTRIC, in_triangle};
+use super::subdivision::MOST_LEVELS;
 use super::triangle::{area, meet_triangle, unit_normal, weights};
 use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Located, Number, Vector, Verdict};
@@ -18,6 +21,9 @@ use crate::{
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     source: MeshSource,
+    /// How often its triangles are cut.
+    subdivision: u32,
+    triangles: Arc<TriangleMesh>,
     to_world: Placement,
     to_object: Placement,
 }
@@ -27,7 +33,16 @@ impl Mesh {
     #[must_use]
     pub fn new(source: MeshSource) -> Self {
         let to_world = Placement::offset(source.mesh.offset());
-        Self { source, to_world, to_object: to_world.inverse() }
+        let triangles = Arc::clone(&source.mesh);
+        Self { source, subdivision: 0, triangles, to_world, to_object: to_world.inverse() }
+    }
+
+    /// With its triangles [cut](TriangleMesh::subdivided) that often.
+    #[must_use]
+    pub fn subdivided(self, levels: u32) -> Self {
+        let triangles = self.source.mesh.subdivided(levels);
+        let triangles = triangles.unwrap_or_else(|| Arc::clone(&self.source.mesh));
+        Self { subdivision: levels, triangles, ..self }
     }
 
     /// The triangles and where they came from.
@@ -36,10 +51,10 @@ impl Mesh {
         &self.source
     }
 
-    /// The triangles, in the mesh's own space.
+    /// The triangles that rays meet, in the mesh's own space: those of the source, or what they were cut into.
     #[must_use]
-    pub fn triangles(&self) -> &TriangleMesh {
-        &self.source.mesh
+    pub fn triangles(&self) -> &Arc<TriangleMesh> {
+        &self.triangles
     }
 
     /// From the mesh's own space to where it has been placed.
@@ -58,15 +73,24 @@ impl Mesh {
 impl Part for Mesh {
     const NAME: &'static str = "mesh";
     const DOC: &'static str = "A triangle mesh read from a file.";
-    const FIELDS: &'static [Field] =
-        &[Field::required("file", FieldKind::Mesh, "", "Model file, relative to the scene's folder.")];
+    const FIELDS: &'static [Field] = &[
+        Field::required("file", FieldKind::Mesh, "", "Model file, relative to the scene's folder."),
+        Field::required(
+            "subdivision",
+            FieldKind::Count,
+            "",
+            "How often each triangle is cut into four that bulge as the normals say, 0 to 5.",
+        )
+        .or(|| Value::Number(0.0)),
+    ];
 
     fn make(given: &Given<'_>) -> Result<Self, InvalidPart> {
-        Ok(Self::new(given.mesh("file")?))
+        Ok(Self::new(given.mesh("file")?).subdivided(given.count("subdivision", [0, MOST_LEVELS])?))
     }
 
     fn values(&self) -> Values {
-        Values::new().with("file", Value::Mesh(self.source.clone()))
+        let subdivision = Value::Number(f64::from(self.subdivision));
+        Values::new().with("file", Value::Mesh(self.source.clone())).with("subdivision", subdivision)
     }
 }
 
@@ -74,14 +98,14 @@ impl Mesh {
     /// How much each corner of a triangle counts at a point.
     fn weights_at(&self, point: DVec3, triangle: u32) -> [f64; 3] {
         let own = self.to_object.point(point);
-        let of_corners = in_triangle(&self.source.mesh.corners(triangle), BARYCENTRIC, own).uv;
+        let of_corners = in_triangle(&self.triangles.corners(triangle), BARYCENTRIC, own).uv;
         [1.0 - of_corners.x - of_corners.y, of_corners.x, of_corners.y]
     }
 }
 
 impl Geometry for Mesh {
     fn pieces(&self) -> u32 {
-        self.source.mesh.triangles().len() as u32
+        self.triangles.triangles().len() as u32
     }
 
     fn own_ray(&self, ray: &Ray) -> Ray {
@@ -98,11 +122,11 @@ impl Geometry for Mesh {
         if leaving == Some(triangle) {
             return Ok(None);
         }
-        meet_triangle(&self.source.mesh.corners(triangle), own, span, triangle)
+        meet_triangle(&self.triangles.corners(triangle), own, span, triangle)
     }
 
     fn crossing(&self, own: &Ray, at: Located, triangle: u32) -> Option<Crossing> {
-        let mesh = &self.source.mesh;
+        let mesh = &self.triangles;
         let corners = mesh.corners(triangle);
         let normal = unit_normal(&corners)?;
         let weights = weights(&corners, own);
@@ -116,7 +140,7 @@ impl Geometry for Mesh {
     }
 
     fn bounds(&self) -> Option<Aabb> {
-        let own = self.source.mesh.bounds();
+        let own = self.triangles.bounds();
         Some(if self.to_world == Placement::IDENTITY {
             own
         } else {
@@ -126,11 +150,11 @@ impl Geometry for Mesh {
 
     fn placed(&self, placement: &Placement) -> Self {
         let to_world = self.to_world.then(placement);
-        Self { source: self.source.clone(), to_world, to_object: to_world.inverse() }
+        Self { to_world, to_object: to_world.inverse(), ..self.clone() }
     }
 
     fn parametrization(&self, point: DVec3, triangle: u32) -> Parametrization {
-        let mesh = &self.source.mesh;
+        let mesh = &self.triangles;
         let own = self.to_object.point(point);
         let found = in_triangle(&mesh.corners(triangle), mesh.corner_uvs(triangle), own);
         let [along_u, along_v] = [found.along_u, found.along_v].map(|v| self.to_world.vector(v));
@@ -138,18 +162,18 @@ impl Geometry for Mesh {
     }
 
     fn color_at(&self, point: DVec3, triangle: u32) -> Option<Rgb> {
-        let mesh = &self.source.mesh;
+        let mesh = &self.triangles;
         mesh.colors()?;
         mesh.color_at(triangle, self.weights_at(point, triangle))
     }
 
     fn tangents(&self, point: DVec3, triangle: u32) -> Option<[DVec3; 2]> {
-        let along = self.source.mesh.tangents_at(triangle, self.weights_at(point, triangle))?;
+        let along = self.triangles.tangents_at(triangle, self.weights_at(point, triangle))?;
         Some(along.map(|v| self.to_world.vector(v)))
     }
 
     fn is_closed(&self) -> bool {
-        self.source.mesh.open_edge().is_none()
+        self.triangles.open_edge().is_none()
     }
 
     fn is_solid(&self) -> bool {
@@ -157,7 +181,7 @@ impl Geometry for Mesh {
     }
 
     fn passage<N: Number>(&self, own: &Ray, leaving: Option<u32>) -> Verdict<Passage<N>> {
-        let mesh = &self.source.mesh;
+        let mesh = &self.triangles;
         let mut crossings = Crossings::new(own);
         mesh.along(own, |triangle| crossings.add(&mesh.corners(triangle), triangle))?;
         let passage = crossings.passage()?;

@@ -24,6 +24,7 @@ mod polyhedron;
 mod prism;
 mod rectangle;
 mod sphere;
+mod subdivision;
 mod tangents;
 mod tetrahedron;
 mod torus;

@@ -1,10 +1,13 @@
 //! The triangles of a mesh: shared corners in `f32`, as files give them.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 
 use super::OpenEdge;
 use super::line_tree::LineTree;
 use super::parametrization::BARYCENTRIC;
+use super::subdivision::Subdivisions;
 use super::tangents::Tangents;
 use super::watertight::Watertight;
 use crate::{Aabb, InvalidPart, Ray, Rgb};
@@ -27,6 +30,7 @@ pub struct TriangleMesh {
     bounds: Aabb,
     watertight: Watertight,
     lines: LineTree,
+    subdivisions: Subdivisions,
 }
 
 impl TriangleMesh {
@@ -72,6 +76,7 @@ impl TriangleMesh {
             bounds,
             watertight: Watertight::default(),
             lines: LineTree::default(),
+            subdivisions: Subdivisions::default(),
         })
     }
 
@@ -140,6 +145,37 @@ impl TriangleMesh {
     #[must_use]
     pub fn bounds(&self) -> Aabb {
         self.bounds
+    }
+
+    /// The mesh with each triangle cut into four that bulge as its normals say, `levels` times; made once. `None` without
+    /// normals, and of levels outside 1 to 5.
+    #[must_use]
+    pub fn subdivided(&self, levels: u32) -> Option<Arc<Self>> {
+        self.subdivisions.of(self, levels)
+    }
+
+    /// A mesh of other triangles, whose corners are each made of corners of this one, by weights.
+    pub(super) fn remade(
+        &self,
+        positions: Vec<[f32; 3]>,
+        triangles: Vec<[u32; 3]>,
+        made_of: &[([u32; 3], [f64; 3])],
+    ) -> Self {
+        let normals = self.normals.as_deref().map(|rows| blended(rows, made_of));
+        Self {
+            bounds: Aabb::of(positions.iter().map(|&p| widen(p))),
+            positions,
+            triangles,
+            normals,
+            uvs: self.uvs.as_deref().map(|rows| blended(rows, made_of)),
+            colors: self.colors.as_deref().map(|rows| blended(rows, made_of)),
+            given_tangents: None,
+            tangents: Tangents::default(),
+            offset: self.offset,
+            watertight: Watertight::default(),
+            lines: LineTree::default(),
+            subdivisions: Subdivisions::default(),
+        }
     }
 
     /// An edge where the surface is not closed; `None` of a mesh that encloses something. Sorts all
@@ -245,7 +281,17 @@ fn wound_by(normals: &[[f32; 3]], positions: &[[f32; 3]], mut triangles: Vec<[u3
     triangles
 }
 
-fn widen(p: [f32; 3]) -> DVec3 {
+/// Rows made of others, by weights.
+fn blended<const N: usize>(rows: &[[f32; N]], made_of: &[([u32; 3], [f64; 3])]) -> Vec<[f32; N]> {
+    let blend = |(corners, weights): &([u32; 3], [f64; 3])| {
+        std::array::from_fn(|i| {
+            (0..3).map(|k| f64::from(rows[corners[k] as usize][i]) * weights[k]).sum::<f64>() as f32
+        })
+    };
+    made_of.iter().map(blend).collect()
+}
+
+pub(super) fn widen(p: [f32; 3]) -> DVec3 {
     DVec3::from(p.map(f64::from))
 }
 

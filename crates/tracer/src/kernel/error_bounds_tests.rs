@@ -2,16 +2,18 @@
 //! the shapes' own exact answers: what a kernel is certain of must be right, `t` must lie within its bound, and the worst
 //! of all errors must come near the bound, so that a bound cut down would be found out.
 
+use std::f64::consts::PI;
+
 use catoptra_core::geometry::{
-    Capsule, Cone, Cuboid, Cylinder, Disk, Plane, Polyhedron, Rectangle, Sphere, Torus, Triangle,
+    Capsule, Cone, Cuboid, Cylinder, Disk, Plane, Polyhedron, Prism, Rectangle, Sphere, Torus, Triangle,
 };
-use catoptra_core::glam::DVec3;
+use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::{Lane, Placement, Ray, Shape, Span};
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::{
-    CuboidRow, FlatRow, Kernel, Leaving, PlaneRow, Proposal, Rays, RoundRow, SolidRow, SphereRow, TorusRow,
-    TriangleRow, Tried,
+    CuboidRow, FacetsRow, FlatRow, Kernel, Leaving, PlaneRow, Proposal, Rays, RoundRow, SolidRow, SphereRow,
+    TorusRow, TriangleRow, Tried,
 };
 use crate::film::NOTHING;
 use crate::lanes::{F, F3, M, U, magnitude};
@@ -96,7 +98,12 @@ fn propose<S: Simd>(s: S, shape: &Shape, shots: &[Shot]) -> Option<(Proposal<S>,
         Shape::Capsule(c) => return Some(RoundRow::new(c.ends(), [c.radius(); 2], true).propose(s, rays)),
         Shape::Triangle(triangle) => TriangleRow::new(triangle.corners(), 0, 0)?.propose(s, rays),
         Shape::Torus(torus) => return Some(propose_of(s, &TorusRow::new(torus), rays, leaving)),
-        shape => return Some(propose_of(s, &SolidRow::whole(shape, shape, 0)?, rays, leaving)),
+        shape => {
+            return Some(match SolidRow::whole(shape, shape, 0) {
+                Some(kernel) => propose_of(s, &kernel, rays, leaving),
+                None => propose_of(s, &FacetsRow::new(shape.faceted()?, 0)?, rays, leaving),
+            });
+        }
     };
     Some((proposal, U::splat(s, 0)))
 }
@@ -350,6 +357,31 @@ fn from_outside(random: &mut Random, target: &Target, unit: f64, reach: f64) -> 
 #[test]
 fn tori_that_rays_leave() {
     let record = attack_by(from_outside, some_torus);
+    assert!(record.within > 1000, "{}", record.within);
+    assert_attacked(&record, 0.02);
+}
+
+/// A star of five rays, standing anywhere, and its corners.
+fn star(random: &mut Random, unit: f64) -> Option<Target> {
+    let (center, radius, axis, _) = round(random, unit);
+    let inner = radius * random.power(-4, -1);
+    let outline: Vec<DVec2> = (0..10)
+        .map(|i| DVec2::from_angle(f64::from(i) * 0.2 * PI) * if i % 2 == 0 { radius } else { inner })
+        .collect();
+    let height = radius * random.power(-3, 1);
+    let prism = Prism::new(outline, height, center, axis).ok()?;
+    let corners = prism.solid().corners().to_vec();
+    Some((prism.into(), corners))
+}
+
+#[test]
+fn prisms_that_are_not_convex() {
+    assert_attacked(&attack(star), 0.02);
+}
+
+#[test]
+fn prisms_that_rays_leave() {
+    let record = attack_by(from_outside, star);
     assert!(record.within > 1000, "{}", record.within);
     assert_attacked(&record, 0.02);
 }

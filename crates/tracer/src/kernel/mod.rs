@@ -10,6 +10,7 @@ mod disk;
 #[cfg(test)]
 mod error_bounds_tests;
 mod faces;
+mod facets;
 mod flat;
 pub(crate) mod mesh;
 mod plane;
@@ -32,6 +33,7 @@ pub(crate) use contract::{Crossing, Facet, Kernel, Leaving, NearHit, Obstacle, T
 pub(crate) use cuboid::CuboidRow;
 use disk::DiskOutline;
 pub(crate) use faces::Faces;
+pub(crate) use facets::FacetsRow;
 pub(crate) use flat::FlatRow;
 pub(crate) use plane::PlaneRow;
 use rectangle::RectangleOutline;

@@ -12,7 +12,7 @@ use super::origin::relative;
 use super::rows::{KernelVisitor, Row, Rows};
 use crate::accel::MeshTree;
 use crate::kernel::{
-    CuboidRow, FlatRow, Kernel, PlaneRow, RoundRow, SolidRow, SphereRow, TorusRow, TriangleRow,
+    CuboidRow, FacetsRow, FlatRow, Kernel, PlaneRow, RoundRow, SolidRow, SphereRow, TorusRow, TriangleRow,
 };
 use crate::lanes::outlined;
 use crate::numeric::ORDINARY;
@@ -127,7 +127,7 @@ impl Columns {
     /// Whether a shape with a kernel is flat or a convex solid: rays that leave it outwards do not meet it again.
     pub(crate) fn is_convex(&self, prim: u32) -> bool {
         match self.rows[prim as usize] {
-            Row::Instance(_) | Row::Torus(_) | Row::General => false,
+            Row::Instance(_) | Row::Torus(_) | Row::Facets(_) | Row::General => false,
             Row::Solid(at) => self.solids[at as usize].is_convex(),
             _ => true,
         }
@@ -144,7 +144,10 @@ impl Columns {
     /// Whether a kernel tells of a shape which of its facets rays meet, and not of one facet how: what it leaves undecided
     /// is asked of the whole shape.
     pub(crate) fn is_asked_whole(&self, prim: u32) -> bool {
-        matches!(self.rows[prim as usize], Row::Triangles(..) | Row::Round(_) | Row::Solid(_))
+        matches!(
+            self.rows[prim as usize],
+            Row::Triangles(..) | Row::Round(_) | Row::Solid(_) | Row::Facets(_)
+        )
     }
 
     /// Calls a visitor with the kernel of a shape. Kernels of common shapes are inlined into the caller, the others
@@ -226,7 +229,10 @@ impl Columns {
             Shape::Torus(torus) => Row::Torus(push(&mut self.kernels.tori, TorusRow::new(torus))),
             Shape::Triangle(t) => self.add_facets(id, &[t.corners()]),
             Shape::Tetrahedron(t) => self.add_facets(id, &[0, 1, 2, 3].map(|face| t.face(face))),
-            _ => self.add_solid(SolidRow::whole(shape, &prim.shape, id)),
+            shape => match SolidRow::whole(shape, &prim.shape, id) {
+                Some(row) => self.add_solid(Some(row)),
+                None => self.add_faceted(shape, id),
+            },
         }
     }
 
@@ -239,6 +245,12 @@ impl Columns {
 
     fn add_solid(&mut self, row: Option<SolidRow>) -> Row {
         row.map_or(Row::General, |row| Row::Solid(push(&mut self.kernels.solids, row)))
+    }
+
+    /// Adds what is neither convex nor a mesh and has flat facets.
+    fn add_faceted(&mut self, shape: &Shape, id: u32) -> Row {
+        let row = shape.faceted().and_then(|solid| FacetsRow::new(solid, id));
+        row.map_or(Row::General, |row| Row::Facets(push(&mut self.kernels.facets, row)))
     }
 
     fn add_round(&mut self, ends: [DVec3; 2], radii: [f64; 2], has_balls: bool) -> Row {

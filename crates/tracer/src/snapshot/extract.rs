@@ -113,6 +113,8 @@ impl Extraction {
             for (&place, number) in places.iter().zip(0..) {
                 let prim = &mut prims[place as usize];
                 prim.member = Member::new(Arc::clone(&solid), number);
+                // What of a mesh is the solid's surface, its own tree does not know.
+                prim.mesh = None;
                 prim.body = places[0];
             }
         }

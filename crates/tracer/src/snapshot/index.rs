@@ -72,7 +72,7 @@ impl<'a> MeshTrees<'a> {
 
     /// The index of a shape's mesh tree; `None` for shapes that are not meshes.
     pub(super) fn of(&mut self, shape: &Shape) -> Option<u32> {
-        let mesh = &shape.as_mesh()?.source().mesh;
+        let mesh = shape.as_mesh()?.triangles();
         Some(*self.places.entry(Arc::as_ptr(mesh)).or_insert_with(|| {
             let known = self.earlier.get(&Arc::as_ptr(mesh)).map(|tree| Arc::clone(tree));
             let tree = known.unwrap_or_else(|| Arc::new(MeshTree::build(mesh, self.preset, self.pool)));

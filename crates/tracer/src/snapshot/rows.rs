@@ -2,7 +2,8 @@
 
 use super::Instance;
 use crate::kernel::{
-    Apart, CuboidRow, Faces, FlatRow, Kernel, PlaneRow, RoundRow, SolidRow, SphereRow, TorusRow, TriangleRow,
+    Apart, CuboidRow, Faces, FacetsRow, FlatRow, Kernel, PlaneRow, RoundRow, SolidRow, SphereRow, TorusRow,
+    TriangleRow,
 };
 
 /// Work that is compiled once per kernel; called with the kernel of one shape.
@@ -81,5 +82,5 @@ macro_rules! rows {
 rows! {
     common: planes: Plane(PlaneRow), spheres: Sphere(SphereRow);
     other: flats: Flat(FlatRow), cuboids: Cuboid(CuboidRow);
-    apart: rounds: Round(RoundRow), solids: Solid(SolidRow), tori: Torus(TorusRow);
+    apart: rounds: Round(RoundRow), solids: Solid(SolidRow), tori: Torus(TorusRow), facets: Facets(FacetsRow);
 }

@@ -254,6 +254,22 @@ fn a_box_of_triangles_and_a_box_are_one() {
 }
 
 #[test]
+fn where_rounding_has_put_a_start_beside_an_edge_the_ray_goes_where_it_runs() {
+    let solid = combined(Operation::Union, vec![Body::Prism([0; 3], 2, 0).shape()]);
+    let leave = |facet: u32, origin: [f64; 3], direction: [f64; 3]| {
+        let (ray, left) = (Ray::new(origin.into(), direction.into()), Some(Left { member: 0, facet }));
+        [None, left].map(|left| hit(&solid, &ray, left).map(|(_, hit)| (hit.facet, hit.t)))
+    };
+    // Outwards from the side at x = 0, within both it and the side at z = 0 by a rounding: through neither.
+    let [met, left] = leave(7, [1e-17, 1.0, -1e-17], [-1.0, 0.0, 4.0]);
+    assert_eq!((met.map(|(facet, _)| facet), left), (Some(2), None));
+    // Inwards by the side at x = 1, at the edge in the hollow of the L, from a rounding within the other arm.
+    let [met, left] = leave(5, [1.0 + 2.0 * f64::EPSILON, 1.0, -1.0 + f64::EPSILON], [-1.0, 0.0, -1.5]);
+    assert_eq!(met.map(|(facet, _)| facet), Some(4));
+    assert!(left.is_some_and(|(facet, t)| facet == 7 && t > 0.9), "{left:?}");
+}
+
+#[test]
 fn a_face_of_many_members_is_of_one_that_helps_the_solid_to_begin() {
     // (0 − 1) ∪ (2 ∩ 3): 1 begins where 2 and 3 do, of which neither alone makes anything.
     let pair = |operation, a, b| Rule::Combined(operation, vec![Rule::Shape(a), Rule::Shape(b)]);

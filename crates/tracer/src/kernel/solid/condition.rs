@@ -13,8 +13,6 @@ use super::stretch::Sides;
 pub(super) struct Conditions {
     /// Rules, each with whether points must be inside.
     all: Vec<(Rule, bool)>,
-    /// Whether the inside of the shape is the outside of the solid, as that of what is taken away.
-    pub(super) is_negative: bool,
 }
 
 impl Conditions {
@@ -25,8 +23,6 @@ impl Conditions {
             Rule::Combined(operation, members) => {
                 let found = members.iter().enumerate().find_map(|(i, m)| Some((i, Self::of(m, shape)?)));
                 let (place, mut conditions) = found?;
-                let taken = *operation == Operation::Difference && place > 0;
-                conditions.is_negative ^= taken;
                 let others = members.iter().enumerate().filter(|(i, _)| *i != place);
                 conditions.all.extend(others.map(|(i, other)| {
                     let first = *operation == Operation::Difference && i == 0;

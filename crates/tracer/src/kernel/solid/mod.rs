@@ -67,7 +67,7 @@ impl SolidRow {
         let solid = member.solid();
         let convex = |shape: &Shape| Convex::new(&place(shape)?, shape, prim);
         let conditions = Conditions::of(solid.rule(), member.number())?;
-        let outwards = if conditions.is_negative { -1.0 } else { 1.0 };
+        let outwards = if solid.rule().is_negative(member.number()) { -1.0 } else { 1.0 };
         let near = conditions.shapes().into_iter().filter_map(|number| {
             let shape = &solid.shapes()[number as usize];
             may_touch(member.bounds(), shape.bounds()).then(|| convex(shape).map(|other| (number, other)))
