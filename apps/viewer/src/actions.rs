@@ -2,13 +2,18 @@
 
 use std::path::Path;
 
+use catoptra_core::Aabb;
 use catoptra_core::scene::{Edit, EntityId, Role};
 use catoptra_raster::Grip;
 
+use crate::browse::Purpose;
 use crate::camera_control::{self, NOTCH, ORBIT_PER_PIXEL};
+use crate::deeds::Deed;
 use crate::guard::Next;
 use crate::input::{Drag, Gesture, Mode};
 use crate::keys::Command;
+use crate::making;
+use crate::selection::Picking;
 use crate::tracing::Frame;
 use crate::viewer::Viewer;
 
@@ -52,10 +57,31 @@ pub(crate) fn run(viewer: &mut Viewer, command: Command) {
             viewer.stale.overlay = true;
         }
         Command::Escape => escape(viewer),
-        Command::Delete => delete(viewer),
+        Command::Delete => making::delete(viewer),
+        Command::Add => making::choose(viewer),
+        Command::Duplicate => making::duplicate(viewer),
+        Command::Cut => making::cut(viewer),
+        Command::Copy => {
+            making::copy(viewer);
+        }
+        Command::Paste => making::ask_to_paste(viewer),
+        Command::Rename => making::rename(viewer),
+        Command::Group => making::group(viewer),
+        Command::Ungroup => making::ungroup(viewer),
+        Command::Hide => making::hide(viewer),
+        Command::ShowAll => making::show_all(viewer),
+        Command::Lock => making::lock(viewer),
+        Command::SelectAll => {
+            let all = viewer.document.scene().children(None);
+            viewer.select_all(all.into_iter().collect());
+        }
         Command::Undo => undo(viewer),
         Command::Redo => redo(viewer),
         Command::Save => viewer.save(),
+        Command::SaveAs => viewer.save_elsewhere(None),
+        Command::New => viewer.leave(Next::New),
+        Command::Open => open(viewer),
+        Command::Reload => reload(viewer),
         Command::Picture => viewer.picture_wanted = true,
     }
 }
@@ -78,7 +104,8 @@ fn frame_all(viewer: &mut Viewer) {
 }
 
 fn frame_selected(viewer: &mut Viewer) {
-    let bounds = viewer.selection.and_then(|id| viewer.document.scene().world_bounds(id));
+    let scene = viewer.document.scene();
+    let bounds = viewer.selection.ids().iter().filter_map(|id| scene.world_bounds(*id)).reduce(Aabb::union);
     match bounds {
         Some(bounds) => viewer.frame(bounds),
         None => viewer.notify("select something that has an end first"),
@@ -97,35 +124,46 @@ fn next_camera(viewer: &mut Viewer) {
 }
 
 fn escape(viewer: &mut Viewer) {
-    if viewer.error.take().is_none() {
-        if viewer.shown.help {
-            viewer.shown.help = false;
-        } else {
-            viewer.select(None);
-        }
+    match () {
+        () if viewer.error.take().is_some() || viewer.failure.take().is_some() => {}
+        () if viewer.shown.help => viewer.shown.help = false,
+        () => viewer.select(None),
     }
 }
 
-fn delete(viewer: &mut Viewer) {
-    if let Some(id) = viewer.selection {
-        viewer.edit(Edit::Remove(id));
+fn open(viewer: &mut Viewer) {
+    viewer.finish_name();
+    let folder = viewer.document.folder();
+    viewer.browse(Purpose::Open, &folder, String::new());
+}
+
+fn reload(viewer: &mut Viewer) {
+    match viewer.error.as_ref().map(|broken| broken.source.clone()) {
+        Some(broken) => viewer.leave(broken),
+        None => match viewer.document.source().map(Path::to_owned) {
+            Some(file) => viewer.leave(Next::Open(file)),
+            None => viewer.notify("this scene has no file to be read again"),
+        },
     }
 }
 
 fn undo(viewer: &mut Viewer) {
-    if viewer.document.undo() {
-        viewer.notify("undone");
-    } else {
-        viewer.notify("nothing to undo");
-    }
+    let deed = viewer.document.undo();
+    tell(viewer, deed, "undo");
 }
 
 fn redo(viewer: &mut Viewer) {
-    if viewer.document.redo() {
-        viewer.notify("redone");
-    } else {
-        viewer.notify("nothing to redo");
+    let deed = viewer.document.redo();
+    tell(viewer, deed, "redo");
+}
+
+/// Tells what a step did, and selects what came with it.
+fn tell(viewer: &mut Viewer, deed: Option<Deed>, way: &str) {
+    let Some(deed) = deed else { return viewer.notify(format!("nothing to {way}")) };
+    if !deed.brought.is_empty() {
+        viewer.select_all(deed.brought.into_iter().collect());
     }
+    viewer.notify(format!("{way}: {}", deed.words));
 }
 
 /// Writes the picture as it was traced, without overlays, under a free name in the current folder.
@@ -145,7 +183,7 @@ pub(crate) fn write_picture(viewer: &mut Viewer, frame: &Frame) {
 pub(crate) fn gesture(viewer: &mut Viewer, gesture: Gesture) {
     match gesture {
         Gesture::None => {}
-        Gesture::Click(x, y) => click(viewer, x, y),
+        Gesture::Click { at: (x, y), picking } => click(viewer, (x, y), picking),
         Gesture::Dragged { drag, by, to } => drag_by(viewer, drag, by, to),
         Gesture::Ended(_) => {
             viewer.document.end_step();
@@ -154,10 +192,11 @@ pub(crate) fn gesture(viewer: &mut Viewer, gesture: Gesture) {
     }
 }
 
-fn click(viewer: &mut Viewer, x: f64, y: f64) {
-    let mark = viewer.overlay(&viewer.camera, &[]).mark_at(x, y);
+fn click(viewer: &mut Viewer, (x, y): (f64, f64), picking: Picking) {
+    let mark = viewer.overlay(&viewer.camera).mark_at(x, y);
     let found = mark.or_else(|| viewer.pick(x, y).map(|hit| hit.entity));
-    viewer.select(found);
+    let found = found.filter(|id| !viewer.document.scene().is_locked(*id));
+    viewer.click_on(found, picking);
 }
 
 fn drag_by(viewer: &mut Viewer, drag: Drag, by: (f64, f64), to: (f64, f64)) {
@@ -194,12 +233,14 @@ fn is_object(viewer: &Viewer, id: EntityId) -> bool {
 }
 
 fn drag_handle(viewer: &mut Viewer, grip: Grip, to: (f64, f64)) {
-    let Some(light) = viewer.overlay(&viewer.camera, &[]).drag(grip, to.0, to.1) else { return };
+    let Some(light) = viewer.overlay(&viewer.camera).drag(grip, to.0, to.1) else { return };
     match light {
         Ok(light) => viewer.edit_on(Edit::Light(grip.light, light), DRAG_KEY | u64::from(grip.light.index())),
         Err(refusal) => viewer.notify(refusal.to_string()),
     }
-    viewer.select(Some(grip.light));
+    if !viewer.selection.contains(grip.light) {
+        viewer.select(Some(grip.light));
+    }
 }
 
 /// The wheel was turned by that many notches, away from the person counted positive.
@@ -271,7 +312,7 @@ mod tests {
     fn a_dragged_ring_changes_the_angle_as_one_step() {
         let mut viewer = viewer();
         viewer.settings.style.cones = true;
-        let overlay = viewer.overlay(&viewer.camera, &[]);
+        let overlay = viewer.overlay(&viewer.camera);
         let spots = (0..360).flat_map(|y| (0..640).map(move |x| (f64::from(x), f64::from(y))));
         let (grip, at) = spots.filter_map(|(x, y)| Some((overlay.grip_at(x, y)?, (x, y)))).next().unwrap();
         let light = |viewer: &Viewer| viewer.document.scene().light(grip.light).unwrap();
@@ -282,7 +323,7 @@ mod tests {
         }
         gesture(&mut viewer, Gesture::Ended(Drag::Handle(grip)));
         assert!(light(&viewer) != before);
-        assert_eq!(viewer.selection, Some(grip.light));
+        assert_eq!(viewer.selection.ids(), [grip.light]);
         run(&mut viewer, Command::Undo);
         assert_eq!(light(&viewer), before);
     }
@@ -307,16 +348,15 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let (mut viewer, lamp) = lamp_viewer(folder.path());
         let bounds = viewer.document.scene().world_bounds(lamp).unwrap();
-        let selected = [lamp];
         let seen = |viewer: &Viewer| {
             let view = catoptra_raster::Projection::new(&viewer.camera, 640, 360);
             view.project(bounds.centre()).unwrap()
         };
         // Aside of the mark in its middle.
         let (x, y) = (seen(&viewer).x + 30.0, seen(&viewer).y);
-        gesture(&mut viewer, Gesture::Click(x, y));
-        assert_eq!(viewer.selection, Some(lamp));
-        let overlay = viewer.overlay(&viewer.camera, &selected);
+        gesture(&mut viewer, Gesture::Click { at: (x, y), picking: Picking::Only });
+        assert_eq!(viewer.selection.ids(), [lamp]);
+        let overlay = viewer.overlay(&viewer.camera);
         let right = (320..640).map(|x| (f64::from(x), y));
         let (grip, at) = right.filter_map(|(x, y)| Some((overlay.grip_at(x, y)?, (x, y)))).next().unwrap();
         let light = |viewer: &Viewer| viewer.document.scene().light(lamp).unwrap();
@@ -343,9 +383,11 @@ mod tests {
         run(&mut viewer, Command::Delete);
         viewer.follow_scene();
         assert_eq!(viewer.document.scene().entity_named("floor"), None);
-        assert_eq!(viewer.selection, None);
+        assert!(viewer.selection.is_empty());
         run(&mut viewer, Command::Undo);
         assert_eq!(viewer.document.scene().entity_named("floor"), floor);
+        assert_eq!(viewer.selection.active(), floor, "it is selected again");
+        assert_eq!(viewer.notice.as_ref().unwrap().0, "undo: delete floor");
     }
 
     #[test]
@@ -393,11 +435,11 @@ mod tests {
         let mut viewer = viewer();
         let shown = (0..640).map(|x| (f64::from(x), 350.0)).find(|&(x, y)| viewer.pick(x, y).is_some());
         let (x, y) = shown.unwrap();
-        gesture(&mut viewer, Gesture::Click(x, y));
-        assert!(viewer.selection.is_some());
+        gesture(&mut viewer, Gesture::Click { at: (x, y), picking: Picking::Only });
+        assert!(!viewer.selection.is_empty());
         run(&mut viewer, Command::Delete);
         viewer.follow_scene();
-        gesture(&mut viewer, Gesture::Click(x, y));
-        assert_eq!(viewer.selection, None);
+        gesture(&mut viewer, Gesture::Click { at: (x, y), picking: Picking::Only });
+        assert!(viewer.selection.is_empty());
     }
 }

@@ -1,7 +1,7 @@
 //! What happens when? Events of the window, finished frames and opened files become changes of the viewer; whatever
 //! went stale is asked for once the events are through; then the loop sleeps.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -17,12 +17,14 @@ use crate::ball::BallTracing;
 use crate::dropped;
 use crate::frame_worker::{Finished, FrameWorker};
 use crate::guard::Next;
-use crate::loader::{self, Opened, Outcome};
+use crate::loader::{Opened, Outcome};
 use crate::options::Options;
+use crate::recovery::{self, Kept};
 use crate::screen::Screen;
 use crate::status::Meter;
 use crate::tracing::{Frame, PoolTracing};
 use crate::viewer::Viewer;
+use crate::watch::Watch;
 
 /// What other threads wake the window for.
 pub(crate) enum Wake {
@@ -36,6 +38,10 @@ pub(crate) enum Wake {
     Model(dropped::model::Outcome),
     /// A picture of a material was finished.
     Ball,
+    /// Files of the scene were changed.
+    Changed(Vec<PathBuf>),
+    /// The viewer is told to end.
+    Ended,
 }
 
 /// The running viewer.
@@ -66,11 +72,17 @@ pub(crate) struct App {
     /// Why the viewer had to stop.
     pub(crate) failure: Option<String>,
     /// The scene named at the start is being read; until it is there nothing is traced.
-    starting: bool,
-    proxy: EventLoopProxy<Wake>,
-    ticket: u64,
+    pub(crate) starting: bool,
+    pub(crate) proxy: EventLoopProxy<Wake>,
+    pub(crate) ticket: u64,
     /// The revision of the scene when a file was last asked for: edits up to there may go for it.
-    wished_at: u64,
+    pub(crate) wished_at: u64,
+    /// The files of the scene.
+    pub(crate) watch: Watch,
+    /// Unsaved edits of earlier runs, to be offered.
+    pub(crate) kept: Vec<Kept>,
+    /// Whether the viewer was told to end.
+    pub(crate) ended: bool,
 }
 
 impl App {
@@ -92,6 +104,8 @@ impl App {
             // As above.
             let _ = wake.send_event(Wake::Ball);
         });
+        let wake = proxy.clone();
+        let watch = Watch::start(move |changed| wake.send_event(Wake::Changed(changed)).is_ok());
         let mut app = Self {
             viewer: Viewer::new(opened),
             pool,
@@ -114,70 +128,15 @@ impl App {
             proxy,
             ticket: 0,
             wished_at: 0,
+            watch,
+            kept: recovery::folder().map(|folder| recovery::all(&folder)).unwrap_or_default(),
+            ended: false,
             options,
         };
         if let Some(file) = app.options.file.clone() {
-            app.open(file);
+            app.open(Next::Open(file));
         }
         app
-    }
-
-    /// Starts to read a file; the scene shown stays until it is there, and goes then with the edits made so far.
-    fn open(&mut self, file: PathBuf) {
-        self.ticket += 1;
-        self.wished_at = self.viewer.document.scene().revision();
-        self.viewer.notify(format!("opening {}", file.display()));
-        let proxy = self.proxy.clone();
-        loader::open(file, self.ticket, Arc::clone(&self.pool), move |outcome| {
-            // The loop may have ended; then no one waits for the file.
-            let _ = proxy.send_event(Wake::Opened(outcome));
-        });
-    }
-
-    fn opened(&mut self, outcome: Outcome) {
-        if outcome.ticket != self.ticket {
-            return;
-        }
-        self.starting = false;
-        match outcome.result {
-            Ok(opened) => {
-                if self.viewer.lets_in(&outcome.path, self.wished_at) {
-                    self.viewer.show(*opened);
-                    self.viewer.notify(format!("opened {}", outcome.path.display()));
-                }
-            }
-            Err(report) => {
-                self.viewer.notify(format!("{} was not opened", outcome.path.display()));
-                self.viewer.error = Some(report);
-            }
-        }
-    }
-
-    /// Starts to read a picture that is to be a texture, if there is something that it can be put on.
-    pub(crate) fn picture_dropped(&mut self, file: &Path) {
-        if self.viewer.guard.question().is_some() {
-            return self.viewer.notify("answer the question first, then drop the picture again");
-        }
-        let Some(target) = dropped::picture::target(&mut self.viewer) else { return };
-        self.viewer.notify(format!("reading {}", file.display()));
-        let proxy = self.proxy.clone();
-        dropped::picture::read(file.to_owned(), target, move |outcome| {
-            // The loop may have ended; then no one waits for the picture.
-            let _ = proxy.send_event(Wake::Picture(outcome));
-        });
-    }
-
-    /// Starts to read a model that is to stand in the scene.
-    pub(crate) fn model_dropped(&mut self, file: &Path) {
-        if self.viewer.guard.question().is_some() {
-            return self.viewer.notify("answer the question first, then drop the model again");
-        }
-        self.viewer.notify(format!("reading {}", file.display()));
-        let proxy = self.proxy.clone();
-        dropped::model::read(file.to_owned(), &self.viewer, move |outcome| {
-            // The loop may have ended; then no one waits for the model.
-            let _ = proxy.send_event(Wake::Model(outcome));
-        });
     }
 
     fn take_ball(&mut self) {
@@ -231,13 +190,21 @@ impl ApplicationHandler<Wake> for App {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, event: Wake) {
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Wake) {
         match event {
             Wake::Frame => self.request_redraw(),
             Wake::Opened(outcome) => self.opened(outcome),
             Wake::Picture(outcome) => dropped::picture::put(&mut self.viewer, outcome),
             Wake::Model(outcome) => dropped::model::put(&mut self.viewer, outcome),
             Wake::Ball => self.take_ball(),
+            Wake::Changed(files) => self.files_changed(&files),
+            Wake::Ended => {
+                self.ended = true;
+                match self.keep_edits() {
+                    Ok(()) => event_loop.exit(),
+                    Err(why) => self.fail(event_loop, why),
+                }
+            }
         }
     }
 
@@ -254,11 +221,16 @@ impl ApplicationHandler<Wake> for App {
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
-        match self.viewer.guard.take_due() {
-            Some(Next::Close) => return event_loop.exit(),
-            Some(Next::Open(file)) => self.open(file),
+        match self.viewer.take_next() {
+            Some(Next::Close) => {
+                self.viewer.document.settle();
+                return event_loop.exit();
+            }
+            Some(next) => self.open(next),
             None => {}
         }
+        self.offer_kept();
+        self.do_wanted();
         self.request_if_stale();
         if let Some(sample) = self.viewer.preview.take_due() {
             self.balls.submit(sample);

@@ -9,8 +9,23 @@ use catoptra_scene::model::Model;
 use catoptra_scene::{OnDisk, SceneFile};
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 
+use crate::deeds::{Before, Deed, Direction};
+use crate::difference::{self, Line};
+use crate::recovery::{Kept, Origin};
+
 /// The scene shown when none is named.
 const WELCOME: &str = include_str!("../../../scenes/gallery/welcome.kdl");
+
+/// What a new scene begins with: something to stand on, light and a view.
+const EMPTY: &str = "camera \"main\" { eye 3 2.5 6; target 0 0.5 0; fov 40 }
+directional-light \"sun\" { direction -1 -2 -1.5; irradiance 2 }
+ambient-light \"sky\" { radiance 0.25 }
+matte \"grey\" { color 0.6 }
+plane \"floor\" material=\"grey\"
+";
+
+/// The name of a new scene.
+const NEW_NAME: &str = "untitled";
 
 /// The name under which the built-in scene is first saved.
 const WELCOME_NAME: &str = "welcome";
@@ -23,6 +38,10 @@ pub(crate) struct Document {
     path: Option<PathBuf>,
     /// The model that the scene was made for.
     model: Option<PathBuf>,
+    /// Edits of an earlier run that it holds and that are not saved.
+    recovered: Option<Kept>,
+    /// It was begun anew, and has no name yet.
+    is_new: bool,
 }
 
 impl Document {
@@ -32,7 +51,51 @@ impl Document {
     /// A report of what is wrong in its text.
     pub(crate) fn welcome() -> Result<Self, String> {
         let (scene, file) = catoptra_scene::parse(WELCOME, "welcome.kdl", None).map_err(|e| report(&e))?;
-        Ok(Self { scene, history: History::new(), file, path: None, model: None })
+        Ok(Self::new(scene, file))
+    }
+
+    fn new(scene: Scene, file: SceneFile) -> Self {
+        Self { scene, history: History::new(), file, path: None, model: None, recovered: None, is_new: false }
+    }
+
+    /// The edits that an earlier run has kept, not saved.
+    ///
+    /// # Errors
+    /// A report of why they cannot be read, for people.
+    pub(crate) fn recover(kept: &Kept) -> Result<Self, String> {
+        let place = kept.place.display();
+        let text = kept.text().map_err(|e| format!("{place} cannot be read: {e}"))?;
+        let base = match &kept.origin {
+            Origin::File(path) => path.parent().unwrap_or(Path::new("")),
+            Origin::Folder(folder) => folder,
+        };
+        let name = place.to_string();
+        let (scene, file) = catoptra_scene::parse(&text, &name, Some(base)).map_err(|e| report(&e))?;
+        let mut document = Self { recovered: Some(kept.clone()), ..Self::new(scene, file) };
+        if let Origin::File(path) = &kept.origin {
+            document.file = document.file.assigned_to(path);
+            document.path = Some(path.clone());
+        }
+        Ok(document)
+    }
+
+    /// Whose edits it holds, and the text with them, to be kept where they are not saved.
+    pub(crate) fn text_to_keep(&mut self) -> (Origin, String) {
+        self.file.update(&self.scene);
+        let origin = match &self.path {
+            Some(path) => Origin::File(path.clone()),
+            None => Origin::Folder(self.folder()),
+        };
+        (origin, self.file.text())
+    }
+
+    /// A scene to begin with.
+    ///
+    /// # Errors
+    /// A report of what is wrong in its text.
+    pub(crate) fn empty() -> Result<Self, String> {
+        let (scene, file) = catoptra_scene::parse(EMPTY, "new scene", None).map_err(|e| report(&e))?;
+        Ok(Self { is_new: true, ..Self::new(scene, file) })
     }
 
     /// The scene in a file.
@@ -46,7 +109,7 @@ impl Document {
             .for_each(|warning| eprintln!("warning: {}", catoptra_scene::printable(warning)));
         let kept = file.path().map(Path::to_owned);
         let model = kept.is_none().then(|| path.to_owned());
-        Ok(Self { scene, history: History::new(), file, path: kept, model })
+        Ok(Self { path: kept, model, ..Self::new(scene, file) })
     }
 
     /// The scene as it is now.
@@ -57,12 +120,13 @@ impl Document {
     /// A short name for titles and file names.
     pub(crate) fn name(&self) -> String {
         let stem = self.path.as_deref().or(self.model.as_deref()).and_then(Path::file_stem);
-        stem.map_or_else(|| WELCOME_NAME.to_owned(), |stem| stem.to_string_lossy().into_owned())
+        let unnamed = if self.is_new { NEW_NAME } else { WELCOME_NAME };
+        stem.map_or_else(|| unnamed.to_owned(), |stem| stem.to_string_lossy().into_owned())
     }
 
     /// Whether it is as it was when opened or last saved.
     pub(crate) fn is_saved(&self) -> bool {
-        self.history.is_saved()
+        self.history.is_saved() && self.recovered.is_none()
     }
 
     /// Changes the scene, as one step to undo.
@@ -86,14 +150,21 @@ impl Document {
         self.history.end_step();
     }
 
-    /// Takes the last step back; `false` if there is none.
-    pub(crate) fn undo(&mut self) -> bool {
-        self.history.undo(&mut self.scene)
+    /// Takes the last step back, and tells what it did; `None` if there is none.
+    pub(crate) fn undo(&mut self) -> Option<Deed> {
+        let before = Before::of(&self.scene);
+        self.history.undo(&mut self.scene).then(|| before.deed(&self.scene, Direction::Back))
     }
 
-    /// Makes the last undone step again; `false` if there is none.
-    pub(crate) fn redo(&mut self) -> bool {
-        self.history.redo(&mut self.scene)
+    /// Makes the last undone step again, and tells what it does; `None` if there is none.
+    pub(crate) fn redo(&mut self) -> Option<Deed> {
+        let before = Before::of(&self.scene);
+        self.history.redo(&mut self.scene).then(|| before.deed(&self.scene, Direction::Again))
+    }
+
+    /// Whether it has a file that it is saved to.
+    pub(crate) fn has_place(&self) -> bool {
+        self.path.is_some()
     }
 
     /// Where the scene is written: to where it is kept, or under a new name in the folder of its model or the current one.
@@ -120,9 +191,41 @@ impl Document {
         self.file.model_edit(&self.scene, file, wish, placement)
     }
 
+    /// The file that it was read from: a scene, or a model.
+    pub(crate) fn source(&self) -> Option<&Path> {
+        self.path.as_deref().or(self.model.as_deref())
+    }
+
+    /// All files that it was read from.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        let file = &self.file;
+        let others = file.mesh_paths().chain(file.model_paths()).chain(file.image_paths());
+        let source = self.source().map(Path::to_owned);
+        source.into_iter().chain(others).chain(file.profile_paths()).collect()
+    }
+
+    /// Whether its file holds what was read from it or written to it last.
+    pub(crate) fn is_same_on_disk(&self) -> bool {
+        self.path.is_some() && self.on_disk() == OnDisk::Same
+    }
+
+    /// The edits of an earlier run that it holds need not be kept any longer: they are saved, given up or kept anew.
+    pub(crate) fn settle(&mut self) {
+        if let Some(kept) = self.recovered.take() {
+            kept.forget();
+        }
+    }
+
     /// Whether someone else has changed the file in which the scene is kept.
     pub(crate) fn on_disk(&self) -> OnDisk {
         self.file.on_disk()
+    }
+
+    /// What differs between its file, as it is on the disk, and what saving would write there.
+    pub(crate) fn difference(&mut self) -> Vec<Line> {
+        self.file.update(&self.scene);
+        let on_disk = std::fs::read(self.place()).unwrap_or_default();
+        difference::between(&String::from_utf8_lossy(&on_disk), &self.file.text())
     }
 
     /// Writes the scene to its [place](Self::place), whatever stands there. Returns where.
@@ -130,9 +233,17 @@ impl Document {
     /// # Errors
     /// Why it could not be written, for people.
     pub(crate) fn save(&mut self) -> Result<PathBuf, String> {
-        let path = self.place();
+        self.save_to(self.place())
+    }
+
+    /// Writes the scene to a file, whatever stands there, and keeps it there from then on. Returns where.
+    ///
+    /// # Errors
+    /// Why it could not be written, for people.
+    pub(crate) fn save_to(&mut self, path: PathBuf) -> Result<PathBuf, String> {
         self.file.save(&self.scene, &path).map_err(|e| format!("{} was not saved: {e}", path.display()))?;
         self.history.mark_saved();
+        self.settle();
         self.path = Some(path.clone());
         Ok(path)
     }

@@ -9,7 +9,7 @@ use crate::actions;
 use crate::app::App;
 use crate::dropped;
 use crate::guard::{Answer, Next};
-use crate::input::{Button, Mode};
+use crate::input::{Button, Held, Mode};
 use crate::keys::{self, Command};
 use crate::screen::Screen;
 
@@ -60,9 +60,10 @@ impl App {
         }
     }
 
-    /// Whether a question stands in the window: then all keys and clicks are for it.
+    /// Whether a question stands in the window, or something is chosen: then all keys and clicks are for that.
     fn asks(&self) -> bool {
-        self.viewer.guard.question().is_some()
+        let viewer = &self.viewer;
+        viewer.guard.question().is_some() || viewer.browser.is_some() || viewer.adding.is_some()
     }
 
     /// Gives an event to egui.
@@ -97,8 +98,7 @@ impl App {
 
     /// The pointer tells that a handle can be dragged.
     fn show_grip(&self, screen: &Screen, at: (f64, f64)) {
-        let selection: Vec<_> = self.viewer.selection.into_iter().collect();
-        let grip = self.viewer.overlay(&self.viewer.camera, &selection).grip_at(at.0, at.1);
+        let grip = self.viewer.overlay(&self.viewer.camera).grip_at(at.0, at.1);
         screen.window.set_cursor(if grip.is_some() { CursorIcon::Grab } else { CursorIcon::Default });
     }
 
@@ -113,10 +113,9 @@ impl App {
             actions::gesture(&mut self.viewer, gesture);
         } else if self.over_picture && !self.asks() {
             let (x, y) = self.viewer.pointer.at;
-            let selection: Vec<_> = self.viewer.selection.into_iter().collect();
-            let grip = self.viewer.overlay(&self.viewer.camera, &selection).grip_at(x, y);
+            let grip = self.viewer.overlay(&self.viewer.camera).grip_at(x, y);
             let mode: Mode = self.viewer.settings.mode;
-            self.viewer.pointer.press(button, self.modifiers.shift_key(), mode, grip);
+            self.viewer.pointer.press(button, self.held(), mode, grip);
             screen.egui.memory_mut(|memory| {
                 if let Some(focused) = memory.focused() {
                     memory.surrender_focus(focused);
@@ -138,7 +137,11 @@ impl App {
     fn key(&mut self, screen: &mut Screen, event: &WindowEvent, key: &KeyEvent) {
         let typing = screen.egui.egui_wants_keyboard_input();
         let command = self.command(key);
-        let everywhere = matches!(command, Some(Command::Save | Command::Quit | Command::Help));
+        if command == Some(Command::Escape) && egui::Popup::is_any_open(&screen.egui) {
+            // It closes the menu and nothing more.
+            return self.forward(screen, event);
+        }
+        let everywhere = command.is_some_and(Command::is_everywhere);
         if key.state == ElementState::Pressed
             && let Some(command) = command
             && (!typing || everywhere)
@@ -154,15 +157,28 @@ impl App {
     /// While something is asked, Esc cancels, Ctrl+Q asks anew, and all other keys go to the buttons.
     fn key_to_question(&mut self, screen: &mut Screen, event: &WindowEvent, key: &KeyEvent) {
         match self.command(key) {
-            Some(Command::Escape) if key.state == ElementState::Pressed => self.viewer.answer(Answer::Cancel),
+            Some(Command::Escape) if key.state == ElementState::Pressed => self.cancel(),
             Some(Command::Quit) if key.state == ElementState::Pressed => self.viewer.leave(Next::Close),
             _ => self.forward(screen, event),
         }
     }
 
+    /// Takes away what stands over the window.
+    fn cancel(&mut self) {
+        if self.viewer.adding.take().is_none() && self.viewer.browser.take().is_none() {
+            self.viewer.answer(Answer::Cancel);
+        }
+        self.viewer.stale.panel = true;
+    }
+
     /// What that key asks for under the modifiers that are held.
     fn command(&self, key: &KeyEvent) -> Option<Command> {
-        let control = self.modifiers.control_key() || self.modifiers.super_key();
-        keys::command(&key.logical_key, control, self.modifiers.shift_key())
+        keys::command(&key.logical_key, self.held())
+    }
+
+    /// The keys that are held.
+    fn held(&self) -> Held {
+        let keys = self.modifiers;
+        Held { shift: keys.shift_key(), ctrl: keys.control_key() || keys.super_key(), alt: keys.alt_key() }
     }
 }

@@ -3,6 +3,8 @@
 
 use catoptra_raster::Grip;
 
+use crate::selection::Picking;
+
 /// What a plain left-drag does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Mode {
@@ -43,6 +45,17 @@ pub(crate) enum Button {
     Other,
 }
 
+/// Which keys are held while a button or another key goes down.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Held {
+    /// Either of the Shift keys.
+    pub(crate) shift: bool,
+    /// Either of the Ctrl keys.
+    pub(crate) ctrl: bool,
+    /// Alt.
+    pub(crate) alt: bool,
+}
+
 /// What a drag changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Drag {
@@ -62,7 +75,7 @@ pub(crate) enum Gesture {
     /// Nothing.
     None,
     /// Pressed and let go in one place.
-    Click(f64, f64),
+    Click { at: (f64, f64), picking: Picking },
     /// Travelled while pressed.
     Dragged { drag: Drag, by: (f64, f64), to: (f64, f64) },
     /// Let go after travelling.
@@ -77,6 +90,7 @@ struct Press {
     button: Button,
     from: (f64, f64),
     drag: Drag,
+    picking: Picking,
     travelled: bool,
 }
 
@@ -95,17 +109,18 @@ impl Pointer {
     }
 
     /// A button goes down here. A second button while one is down changes nothing.
-    pub(crate) fn press(&mut self, button: Button, shift: bool, mode: Mode, grip: Option<Grip>) {
+    pub(crate) fn press(&mut self, button: Button, held: Held, mode: Mode, grip: Option<Grip>) {
         if self.press.is_some() {
             return;
         }
-        let drag = match (button, shift, grip, mode) {
+        let drag = match (button, held.shift, grip, mode) {
             (Button::Other, ..) | (_, true, ..) => Drag::Pan,
             (Button::Left, false, Some(grip), _) => Drag::Handle(grip),
             (Button::Left, false, None, Mode::Orbit) => Drag::Orbit,
             (Button::Left, false, None, Mode::Turntable) => Drag::Turn,
         };
-        self.press = Some(Press { button, from: self.at, drag, travelled: false });
+        let picking = if held.shift || held.ctrl { Picking::Toggle } else { Picking::Only };
+        self.press = Some(Press { button, from: self.at, drag, picking, travelled: false });
     }
 
     /// The pointer comes here.
@@ -133,7 +148,7 @@ impl Pointer {
                 self.press = None;
                 match press {
                     Press { travelled: true, drag, .. } => Gesture::Ended(drag),
-                    Press { button: Button::Left, from: (x, y), .. } => Gesture::Click(x, y),
+                    Press { button: Button::Left, from: at, picking, .. } => Gesture::Click { at, picking },
                     Press { .. } => Gesture::None,
                 }
             }
@@ -154,22 +169,35 @@ impl Pointer {
 mod tests {
     use super::*;
 
-    fn pressed(button: Button, shift: bool, mode: Mode) -> Pointer {
+    const SHIFT: Held = Held { shift: true, ctrl: false, alt: false };
+    const CTRL: Held = Held { shift: false, ctrl: true, alt: false };
+    const NONE: Held = Held { shift: false, ctrl: false, alt: false };
+
+    fn pressed(button: Button, held: Held, mode: Mode) -> Pointer {
         let mut pointer = Pointer { at: (10.0, 10.0), press: None };
-        pointer.press(button, shift, mode, None);
+        pointer.press(button, held, mode, None);
         pointer
     }
 
     #[test]
     fn a_press_that_stays_put_is_a_click() {
-        let mut pointer = pressed(Button::Left, false, Mode::Orbit);
+        let mut pointer = pressed(Button::Left, NONE, Mode::Orbit);
         assert_eq!(pointer.moved((12.0, 9.0)), Gesture::None);
-        assert_eq!(pointer.release(Button::Left), Gesture::Click(10.0, 10.0));
+        let only = Gesture::Click { at: (10.0, 10.0), picking: Picking::Only };
+        assert_eq!(pointer.release(Button::Left), only);
+    }
+
+    #[test]
+    fn a_click_with_shift_or_ctrl_adds_to_what_is_selected() {
+        for held in [SHIFT, CTRL] {
+            let toggle = Gesture::Click { at: (10.0, 10.0), picking: Picking::Toggle };
+            assert_eq!(pressed(Button::Left, held, Mode::Orbit).release(Button::Left), toggle);
+        }
     }
 
     #[test]
     fn a_drag_carries_every_pixel_once() {
-        let mut pointer = pressed(Button::Left, false, Mode::Turntable);
+        let mut pointer = pressed(Button::Left, NONE, Mode::Turntable);
         let mut total = 0.0;
         for x in [11.0, 12.0, 15.0, 19.0, 18.0] {
             if let Gesture::Dragged { drag, by, .. } = pointer.moved((x, 10.0)) {
@@ -184,7 +212,7 @@ mod tests {
     #[test]
     fn shift_and_the_right_button_pan() {
         for mut pointer in
-            [pressed(Button::Left, true, Mode::Orbit), pressed(Button::Other, false, Mode::Turntable)]
+            [pressed(Button::Left, SHIFT, Mode::Orbit), pressed(Button::Other, NONE, Mode::Turntable)]
         {
             assert!(matches!(pointer.moved((50.0, 10.0)), Gesture::Dragged { drag: Drag::Pan, .. }));
         }
@@ -192,19 +220,19 @@ mod tests {
 
     #[test]
     fn a_right_click_selects_nothing() {
-        assert_eq!(pressed(Button::Other, false, Mode::Orbit).release(Button::Other), Gesture::None);
+        assert_eq!(pressed(Button::Other, NONE, Mode::Orbit).release(Button::Other), Gesture::None);
     }
 
     #[test]
     fn letting_go_of_another_button_ends_nothing() {
-        let mut pointer = pressed(Button::Left, false, Mode::Orbit);
+        let mut pointer = pressed(Button::Left, NONE, Mode::Orbit);
         assert_eq!(pointer.release(Button::Other), Gesture::None);
         assert!(pointer.is_pressed());
     }
 
     #[test]
     fn losing_the_pointer_ends_a_drag() {
-        let mut pointer = pressed(Button::Left, false, Mode::Orbit);
+        let mut pointer = pressed(Button::Left, NONE, Mode::Orbit);
         pointer.moved((40.0, 40.0));
         assert_eq!(pointer.cancel(), Gesture::Ended(Drag::Orbit));
         assert!(!pointer.is_pressed());

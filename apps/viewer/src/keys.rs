@@ -2,6 +2,8 @@
 
 use winit::keyboard::{Key, NamedKey};
 
+use crate::input::Held;
+
 /// What a key asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Command {
@@ -25,18 +27,60 @@ pub(crate) enum Command {
     ToggleOverlays,
     /// Select nothing, close what is open.
     Escape,
-    /// Take the selected thing out of the scene.
+    /// Take what is selected out of the scene.
     Delete,
+    /// Choose something to be added.
+    Add,
+    /// Make one more of what is selected.
+    Duplicate,
+    /// Take what is selected to the clipboard.
+    Cut,
+    /// Put what is selected on the clipboard.
+    Copy,
+    /// Put into the scene what is on the clipboard.
+    Paste,
+    /// Give the selected thing another name.
+    Rename,
+    /// Make a group of what is selected.
+    Group,
+    /// Take the members out of the selected groups.
+    Ungroup,
+    /// Hide what is selected, or show it again.
+    Hide,
+    /// Show all that is hidden.
+    ShowAll,
+    /// Lock what is selected, or unlock it.
+    Lock,
+    /// Select all that stands at the top of the scene.
+    SelectAll,
     /// Take the last edit back.
     Undo,
     /// Make the last edit that was taken back again.
     Redo,
     /// Write the scene.
     Save,
+    /// Write the scene to another file.
+    SaveAs,
+    /// Begin a new scene.
+    New,
+    /// Open a file.
+    Open,
+    /// Read the open file again.
+    Reload,
     /// Write the picture.
     Picture,
     /// Close the window.
     Quit,
+}
+
+impl Command {
+    /// Whether it is meant even while something is being typed.
+    pub(crate) fn is_everywhere(self) -> bool {
+        matches!(
+            self,
+            Self::Save | Self::SaveAs | Self::New | Self::Open | Self::Reload | Self::Quit | Self::Help
+        )
+    }
 }
 
 /// How a key is named: by what it types or by its cap.
@@ -50,8 +94,7 @@ enum Cap {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Binding {
     cap: Cap,
-    ctrl: bool,
-    shift: bool,
+    held: Held,
     /// How the key is written in the help.
     pub(crate) label: &'static str,
     /// What it does, in a few words.
@@ -60,20 +103,24 @@ pub(crate) struct Binding {
     pub(crate) command: Command,
 }
 
+const NONE: Held = Held { ctrl: false, shift: false, alt: false };
+const CTRL: Held = Held { ctrl: true, ..NONE };
+const SHIFT: Held = Held { shift: true, ..NONE };
+const ALT: Held = Held { alt: true, ..NONE };
+const CTRL_SHIFT: Held = Held { ctrl: true, shift: true, ..NONE };
+
 const fn named(key: NamedKey, label: &'static str, command: Command, doc: &'static str) -> Binding {
-    Binding { cap: Cap::Named(key), ctrl: false, shift: false, label, doc, command }
+    Binding { cap: Cap::Named(key), held: NONE, label, doc, command }
 }
 
-const fn letter(key: &'static str, label: &'static str, command: Command, doc: &'static str) -> Binding {
-    Binding { cap: Cap::Letter(key), ctrl: false, shift: false, label, doc, command }
-}
-
-const fn ctrl(key: &'static str, label: &'static str, command: Command, doc: &'static str) -> Binding {
-    Binding { cap: Cap::Letter(key), ctrl: true, shift: false, label, doc, command }
-}
-
-const fn ctrl_shift(key: &'static str, label: &'static str, command: Command, doc: &'static str) -> Binding {
-    Binding { cap: Cap::Letter(key), ctrl: true, shift: true, label, doc, command }
+const fn letter(
+    held: Held,
+    key: &'static str,
+    label: &'static str,
+    command: Command,
+    doc: &'static str,
+) -> Binding {
+    Binding { cap: Cap::Letter(key), held, label, doc, command }
 }
 
 /// Every key there is.
@@ -81,27 +128,46 @@ pub(crate) const BINDINGS: &[Binding] = &[
     named(NamedKey::F1, "F1", Command::Help, "show or hide this list"),
     named(NamedKey::Tab, "Tab", Command::Panel, "show or hide the panel"),
     named(NamedKey::Home, "Home", Command::FrameAll, "see everything"),
-    letter("f", "F", Command::FrameSelected, "see the selected thing"),
-    letter("r", "R", Command::ResetCamera, "back to the scene's camera"),
-    letter("c", "C", Command::NextCamera, "look through the next camera"),
+    letter(NONE, "f", "F", Command::FrameSelected, "see the selected thing"),
+    letter(NONE, "r", "R", Command::ResetCamera, "back to the scene's camera"),
+    letter(NONE, "c", "C", Command::NextCamera, "look through the next camera"),
     named(NamedKey::ArrowLeft, "Left", Command::Step(-1, 0), "move the camera left"),
     named(NamedKey::ArrowRight, "Right", Command::Step(1, 0), "move the camera right"),
     named(NamedKey::ArrowUp, "Up", Command::Step(0, 1), "move the camera up"),
     named(NamedKey::ArrowDown, "Down", Command::Step(0, -1), "move the camera down"),
-    letter("t", "T", Command::ToggleMode, "orbit the camera, or turn the objects (an edit)"),
-    letter("o", "O", Command::ToggleOverlays, "show or hide all overlays"),
-    letter("p", "P", Command::Picture, "write the picture as PNG"),
-    named(NamedKey::Delete, "Delete", Command::Delete, "take the selected thing out"),
+    letter(NONE, "t", "T", Command::ToggleMode, "orbit the camera, or turn the objects (an edit)"),
+    letter(NONE, "o", "O", Command::ToggleOverlays, "show or hide all overlays"),
+    letter(NONE, "p", "P", Command::Picture, "write the picture as PNG"),
+    named(NamedKey::Delete, "Delete", Command::Delete, "delete what is selected"),
+    letter(SHIFT, "a", "Shift+A", Command::Add, "add something, where the pointer is"),
+    letter(CTRL, "d", "Ctrl+D", Command::Duplicate, "duplicate what is selected"),
+    letter(SHIFT, "d", "Shift+D", Command::Duplicate, "duplicate what is selected"),
+    letter(CTRL, "x", "Ctrl+X", Command::Cut, "cut what is selected, as scene text"),
+    letter(CTRL, "c", "Ctrl+C", Command::Copy, "copy what is selected, as scene text"),
+    letter(CTRL, "v", "Ctrl+V", Command::Paste, "paste scene text"),
+    named(NamedKey::F2, "F2", Command::Rename, "rename the selected thing"),
+    letter(CTRL, "g", "Ctrl+G", Command::Group, "group what is selected"),
+    letter(CTRL_SHIFT, "g", "Ctrl+Shift+G", Command::Ungroup, "ungroup the selected groups"),
+    letter(NONE, "h", "H", Command::Hide, "hide what is selected, or show it again"),
+    letter(ALT, "h", "Alt+H", Command::ShowAll, "show all that is hidden"),
+    letter(CTRL, "l", "Ctrl+L", Command::Lock, "lock what is selected, or unlock it"),
+    letter(CTRL, "a", "Ctrl+A", Command::SelectAll, "select everything"),
     named(NamedKey::Escape, "Esc", Command::Escape, "select nothing, close or cancel what is open"),
-    ctrl("s", "Ctrl+S", Command::Save, "save; asks if the file was changed elsewhere"),
-    ctrl("z", "Ctrl+Z", Command::Undo, "undo"),
-    ctrl_shift("z", "Ctrl+Shift+Z", Command::Redo, "redo"),
-    ctrl("q", "Ctrl+Q", Command::Quit, "close the window; asks about unsaved edits"),
+    letter(CTRL, "n", "Ctrl+N", Command::New, "begin a new scene; asks about unsaved edits"),
+    letter(CTRL, "o", "Ctrl+O", Command::Open, "open a file; asks about unsaved edits"),
+    letter(CTRL, "s", "Ctrl+S", Command::Save, "save; asks if the file was changed elsewhere"),
+    letter(CTRL_SHIFT, "s", "Ctrl+Shift+S", Command::SaveAs, "save to another file"),
+    named(NamedKey::F5, "F5", Command::Reload, "read the file again; asks about unsaved edits"),
+    letter(CTRL, "z", "Ctrl+Z", Command::Undo, "undo"),
+    letter(CTRL_SHIFT, "z", "Ctrl+Shift+Z", Command::Redo, "redo"),
+    letter(CTRL, "y", "Ctrl+Y", Command::Redo, "redo"),
+    letter(CTRL, "q", "Ctrl+Q", Command::Quit, "close the window; asks about unsaved edits"),
 ];
 
 /// What the mouse does, and keys that go through buttons, for the help: what is done, and what follows.
 pub(crate) const OTHERS: &[(&str, &str)] = &[
     ("Click", "select what is under the pointer"),
+    ("Shift or Ctrl click", "select one more, or one less; Shift in the tree: all up to there"),
     ("Left drag", "orbit the camera; turntable: turn the objects"),
     ("Right or Shift drag", "pan"),
     ("Left drag on a ring", "change a spot light's cone angle"),
@@ -110,20 +176,28 @@ pub(crate) const OTHERS: &[(&str, &str)] = &[
     ("Ctrl wheel", "the other of the two"),
     ("Drop a scene", "open it; asks about unsaved edits"),
     ("Drop a picture", "make it the texture of the selected shape"),
+    ("Right click in the tree", "what can be done with what is selected"),
     ("Tab, Enter", "go through a question's buttons, press one"),
 ];
 
-/// What that key asks for under those modifiers. Letters are compared without case.
-pub(crate) fn command(key: &Key, ctrl: bool, shift: bool) -> Option<Command> {
-    let fits = |binding: &&Binding| {
+/// What that key asks for while others are held. Letters are compared without case. Where nothing is bound to Shift and a
+/// plain key, Shift makes no difference.
+pub(crate) fn command(key: &Key, held: Held) -> Option<Command> {
+    let is_it = |binding: &&Binding, held: Held| {
         let same = match (binding.cap, key) {
             (Cap::Named(a), Key::Named(b)) => a == *b,
             (Cap::Letter(a), Key::Character(b)) => b.to_lowercase() == a,
             _ => false,
         };
-        same && binding.ctrl == ctrl && (binding.shift == shift || !binding.ctrl)
+        same && binding.held == held
     };
-    BINDINGS.iter().find(fits).map(|b| b.command)
+    let find = |held: Held| BINDINGS.iter().find(|binding| is_it(binding, held)).map(|b| b.command);
+    find(held).or_else(|| find(Held { shift: false, ..held }).filter(|_| !held.ctrl && !held.alt))
+}
+
+/// The keys for a command, and what it does, as the list tells.
+pub(crate) fn told(command: Command) -> Option<&'static Binding> {
+    BINDINGS.iter().find(|binding| binding.command == command)
 }
 
 #[cfg(test)]
@@ -136,26 +210,22 @@ mod tests {
 
     #[test]
     fn undo_and_redo_differ_by_shift() {
-        assert_eq!(command(&typed("z"), true, false), Some(Command::Undo));
-        assert_eq!(command(&typed("Z"), true, true), Some(Command::Redo));
+        assert_eq!(command(&typed("z"), CTRL), Some(Command::Undo));
+        assert_eq!(command(&typed("Z"), CTRL_SHIFT), Some(Command::Redo));
     }
 
     #[test]
     fn a_plain_letter_is_not_its_ctrl_command() {
-        assert_eq!(command(&typed("s"), false, false), None);
-        assert_eq!(command(&typed("p"), false, false), Some(Command::Picture));
-        assert_eq!(command(&typed("p"), true, false), None);
+        assert_eq!(command(&typed("s"), NONE), None);
+        assert_eq!(command(&typed("p"), NONE), Some(Command::Picture));
+        assert_eq!(command(&typed("p"), CTRL), None);
     }
 
     #[test]
     fn no_two_lines_ask_for_the_same_key() {
         for (i, a) in BINDINGS.iter().enumerate() {
             for b in &BINDINGS[i + 1..] {
-                assert!(
-                    a.cap != b.cap || a.ctrl != b.ctrl || a.shift != b.shift,
-                    "{} is bound twice",
-                    a.label
-                );
+                assert!(a.cap != b.cap || a.held != b.held, "{} is bound twice", a.label);
             }
         }
     }
@@ -167,12 +237,7 @@ mod tests {
                 Cap::Letter(text) => typed(text),
                 Cap::Named(name) => Key::Named(name),
             };
-            assert_eq!(
-                command(&key, binding.ctrl, binding.shift),
-                Some(binding.command),
-                "{}",
-                binding.label
-            );
+            assert_eq!(command(&key, binding.held), Some(binding.command), "{}", binding.label);
         }
     }
 }

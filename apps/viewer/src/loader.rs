@@ -1,11 +1,11 @@
 //! How does a scene come in without stopping the window? Read and extracted on a thread of its own.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use catoptra_tracer::{Extraction, Pool};
 
 use crate::document::Document;
+use crate::guard::Next;
 use crate::latest::Latest;
 
 /// A scene that is ready to be shown.
@@ -27,12 +27,12 @@ impl Opened {
     }
 }
 
-/// What came of opening a file.
+/// What came of reading a scene.
 pub(crate) struct Outcome {
-    /// Which of the files asked for this is; only the last one asked for counts.
+    /// Which of those asked for this is; only the last one asked for counts.
     pub(crate) ticket: u64,
-    /// The file.
-    pub(crate) path: PathBuf,
+    /// What was read.
+    pub(crate) next: Next,
     /// The scene, or a report of what is wrong.
     pub(crate) result: Result<Box<Opened>, String>,
 }
@@ -45,10 +45,15 @@ pub(crate) fn welcome(pool: &Pool) -> Result<Opened, String> {
     Document::welcome().map(|document| Opened::new(document, pool))
 }
 
-/// Reads a file on a thread of its own, with the pool's help, and hands the outcome to `done` there.
-pub(crate) fn open(path: PathBuf, ticket: u64, pool: Arc<Pool>, done: impl FnOnce(Outcome) + Send + 'static) {
+/// Reads what comes next on a thread of its own, with the pool's help, and hands the outcome to `done` there.
+pub(crate) fn open(next: Next, ticket: u64, pool: Arc<Pool>, done: impl FnOnce(Outcome) + Send + 'static) {
     std::thread::spawn(move || {
-        let result = Document::open(&path).map(|document| Box::new(Opened::new(document, &pool)));
-        done(Outcome { ticket, path, result });
+        let read = match &next {
+            Next::Open(path) => Document::open(path),
+            Next::Recover(kept) => Document::recover(kept),
+            Next::New | Next::Close => Document::empty(),
+        };
+        let result = read.map(|document| Box::new(Opened::new(document, &pool)));
+        done(Outcome { ticket, next, result });
     });
 }

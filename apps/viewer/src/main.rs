@@ -3,8 +3,11 @@
 mod actions;
 mod app;
 mod ball;
+mod browse;
 mod camera_control;
 mod canvas;
+mod deeds;
+mod difference;
 mod document;
 mod dropped;
 mod egui_paint;
@@ -15,18 +18,25 @@ mod input;
 mod keys;
 mod latest;
 mod loader;
+mod making;
 mod naming;
+mod opening;
 mod options;
 mod outline;
 mod panel;
 mod preview;
+mod recent;
+mod recovery;
 mod redraw;
 mod refine;
 mod retype;
+mod saving;
 mod screen;
+mod selection;
 mod status;
 mod tracing;
 mod viewer;
+mod watch;
 
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -43,9 +53,12 @@ use options::Options;
 const NO_DISPLAY: &str = "catoptra-viewer needs a display and found none\n\
     without one, `catoptra render SCENE -o OUT.png` traces a scene into a picture";
 
+/// The exit code of a viewer that was told to end.
+const INTERRUPTED: u8 = 130;
+
 fn main() -> ExitCode {
     match run(Options::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(why) => {
             // It is no further error if nobody hears it.
             let _ = writeln!(std::io::stderr(), "error: {why}");
@@ -60,7 +73,7 @@ fn reason(said: &str) -> &str {
     after_place.map_or(said, |(_, reason)| reason)
 }
 
-fn run(options: Options) -> Result<(), String> {
+fn run(options: Options) -> Result<ExitCode, String> {
     let events = EventLoop::<Wake>::with_user_event()
         .build()
         .map_err(|why| format!("{NO_DISPLAY}\n({})", reason(&why.to_string())))?;
@@ -68,9 +81,16 @@ fn run(options: Options) -> Result<(), String> {
     let encoder = Pool::new(1).map_err(|e| e.to_string())?;
     let balls = ball::BallTracing::new(Pool::new(1).map_err(|e| e.to_string())?)?;
     let opened = loader::welcome(&pool)?;
+    let proxy = events.create_proxy();
+    let told = ctrlc::set_handler(move || {
+        // The loop may have ended; then there is nothing to end.
+        let _ = proxy.send_event(Wake::Ended);
+    });
+    told.map_err(|why| format!("the viewer cannot hear when it is to end: {why}"))?;
     let mut app = App::new(options, opened, pool, (encoder, balls), events.create_proxy());
     events.run_app(&mut app).map_err(|e| e.to_string())?;
-    app.failure.map_or(Ok(()), Err)
+    let code = if app.ended { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS };
+    app.failure.map_or(Ok(code), Err)
 }
 
 #[cfg(test)]

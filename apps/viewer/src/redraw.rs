@@ -3,7 +3,6 @@
 
 use std::time::{Duration, Instant};
 
-use catoptra_core::scene::EntityId;
 use catoptra_raster::{DepthField, Overlay};
 
 use crate::app::App;
@@ -50,6 +49,8 @@ impl App {
         if self.shown_title != title {
             screen.window.set_title(&title);
             self.shown_title = title;
+            // The scene was saved, or edited, or is another.
+            self.watch_files();
         }
         screen.present(changed)
     }
@@ -140,14 +141,14 @@ impl App {
         }
         let frame = &shown.frame;
         screen.canvas.lay(&frame.pixels, size);
-        let selected: Vec<EntityId> = self.viewer.selection.into_iter().collect();
         let picture = screen.canvas.picture_mut();
-        if let Some(id) = self.viewer.selection.filter(|_| frame.size == size) {
+        let selection = &self.viewer.selection;
+        if frame.size == size && !selection.is_empty() {
             let scene = self.viewer.document.scene();
             let width = self.viewer.settings.style.scale.round().max(1.0) as u32 * 2;
-            outline::draw(&frame.film, width, |s| s == id || scene.lies_in(s, id), picture);
+            outline::draw(&frame.film, width, |s| selection.covers(scene, s), picture);
         }
-        let overlay = self.viewer.overlay(&frame.camera, &selected);
+        let overlay = self.viewer.overlay(&frame.camera);
         if is_any_shown(&self.viewer) {
             let depths = if frame.size == size { frame.film.depths() } else { Vec::new() };
             let film = frame.film.size();
@@ -167,5 +168,5 @@ impl App {
 fn is_any_shown(viewer: &Viewer) -> bool {
     let style = viewer.settings.style;
     let scene = style.grid || style.axes || style.lights || style.cones || style.cameras;
-    viewer.shown.overlays && (scene || (style.selection && viewer.selection.is_some()))
+    viewer.shown.overlays && (scene || (style.selection && !viewer.selection.is_empty()))
 }

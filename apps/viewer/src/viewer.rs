@@ -1,7 +1,7 @@
 //! What does the viewer know, and what follows from what a person does? The open scene, the view on it, what is
 //! selected and shown; no window, no drawing.
 
-use std::path::Path;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -10,14 +10,17 @@ use catoptra_core::{Aabb, Camera, Integrator};
 use catoptra_raster::{Overlay, OverlayStyle};
 use catoptra_tracer::{Backend, Display, Extraction, Pick, Size, Tone, View, backends, pick};
 
+use crate::browse::Browser;
 use crate::camera_control;
 use crate::document::Document;
-use crate::guard::{Answer, Guard, Next};
+use crate::guard::{Guard, Next};
 use crate::input::{Mode, Pointer};
 use crate::latest::Latest;
 use crate::loader::Opened;
+use crate::making::add::Adding;
 use crate::naming::Named;
 use crate::preview::Preview;
+use crate::selection::{Picking, Selection};
 use crate::tracing::Request;
 
 /// Samples a pixel where each is one direction that sees the sky or does not: a quarter of the noise of a single one.
@@ -61,6 +64,26 @@ pub(crate) struct ViewSettings {
     pub(crate) style: OverlayStyle,
 }
 
+/// What the window is to do that the viewer cannot do by itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// Read a model and put it into the scene.
+    Model(PathBuf),
+    /// Put a text on the clipboard.
+    Copy(String),
+    /// Paste what is on the clipboard.
+    Paste,
+}
+
+/// A file that could not be read.
+#[derive(Debug, Clone)]
+pub(crate) struct Broken {
+    /// What is wrong, with its line.
+    pub(crate) report: String,
+    /// What was to be read.
+    pub(crate) source: Next,
+}
+
 /// The viewer's state.
 pub(crate) struct Viewer {
     pub(crate) document: Document,
@@ -72,7 +95,7 @@ pub(crate) struct Viewer {
     /// The scene's camera that was last looked through.
     pub(crate) through: Option<EntityId>,
     pub(crate) settings: ViewSettings,
-    pub(crate) selection: Option<EntityId>,
+    pub(crate) selection: Selection,
     /// The texture whose fields are shown.
     pub(crate) texture: Option<TextureId>,
     /// The picture of a material.
@@ -85,8 +108,18 @@ pub(crate) struct Viewer {
     pub(crate) size: (u32, u32),
     /// A line for the person, and since when it stands.
     pub(crate) notice: Option<(String, Instant)>,
-    /// A report of what is wrong with a file.
-    pub(crate) error: Option<String>,
+    /// What is wrong with a file.
+    pub(crate) error: Option<Broken>,
+    /// What could not be done; it stands until it is done or taken away.
+    pub(crate) failure: Option<String>,
+    /// What the window is to do.
+    pub(crate) wanted: Option<Wanted>,
+    /// What is being chosen to be added.
+    pub(crate) adding: Option<Adding>,
+    /// The field of the name that is being typed is to have the keys.
+    pub(crate) names_next: bool,
+    /// The way to a file that is wanted.
+    pub(crate) browser: Option<Browser>,
     /// What is asked before work is lost.
     pub(crate) guard: Guard,
     /// A picture is to be written as soon as it is finished.
@@ -121,7 +154,7 @@ impl Viewer {
                 display: Display::Srgb,
                 style,
             },
-            selection: None,
+            selection: Selection::default(),
             texture: None,
             preview: Preview::default(),
             typed_name: None,
@@ -130,6 +163,11 @@ impl Viewer {
             size: (0, 0),
             notice: None,
             error: None,
+            failure: None,
+            browser: None,
+            wanted: None,
+            adding: None,
+            names_next: false,
             guard: Guard::default(),
             picture_wanted: false,
             stale: Stale { trace: true, overlay: true, panel: true },
@@ -139,53 +177,40 @@ impl Viewer {
         viewer
     }
 
-    /// Shows another scene from its own camera; what is switched on stays.
+    /// Shows another scene from its own camera, or the same file read again from where one looks now; what is switched on
+    /// stays.
     pub(crate) fn show(&mut self, opened: Opened) {
+        let again = self.document.source().is_some() && self.document.source() == opened.document.source();
+        let kept = again.then(|| self.kept_view());
+        self.document.settle();
         self.document = opened.document;
         self.extraction = opened.extraction;
         self.latest = opened.latest;
         self.seen = self.document.scene().revision();
-        self.selection = None;
+        self.selection = Selection::default();
         self.texture = None;
         self.typed_name = None;
         self.error = None;
+        self.failure = None;
+        self.browser = None;
+        self.adding = None;
         self.guard.forget();
-        self.adopt(self.document.scene().main_camera());
+        match kept {
+            Some((selected, through)) => {
+                let scene = self.document.scene();
+                self.selection = selected.iter().filter_map(|name| scene.entity_named(name)).collect();
+                self.through = through.and_then(|name| scene.entity_named(&name));
+            }
+            None => self.adopt(self.document.scene().main_camera()),
+        }
         self.stale = Stale { trace: true, overlay: true, panel: true };
     }
 
-    /// Closes the window or opens another scene, once the edits are saved or given up.
-    pub(crate) fn leave(&mut self, next: Next) {
-        self.finish_name();
-        self.guard.leave(next, &self.document);
-        self.stale.panel = true;
-    }
-
-    /// Whether a scene that was wished for at that revision may be shown; else edits made since are asked about.
-    pub(crate) fn lets_in(&mut self, file: &Path, wished_at: u64) -> bool {
-        self.finish_name();
-        self.stale.panel = true;
-        self.guard.lets_in(file, wished_at, &self.document)
-    }
-
-    /// Saves the scene, unless its file was changed by someone else: then it is asked about.
-    pub(crate) fn save(&mut self) {
-        self.finish_name();
-        let told = self.guard.save(&mut self.document);
-        self.tell(told);
-    }
-
-    /// Answers what is asked.
-    pub(crate) fn answer(&mut self, answer: Answer) {
-        let told = self.guard.answer(answer, &mut self.document);
-        self.tell(told);
-    }
-
-    fn tell(&mut self, told: Option<String>) {
-        self.stale.panel = true;
-        if let Some(told) = told {
-            self.notify(told);
-        }
+    /// The names of what is selected and of the camera that was looked through.
+    fn kept_view(&self) -> (Vec<String>, Option<String>) {
+        let scene = self.document.scene();
+        let selected = self.selection.ids().iter().filter_map(|id| scene.name(*id)).collect();
+        (selected, self.through.and_then(|id| scene.name(id)))
     }
 
     /// Tells the person something.
@@ -269,22 +294,37 @@ impl Viewer {
     }
 
     /// The overlays as seen by `camera` on a picture of that size.
-    pub(crate) fn overlay<'a>(&'a self, camera: &'a Camera, selection: &'a [EntityId]) -> Overlay<'a> {
+    pub(crate) fn overlay<'a>(&'a self, camera: &'a Camera) -> Overlay<'a> {
         let style = if self.shown.overlays {
             self.settings.style
         } else {
             OverlayStyle { scale: self.settings.style.scale, ..OverlayStyle::NONE }
         };
         let (width, height) = self.size;
-        Overlay { scene: self.document.scene(), camera, width, height, depth: None, selection, style }
+        let (scene, selection) = (self.document.scene(), self.selection.ids());
+        Overlay { scene, camera, width, height, depth: None, selection, style }
     }
 
-    /// Selects something or nothing. Cones are shown from the first spot light on that is selected.
+    /// Selects one thing alone, or nothing.
     pub(crate) fn select(&mut self, id: Option<EntityId>) {
-        if self.selection != id {
+        self.select_all(id.into_iter().collect());
+    }
+
+    /// Takes in a click on a thing, or on nothing.
+    pub(crate) fn click_on(&mut self, id: Option<EntityId>, picking: Picking) {
+        match (id, picking) {
+            (Some(id), _) => self.select_all(self.selection.picked(id, picking)),
+            (None, Picking::Only) => self.select(None),
+            (None, Picking::Toggle) => {}
+        }
+    }
+
+    /// Selects these. Cones are shown from the first spot light on that becomes the active one.
+    pub(crate) fn select_all(&mut self, selection: Selection) {
+        if self.selection != selection {
             self.finish_name();
-            self.selection = id;
-            let light = id.and_then(|id| self.document.scene().light(id));
+            self.selection = selection;
+            let light = self.selection.active().and_then(|id| self.document.scene().light(id));
             let is_spot = light.is_some_and(|l| l.position().is_some() && l.direction().is_some());
             self.settings.style.cones |= is_spot;
             self.stale.overlay = true;
@@ -300,10 +340,12 @@ impl Viewer {
         }
     }
 
-    /// Changes the scene as one step to undo; a refusal is told.
-    pub(crate) fn edit(&mut self, edit: Edit) {
+    /// Changes the scene as one step to undo; `false` for a refusal, which is told.
+    pub(crate) fn edit(&mut self, edit: Edit) -> bool {
         let outcome = self.document.edit(edit);
+        let done = outcome.is_ok();
         self.after_edit(outcome);
+        done
     }
 
     /// Changes the scene as a part of the step with that key; a refusal is told.
@@ -330,9 +372,7 @@ impl Viewer {
         let moved = self.through.filter(|id| changes.iter().any(|c| c.subject == Subject::Entity(*id)));
         self.seen = scene.revision();
         self.extraction = Arc::new(Extraction::of(scene));
-        if self.selection.is_some_and(|id| !scene.contains(id)) {
-            self.selection = None;
-        }
+        self.selection = self.selection.without(|id| !scene.contains(id));
         self.texture = self.texture.filter(|id| scene.find_texture(*id).is_some());
         if moved.is_some() {
             self.adopt(moved);

@@ -47,8 +47,8 @@ pub use part::{
 pub use placement::Placement;
 pub use ray::{Crossing, Ray, Span, order_of_roots};
 pub use scene::{
-    Change, ChangeKind, Content, Edit, EntityId, History, Integrator, MaterialId, Node, Placed, PlacedSolid,
-    Role, Scene, SceneError, Settings, Subject, Subtree, TextureId,
+    Change, ChangeKind, Content, Edit, EntityId, Flags, History, Integrator, MaterialId, Node, Placed,
+    PlacedSolid, Role, Scene, SceneError, Settings, Subject, Subtree, TextureId,
 };
 pub use solid::{Member, Operation, Solid};
 pub use texture::{Image, Level, Paint, Texture, TexturePoint, TextureSource, TextureUse};

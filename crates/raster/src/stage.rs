@@ -51,7 +51,7 @@ impl<'a> Stage<'a> {
             walls: OnceCell::new(),
             extent: OnceCell::new(),
         };
-        stage.lights = scene.entities_of(Role::Light).filter_map(|id| stage.placed_light(id)).collect();
+        stage.lights = seen(scene, Role::Light).filter_map(|id| stage.placed_light(id)).collect();
         stage
     }
 
@@ -77,14 +77,14 @@ impl<'a> Stage<'a> {
     /// Bounds of all bounded shapes; one metre about the origin when there is none.
     pub(crate) fn extent(&self) -> Aabb {
         *self.extent.get_or_init(|| {
-            let bounds = self.scene.entities_of(Role::Shape).filter_map(|id| self.scene.world_bounds(id));
+            let bounds = seen(self.scene, Role::Shape).filter_map(|id| self.scene.world_bounds(id));
             let extent = bounds.fold(Aabb::EMPTY, Aabb::union);
             if extent.is_empty() { Aabb { min: DVec3::splat(-0.5), max: DVec3::splat(0.5) } } else { extent }
         })
     }
 
     fn find_walls(&self) -> Vec<Shape> {
-        let shapes = self.scene.entities_of(Role::Shape).filter_map(|id| self.scene.world_shape(id));
+        let shapes = seen(self.scene, Role::Shape).filter_map(|id| self.scene.world_shape(id));
         shapes.filter(|shape| shape.as_mesh().is_none()).collect()
     }
 
@@ -93,4 +93,9 @@ impl<'a> Stage<'a> {
         let power = light.color().rgb();
         Some(PlacedLight { id, light, selected: self.is_selected(id), power })
     }
+}
+
+/// The entities of a role that are not hidden.
+pub(crate) fn seen(scene: &Scene, role: Role) -> impl Iterator<Item = EntityId> + '_ {
+    scene.entities_of(role).filter(|id| !scene.is_hidden(*id))
 }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use catoptra_core::scene::Settings;
+use catoptra_core::scene::{Flags, Settings};
 use catoptra_core::{
     Camera, Field, Finish, InvalidPart, Kind, Light, Material, Operation, Placement, Shape, Texture,
     TextureId, Values,
@@ -226,6 +226,17 @@ pub(crate) struct Painted {
     pub(crate) spans: Vec<Span>,
 }
 
+/// Where it is said whether something is hidden, or locked.
+#[derive(Debug, Clone)]
+pub(crate) struct FlagText {
+    /// The word: see [`flags`](crate::flags).
+    pub(crate) word: &'static str,
+    /// The child node or the property.
+    pub(crate) span: Span,
+    /// Whether it is a property of its node.
+    pub(crate) property: bool,
+}
+
 /// One step of a placement, as written.
 #[derive(Debug, Clone)]
 pub(crate) struct StepText {
@@ -271,6 +282,10 @@ pub(crate) struct Item {
     pub(crate) count: Option<u32>,
     /// From one copy in a repeat to the next.
     pub(crate) step: Option<Placement>,
+    /// Whether it is hidden or locked.
+    pub(crate) flags: Flags,
+    /// Where that is said.
+    pub(crate) flag_texts: Vec<FlagText>,
 }
 
 impl Item {
@@ -295,6 +310,8 @@ impl Item {
             remove: None,
             count: None,
             step: None,
+            flags: Flags::default(),
+            flag_texts: Vec::new(),
         }
     }
 }

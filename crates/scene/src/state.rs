@@ -1,12 +1,12 @@
 //! What a scene holds now for a node of the text.
 
 use catoptra_core::Placement;
-use catoptra_core::scene::{EntityId, Scene};
+use catoptra_core::scene::{EntityId, Flags, Scene};
 
 use crate::build::Id;
 use crate::outline::Part;
 
-/// Name, part, material and placement of one node as the scene has them.
+/// Name, part, material, placement and flags of one node as the scene has them.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct State {
     pub(crate) part: Part,
@@ -15,6 +15,7 @@ pub(crate) struct State {
     /// Name of the material that a shape wears.
     pub(crate) material: Option<String>,
     pub(crate) placement: Placement,
+    pub(crate) flags: Flags,
 }
 
 impl State {
@@ -39,7 +40,7 @@ impl State {
     }
 
     fn unplaced(part: Part, name: String) -> Self {
-        Self { part, name, material: None, placement: Placement::IDENTITY }
+        Self { part, name, material: None, placement: Placement::IDENTITY, flags: Flags::default() }
     }
 
     fn of_entity(scene: &Scene, id: EntityId) -> Option<Self> {
@@ -55,6 +56,7 @@ impl State {
             name: scene.name(id)?,
             material: scene.material_of(id).map(|material| scene.material_name(material).to_owned()),
             placement: scene.placement(id)?,
+            flags: scene.flags(id),
         })
     }
 }

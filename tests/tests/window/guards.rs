@@ -113,11 +113,14 @@ fn a_failed_save_keeps_the_window_and_the_question() {
     assert!(!text(&file).contains("left ball"));
 }
 
-/// Goes from the last of three buttons, which has the keys at first, to the first one, and presses it.
-fn overwrite(stage: &Stage) {
-    stage.key("shift+Tab");
-    stage.key("shift+Tab");
+/// Goes back from the last button, which has the keys at first, and presses the one that many before it.
+fn press(stage: &Stage, before_last: usize) {
+    (0..before_last).for_each(|_| stage.key("shift+Tab"));
     stage.key("Return");
+}
+
+fn overwrite(stage: &Stage) {
+    press(stage, 3);
 }
 
 #[test]
@@ -170,10 +173,41 @@ fn a_file_changed_elsewhere_can_be_shown() {
     std::fs::write(&file, &theirs).expect("their scene");
     stage.key("ctrl+s");
     stage.until("a question", asks);
-    stage.key("shift+Tab");
-    stage.key("Return");
+    press(&stage, 2);
     stage.until("their ball", |picture| picture.count(PICTURE, is_red) > 60_000);
     assert_eq!(text(&file), theirs);
+}
+
+#[test]
+fn a_file_changed_elsewhere_can_be_left_alone_and_it_is_shown_what_differs() {
+    let Some((stage, file)) = edited() else { return };
+    let theirs = SCENE.replace("fov 45", "fov 50");
+    std::fs::write(&file, &theirs).expect("their scene");
+    stage.key("ctrl+s");
+    let is_new = |[r, g, b]: [u8; 3]| g > 150 && r < 150 && b < 150 && g > r + 50;
+    stage.until("a question with what is new", |picture| {
+        asks(picture) && (BOX.0..SIZE.0 - BOX.0).any(|x| (100..SIZE.1).any(|y| is_new(picture.rgb(x, y))))
+    });
+    press(&stage, 1);
+    stage.settle();
+    stage.key("ctrl+a");
+    stage.xdotool(&["type", "mine"]);
+    stage.key("Return");
+    let mine = stage.folder.path().join("mine.kdl");
+    stage.wait("my scene", |_| mine.exists());
+    assert!(!text(&mine).contains("left ball") && text(&mine).contains("fov 45"));
+    assert_eq!(text(&file), theirs);
+}
+
+#[test]
+fn redo_is_ctrl_y_too_and_what_comes_back_is_selected() {
+    let Some((stage, _)) = edited() else { return };
+    stage.key("ctrl+z");
+    stage.until("the red ball, outlined", |picture| {
+        picture.count(PICTURE, is_red) > 1000 && picture.count((PICTURE.0, SIZE.1 - 60), is_accent) > 300
+    });
+    stage.key("ctrl+y");
+    stage.until("no red ball", |picture| picture.count(PICTURE, is_red) == 0);
 }
 
 #[test]

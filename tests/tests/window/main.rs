@@ -1,10 +1,14 @@
 //! Does the window do what it promises? The viewer under Xvfb, driven by xdotool, judged by screenshots.
 #![cfg(target_os = "linux")]
 
+mod clipboard;
 mod desktop;
+mod files;
 mod guards;
+mod making;
 mod picture;
 mod programs;
+mod selecting;
 mod stage;
 
 use std::time::{Duration, Instant};

@@ -6,6 +6,7 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use crate::clipboard;
 use crate::desktop;
 use crate::picture::Picture;
 use crate::programs::{self, LOOK};
@@ -28,6 +29,7 @@ pub(crate) struct Stage {
     viewer: Child,
     screen: Child,
     display: String,
+    scale: u32,
     window: String,
     /// The folder that the viewer runs in.
     pub(crate) folder: tempfile::TempDir,
@@ -49,22 +51,26 @@ impl Stage {
         let folder = tempfile::tempdir().expect("a folder");
         let buffer = tempfile::tempdir().expect("a folder");
         let (screen, display) = programs::open_screen(buffer.path());
-        let mut command = Command::new(programs::viewer());
-        command.args(["--log-frames", "--threads", "2", "--size", &format!("{}x{}", SIZE.0, SIZE.1)]);
         if let Some(text) = scene {
             std::fs::write(folder.path().join("scene.kdl"), text).expect("the scene is written");
-            command.arg("scene.kdl");
         }
-        command.current_dir(folder.path()).env("DISPLAY", &display).env_remove("WAYLAND_DISPLAY");
-        command.env("WINIT_X11_SCALE_FACTOR", scale.to_string());
-        command.stderr(File::create(folder.path().join("log")).expect("a log"));
-        let viewer = command.spawn().expect("the viewer starts");
-        let mut stage = Self { viewer, screen, display, window: String::new(), folder, buffer };
-        stage.window = stage.find_window();
-        stage.xdotool(&["windowfocus", &stage.window.clone()]);
-        stage.wait("a first picture in full", |stage| stage.log().contains(" 1/1"));
-        stage.settle();
+        let viewer = open_viewer(folder.path(), &display, scale, scene.map(|_| "scene.kdl"));
+        let mut stage = Self { viewer, screen, display, scale, window: String::new(), folder, buffer };
+        stage.begin();
         Some(stage)
+    }
+
+    /// Starts the viewer anew after its end, on a file of the folder or on its own scene.
+    pub(crate) fn restart(&mut self, file: Option<&str>) {
+        self.viewer = open_viewer(self.folder.path(), &self.display, self.scale, file);
+        self.begin();
+    }
+
+    fn begin(&mut self) {
+        self.window = self.find_window();
+        self.xdotool(&["windowfocus", &self.window]);
+        self.wait("a first picture in full", |stage| stage.log().contains(" 1/1"));
+        self.settle();
     }
 
     fn find_window(&self) -> String {
@@ -149,6 +155,22 @@ impl Stage {
         desktop::drop_file(&self.display, self.window_id(), file).expect("the file can be dropped");
     }
 
+    /// Tells the viewer to end, as a system does that shuts down.
+    pub(crate) fn tell_to_end(&self) {
+        let told = Command::new("kill").arg(self.viewer.id().to_string()).status();
+        assert!(told.is_ok_and(|status| status.success()), "the viewer is told");
+    }
+
+    /// The text on the clipboard.
+    pub(crate) fn clipboard(&self) -> String {
+        clipboard::read(&self.display).expect("the clipboard can be read")
+    }
+
+    /// Puts a text on the clipboard, as an editor does.
+    pub(crate) fn set_clipboard(&self, text: &str) {
+        clipboard::put(&self.display, text).expect("the clipboard can be owned");
+    }
+
     fn window_id(&self) -> u32 {
         self.window.parse().expect("xdotool names windows by number")
     }
@@ -231,4 +253,15 @@ impl Drop for Stage {
         programs::end(&mut self.viewer);
         programs::end(&mut self.screen);
     }
+}
+
+/// Starts the viewer in a folder; what it remembers is in that folder too.
+fn open_viewer(folder: &Path, display: &str, scale: u32, file: Option<&str>) -> Child {
+    let mut command = Command::new(programs::viewer());
+    command.args(["--log-frames", "--threads", "2", "--size", &format!("{}x{}", SIZE.0, SIZE.1)]);
+    command.args(file);
+    command.current_dir(folder).env("DISPLAY", display).env_remove("WAYLAND_DISPLAY");
+    command.env("WINIT_X11_SCALE_FACTOR", scale.to_string()).env("XDG_STATE_HOME", folder.join("state"));
+    command.stderr(File::create(folder.join("log")).expect("a log"));
+    command.spawn().expect("the viewer starts")
 }

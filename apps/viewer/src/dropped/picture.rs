@@ -40,7 +40,7 @@ pub(crate) fn is_picture(path: &Path) -> bool {
 /// What a picture is for that is dropped now; without a selected shape there is nothing, which is told.
 pub(crate) fn target(viewer: &mut Viewer) -> Option<Target> {
     let scene = viewer.document.scene();
-    let shape = viewer.selection.filter(|id| scene.material_of(*id).is_some());
+    let shape = viewer.selection.active().filter(|id| scene.material_of(*id).is_some());
     if shape.is_none() {
         viewer.notify("select a shape first: the picture becomes the texture of its material");
     }
@@ -173,7 +173,7 @@ mod tests {
         drop_on(&mut viewer, "lamp", &file);
         assert!(viewer.document.scene().texture_named("wood 2").is_some());
         for _ in 0..2 {
-            assert!(viewer.document.undo());
+            assert!(viewer.document.undo().is_some());
         }
         let scene = viewer.document.scene();
         assert_eq!((scene.textures().count(), scene.material(worn)), (0, &before));

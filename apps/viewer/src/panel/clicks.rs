@@ -9,9 +9,10 @@ use egui::{Context, Event, Modifiers, PointerButton, Pos2, Rect, Shape};
 
 use super::show;
 use crate::document::Document;
+use crate::guard::Next;
 use crate::loader::Opened;
 use crate::naming::Named;
-use crate::viewer::Viewer;
+use crate::viewer::{Broken, Viewer};
 
 const TEXT: &str = "image-texture \"wood\" { file \"wood.png\"; wrap-v \"clamp\" }\n\
     noise-texture \"noise\"\nchecker-texture \"tiles\" { scale 2 3 }\nbrick-texture \"bricks\"\nmarble-texture \"marble\"\n\
@@ -99,7 +100,7 @@ impl Bench {
     }
 
     fn undo(&mut self) {
-        assert!(self.viewer.document.undo());
+        assert!(self.viewer.document.undo().is_some());
         assert!(self.viewer.document.is_saved(), "it was one step");
     }
 }
@@ -162,6 +163,49 @@ fn another_kind_keeps_the_color_as_one_step() {
     assert_eq!((bench.material("grey").kind_name(), bench.value("grey", "color")), ("plastic", color));
     bench.undo();
     assert_eq!(*bench.material("grey"), before);
+}
+
+#[test]
+fn a_shape_becomes_one_of_another_kind_as_one_step() {
+    let mut bench = Bench::new("ball");
+    let kind = |bench: &Bench| {
+        let scene = bench.viewer.document.scene();
+        scene.shape(scene.entity_named("ball").unwrap()).unwrap().kind_name()
+    };
+    bench.click("sphere");
+    bench.click("disk");
+    assert_eq!(kind(&bench), "disk");
+    bench.undo();
+    assert_eq!(kind(&bench), "sphere");
+}
+
+#[test]
+fn what_is_wrong_with_a_file_stands_there_until_it_is_read_again() {
+    let mut bench = Bench::new("ball");
+    let source = Next::Open("broken.kdl".into());
+    bench.viewer.error = Some(Broken { report: "line 3 is wrong".to_owned(), source: source.clone() });
+    assert!(bench.frames(3).iter().any(|(text, _)| text == "line 3 is wrong"));
+    bench.click("Retry");
+    assert_eq!(bench.viewer.take_next(), Some(source));
+}
+
+#[test]
+fn what_has_failed_is_shown_until_it_is_closed() {
+    let mut bench = Bench::new("ball");
+    bench.viewer.failure = Some("it was not saved".to_owned());
+    assert!(bench.frames(3).iter().any(|(text, _)| text == "it was not saved"));
+    bench.click("Close");
+    assert_eq!(bench.viewer.failure, None);
+}
+
+#[test]
+fn something_is_added_from_the_list() {
+    let mut bench = Bench::new("ball");
+    bench.click("Add…");
+    bench.click("box");
+    let scene = bench.viewer.document.scene();
+    assert_eq!(bench.viewer.selection.active(), scene.entity_named("box"));
+    assert!(bench.viewer.adding.is_none() && !bench.viewer.document.is_saved());
 }
 
 #[test]

@@ -1,7 +1,7 @@
-//! What floats over the picture? The status line, the sign of the turntable, the list of keys, and the report of an
-//! error.
+//! What floats over the picture? The status line, the sign of the turntable, the list of keys, what has failed, and the
+//! report of an error.
 
-use egui::{Align2, Area, Frame, Id, Margin, Order, Rect, RichText, Ui, Window};
+use egui::{Align2, Area, Frame, Id, Margin, Order, Rect, RichText, Stroke, Ui, Window};
 
 use super::theme;
 use crate::input::Mode;
@@ -49,6 +49,26 @@ pub(super) fn turntable(ui: &Ui, viewer: &Viewer, room: Rect) {
         });
 }
 
+/// What could not be done: it stands until it is done or taken away.
+pub(super) fn failure(ui: &Ui, viewer: &mut Viewer, room: Rect) {
+    let Some(failure) = viewer.failure.clone() else { return };
+    let frame = Frame::new().fill(theme::FLOATING).stroke(Stroke::new(1.5, theme::FAILURE)).corner_radius(4);
+    Area::new(Id::new("failure"))
+        .order(Order::Middle)
+        .pivot(Align2::CENTER_TOP)
+        .fixed_pos(room.center_top() + egui::vec2(0.0, 44.0))
+        .constrain_to(room)
+        .show(ui.ctx(), |ui| {
+            frame.inner_margin(Margin::symmetric(10, 6)).show(ui, |ui| {
+                ui.set_max_width((room.width() - 40.0).clamp(40.0, 560.0));
+                ui.add(egui::Label::new(RichText::new(failure).color(theme::FAILURE)).wrap());
+                if ui.button("Close").clicked() {
+                    viewer.failure = None;
+                }
+            });
+        });
+}
+
 /// All keys.
 pub(super) fn help(ui: &Ui, viewer: &mut Viewer, room: Rect) {
     let mut open = viewer.shown.help;
@@ -78,9 +98,10 @@ fn list_keys(ui: &mut Ui) {
 
 /// What is wrong with a file.
 pub(super) fn error(ui: &Ui, viewer: &mut Viewer, room: Rect) {
-    let Some(report) = &viewer.error else { return };
+    let Some(broken) = &viewer.error else { return };
     let mut open = true;
-    let mut closed = false;
+    let (mut closed, mut retried) = (false, false);
+    let report = &broken.report;
     Window::new(RichText::new("This scene cannot be opened").color(theme::ACCENT))
         .open(&mut open)
         .default_pos(room.left_top() + egui::vec2(24.0, 24.0))
@@ -92,11 +113,14 @@ pub(super) fn error(ui: &Ui, viewer: &mut Viewer, room: Rect) {
             });
             ui.add_space(4.0);
             ui.horizontal(|ui| {
+                retried = ui.button("Retry").on_hover_text("Read the file again.").clicked();
                 closed = ui.button("Close").clicked();
-                ui.weak("the last scene stays open");
+                ui.weak("the last scene stays open; the file is read again when it is changed");
             });
         });
-    if !open || closed {
+    if retried {
+        viewer.leave(broken.source.clone());
+    } else if !open || closed {
         viewer.error = None;
     }
 }

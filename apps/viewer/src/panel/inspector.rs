@@ -3,19 +3,25 @@
 
 use catoptra_core::scene::{Edit, EntityId};
 use catoptra_core::{Camera, Field, InvalidPart, Light, Part as _, Shape};
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditOutput;
 use egui::{TextEdit, Ui};
 
 use super::fields::{self, Offers, step_key};
-use super::{material, placement, tree};
+use super::{kind, material, placement};
 use crate::naming::Named;
 use crate::viewer::Viewer;
 
 /// Shows what is selected.
 pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
-    let Some(id) = viewer.selection else {
-        ui.weak("Click something to select it.");
+    let Some(id) = viewer.selection.active() else {
+        ui.weak("Click something to select it; with Shift or Ctrl, several things.");
         return;
     };
+    let count = viewer.selection.ids().len();
+    if count > 1 {
+        ui.weak(format!("{count} selected: the fields are those of the last"));
+    }
     heading(ui, viewer, id);
     shape(ui, viewer, id);
     light(ui, viewer, id);
@@ -28,8 +34,17 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
 fn heading(ui: &mut Ui, viewer: &mut Viewer, id: EntityId) {
     ui.horizontal(|ui| {
         name(ui, viewer, Named::Entity(id));
-        ui.weak(tree::kind_name(viewer.document.scene(), id));
+        kind::choose(ui, viewer, id);
     });
+    let flags = viewer.document.scene().flags(id);
+    let mut now = flags;
+    ui.horizontal(|ui| {
+        ui.checkbox(&mut now.hidden, "hidden").on_hover_text("It takes no part in the picture (H).");
+        ui.checkbox(&mut now.locked, "locked").on_hover_text("It is not picked or moved by hand (Ctrl+L).");
+    });
+    if now != flags {
+        viewer.edit(Edit::Flags(id, now));
+    }
 }
 
 /// A name, to be changed.
@@ -38,7 +53,13 @@ pub(super) fn name(ui: &mut Ui, viewer: &mut Viewer, owner: Named) {
     let typed = viewer.typed_name.as_ref().filter(|(typing, _)| *typing == owner);
     let is_typed = typed.is_some();
     let mut text = typed.map_or(name, |(_, typed)| typed.clone());
-    let response = ui.add(TextEdit::singleline(&mut text).id_salt(owner).desired_width(140.0));
+    let field = TextEdit::singleline(&mut text).id_salt(owner).desired_width(130.0);
+    if std::mem::take(&mut viewer.names_next) && is_typed {
+        let response = field.show(ui);
+        select_whole(ui, response, &text);
+        return;
+    }
+    let response = ui.add(field);
     if response.has_focus() || response.lost_focus() {
         if !is_typed {
             viewer.finish_name();
@@ -48,6 +69,14 @@ pub(super) fn name(ui: &mut Ui, viewer: &mut Viewer, owner: Named) {
     if !response.has_focus() && viewer.typed_name.as_ref().is_some_and(|(typing, _)| *typing == owner) {
         viewer.finish_name();
     }
+}
+
+/// Gives a field the keys, with all that is written there selected.
+fn select_whole(ui: &Ui, mut field: TextEditOutput, text: &str) {
+    let (start, end) = (CCursor::new(0), CCursor::new(text.chars().count()));
+    field.state.cursor.set_char_range(Some(CCursorRange::two(start, end)));
+    field.state.store(ui.ctx(), field.response.id);
+    field.response.request_focus();
 }
 
 /// Makes an edit of a changed part, or tells why it was refused.

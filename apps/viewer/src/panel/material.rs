@@ -8,6 +8,7 @@ use egui::{CollapsingHeader, ComboBox, Ui};
 use super::fields::{self, Changed, Offers, step_key};
 use super::inspector::put;
 use crate::ball::{SIDE, Sample};
+use crate::making;
 use crate::retype;
 use crate::viewer::Viewer;
 
@@ -28,6 +29,10 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, id: EntityId) {
                 let wearers = viewer.document.scene().wearers(worn).len();
                 if wearers > 1 {
                     ui.weak(format!("shared by {wearers} shapes"));
+                    let single = ui.small_button("Make single");
+                    if single.on_hover_text("A copy for what is selected alone.").clicked() {
+                        making::make_single(viewer, worn);
+                    }
                 }
             });
         });
@@ -71,7 +76,11 @@ fn choose_material(ui: &mut Ui, viewer: &mut Viewer, id: EntityId, worn: Materia
         }
     });
     if let Some(other) = chosen.filter(|other| *other != worn) {
-        viewer.edit(Edit::MaterialOf(id, other));
+        let scene = viewer.document.scene();
+        let shapes =
+            viewer.selection.ids().iter().chain([&id]).filter(|id| scene.material_of(**id).is_some());
+        let worn = shapes.map(|shape| Edit::MaterialOf(*shape, other)).collect();
+        viewer.edit(Edit::Batch(worn));
     }
 }
 

@@ -1,12 +1,16 @@
 //! What stands beside and over the picture? The panel with tree, inspector and switches, the status line, the list of
 //! keys, the report of an error, and what is asked before work is lost.
 
+mod add;
 #[cfg(test)]
 mod clicks;
 mod dialogs;
 mod fields;
+mod files;
 mod inspector;
+mod kind;
 mod material;
+mod menus;
 mod paint;
 mod placement;
 mod question;
@@ -44,6 +48,9 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, status: &str) -> Rect {
     dialogs::turntable(ui, viewer, room);
     dialogs::help(ui, viewer, room);
     dialogs::error(ui, viewer, room);
+    dialogs::failure(ui, viewer, room);
+    add::show(ui, viewer, whole);
+    files::show(ui, viewer, whole);
     question::show(ui, viewer, whole);
     if ui.input(|input| input.pointer.any_released()) {
         viewer.document.end_step();
@@ -59,6 +66,7 @@ fn side(ui: &mut Ui, viewer: &mut Viewer) {
             ui.weak("F1 for keys");
         });
     });
+    menus::bar(ui, viewer);
     ui.add_space(4.0);
     let third = (0.34 * ui.available_height()).max(80.0);
     tree::show(ui, viewer, third);

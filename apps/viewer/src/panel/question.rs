@@ -1,20 +1,25 @@
 //! How is a person asked before work is lost? A box over all else, with a button for each answer.
 
-use egui::{Frame, Id, Modal, Rect, RichText, Ui};
+use egui::{Button, Frame, Id, Modal, Rect, RichText, ScrollArea, Ui};
 
 use super::theme;
+use crate::difference::{Line, Side};
 use crate::guard::{Answer, Next, Question};
+use crate::recovery::Kept;
 use crate::viewer::Viewer;
 
 /// Width of the box in points, where the window has room.
-const WIDTH: f32 = 380.0;
+const WIDTH: f32 = 400.0;
+
+/// The most points of height that what differs may take.
+const DIFFERENCE: f32 = 150.0;
 
 /// What is said and offered.
 struct Words {
     title: String,
     text: String,
-    /// The words for writing the scene and for giving the edits up.
-    buttons: [&'static str; 2],
+    /// Answers with their words.
+    buttons: Vec<(Answer, &'static str)>,
     /// What Enter answers.
     usual: Answer,
 }
@@ -23,6 +28,7 @@ struct Words {
 pub(super) fn show(ui: &Ui, viewer: &mut Viewer, window: Rect) {
     let Some(question) = viewer.guard.question() else { return };
     let words = words(question, viewer);
+    let is_changed = matches!(question, Question::Changed(_));
     let problem = viewer.guard.problem().map(str::to_owned);
     let frame = Frame::window(ui.style()).inner_margin(14);
     let modal = Modal::new(Id::new("question")).frame(frame).show(ui.ctx(), |ui| {
@@ -30,6 +36,9 @@ pub(super) fn show(ui: &Ui, viewer: &mut Viewer, window: Rect) {
         ui.label(RichText::new(&words.title).strong().size(15.0));
         ui.add_space(4.0);
         ui.label(&words.text);
+        if is_changed {
+            difference(ui, viewer.guard.difference(), (window.height() - 220.0).clamp(30.0, DIFFERENCE));
+        }
         if let Some(problem) = problem {
             ui.add_space(4.0);
             ui.label(RichText::new(problem).color(theme::ACCENT));
@@ -43,19 +52,35 @@ pub(super) fn show(ui: &Ui, viewer: &mut Viewer, window: Rect) {
     }
 }
 
+/// What differs between the file and the scene.
+fn difference(ui: &mut Ui, lines: &[Line], height: f32) {
+    ui.add_space(4.0);
+    ui.weak("− in the file alone, + here alone:");
+    ScrollArea::both().id_salt("difference").max_height(height).auto_shrink([false, true]).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        for line in lines {
+            let (sign, color) = match line.side {
+                Side::Both => (' ', ui.visuals().weak_text_color()),
+                Side::Old => ('−', theme::FAILURE),
+                Side::New => ('+', theme::FINE),
+            };
+            let text = RichText::new(format!("{sign} {}", line.text)).monospace().size(11.0).color(color);
+            ui.add(egui::Label::new(text).extend());
+        }
+    });
+}
+
 /// The answer that was given, by a click or by the keys: the usual one has them at first.
 fn buttons(ui: &mut Ui, words: &Words) -> Option<Answer> {
-    let [write, give_up] = words.buttons;
     let mut given = None;
     ui.horizontal_wrapped(|ui| {
-        for (answer, name) in [(Answer::Write, write), (Answer::GiveUp, give_up), (Answer::Cancel, "Cancel")]
-        {
-            let button = ui.add(egui::Button::new(name).min_size(egui::vec2(72.0, 24.0)));
-            if answer == words.usual && ui.memory(|memory| memory.focused().is_none()) {
+        for (answer, name) in &words.buttons {
+            let button = ui.add(Button::new(*name).min_size(egui::vec2(72.0, 24.0)));
+            if *answer == words.usual && ui.memory(|memory| memory.focused().is_none()) {
                 button.request_focus();
             }
             if button.clicked() {
-                given = Some(answer);
+                given = Some(*answer);
             }
         }
     });
@@ -63,15 +88,19 @@ fn buttons(ui: &mut Ui, words: &Words) -> Option<Answer> {
 }
 
 fn words(question: &Question, viewer: &Viewer) -> Words {
-    let (name, place) = (viewer.document.name(), viewer.document.place());
+    let name = viewer.document.name();
+    let place = viewer.document.place();
     match question {
         Question::Unsaved(next) => Words {
             title: match next {
                 Next::Close => format!("Save “{name}” before closing?"),
-                Next::Open(file) => format!("Save “{name}” before opening {}?", file.display()),
+                next => format!("Save “{name}” before opening {}?", next.name()),
             },
-            text: format!("It has edits that are not saved. Saving writes {}.", place.display()),
-            buttons: ["Save", "Discard"],
+            text: match viewer.document.has_place() {
+                true => format!("It has edits that are not saved. Saving writes {}.", place.display()),
+                false => "It has edits that are not saved, and no file yet. Saving asks for one.".to_owned(),
+            },
+            buttons: vec![(Answer::Write, "Save"), (Answer::GiveUp, "Discard"), (Answer::Cancel, "Cancel")],
             usual: Answer::Write,
         },
         Question::Changed(_) => Words {
@@ -81,8 +110,31 @@ fn words(question: &Question, viewer: &Viewer) -> Words {
                  reloading it loses the edits made here.",
                 place.display()
             ),
-            buttons: ["Overwrite", "Reload"],
+            buttons: vec![
+                (Answer::Write, "Overwrite"),
+                (Answer::GiveUp, "Reload"),
+                (Answer::Elsewhere, "Save as…"),
+                (Answer::Cancel, "Cancel"),
+            ],
             usual: Answer::Cancel,
         },
+        Question::Recovered(kept) => recovered(kept),
+    }
+}
+
+fn recovered(kept: &Kept) -> Words {
+    let later = if kept.is_older_than_its_file() {
+        " The file was written since then: look at it before you save over it."
+    } else {
+        ""
+    };
+    Words {
+        title: "Bring back edits that were not saved?".to_owned(),
+        text: format!(
+            "The viewer was ended with unsaved edits of {}.{later} Cancel keeps them for the next start.",
+            kept.name()
+        ),
+        buttons: vec![(Answer::Write, "Bring back"), (Answer::GiveUp, "Discard"), (Answer::Cancel, "Cancel")],
+        usual: Answer::Write,
     }
 }

@@ -11,6 +11,12 @@ pub(super) const FLOATING: Color32 = Color32::from_rgb(0x16, 0x18, 0x1d);
 /// What is selected, and what asks for attention.
 pub(super) const ACCENT: Color32 = Color32::from_rgb(0xff, 0xb0, 0x2e);
 
+/// What has failed, and what goes.
+pub(super) const FAILURE: Color32 = Color32::from_rgb(0xff, 0x6b, 0x5e);
+
+/// What is new, and well.
+pub(super) const FINE: Color32 = Color32::from_rgb(0x7f, 0xc9, 0x7a);
+
 /// Gives egui its colours and sizes; nothing is animated, so that nothing is drawn twice.
 pub(crate) fn set_theme(context: &Context) {
     context.set_theme(Theme::Dark);

@@ -1,9 +1,12 @@
-//! What is in the scene? A tree of groups, shapes, lights and cameras; a click selects.
+//! What is in the scene? A tree of groups, shapes, lights and cameras; a click selects, with Shift all up to there, with Ctrl
+//! one more.
 
-use catoptra_core::scene::{EntityId, Role, Scene};
+use catoptra_core::scene::{EntityId, Flags, Role, Scene};
 use egui::{Id, ScrollArea, Sense, Ui};
 
-use super::theme;
+use super::{menus, theme};
+use crate::making;
+use crate::selection::Picking;
 use crate::viewer::Viewer;
 
 /// Points that a level is set in.
@@ -24,7 +27,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, height: f32) {
     let area = ScrollArea::vertical().id_salt("tree").auto_shrink([false, false]).max_height(height);
     area.show_rows(ui, row_height, rows.len(), |ui, seen| {
         for row in &rows[seen] {
-            show_row(ui, viewer, row);
+            show_row(ui, viewer, &rows, row);
         }
     });
 }
@@ -48,17 +51,58 @@ fn is_open(ui: &Ui, id: EntityId) -> bool {
     ui.data(|data| data.get_temp(open_id(id)).unwrap_or(true))
 }
 
-fn show_row(ui: &mut Ui, viewer: &mut Viewer, row: &Row) {
+fn show_row(ui: &mut Ui, viewer: &mut Viewer, rows: &[Row], row: &Row) {
     ui.horizontal(|ui| {
         ui.add_space(INDENT * row.level as f32);
         mark(ui, row);
         let name = viewer.document.scene().name(row.id).unwrap_or_default();
-        let selected = viewer.selection == Some(row.id);
+        let selected = viewer.selection.contains(row.id);
         let kind = kind_name(viewer.document.scene(), row.id);
-        if ui.selectable_label(selected, name).on_hover_text(kind).clicked() {
-            viewer.select(if selected { None } else { Some(row.id) });
+        let hidden = viewer.document.scene().is_hidden(row.id);
+        let mut text = egui::RichText::new(name);
+        if hidden {
+            text = text.weak().italics();
+        }
+        let label = ui.selectable_label(selected, text).on_hover_text(kind);
+        flags(ui, viewer.document.scene().flags(row.id));
+        if label.secondary_clicked() && !selected {
+            viewer.select(Some(row.id));
+        }
+        label.context_menu(|ui| menus::selected(ui, viewer));
+        if label.double_clicked() {
+            making::rename(viewer);
+        } else if label.clicked() {
+            let held = ui.input(|input| input.modifiers);
+            let alone = viewer.selection.ids() == [row.id];
+            match () {
+                () if held.shift => viewer.select_all(viewer.selection.with(range(viewer, rows, row.id))),
+                () if held.command || held.ctrl => viewer.click_on(Some(row.id), Picking::Toggle),
+                () => viewer.select(if alone { None } else { Some(row.id) }),
+            }
         }
     });
+}
+
+/// What is set aside about a thing.
+fn flags(ui: &mut Ui, flags: Flags) {
+    for (is_set, word) in [(flags.hidden, "hidden"), (flags.locked, "locked")] {
+        if is_set {
+            ui.weak(word);
+        }
+    }
+}
+
+/// The rows from the active one to that one, which comes last.
+fn range(viewer: &Viewer, rows: &[Row], to: EntityId) -> Vec<EntityId> {
+    let place = |id: EntityId| rows.iter().position(|row| row.id == id);
+    let (Some(end), Some(start)) = (place(to), viewer.selection.active().and_then(place)) else {
+        return vec![to];
+    };
+    let mut ids: Vec<EntityId> = rows[start.min(end)..=start.max(end)].iter().map(|row| row.id).collect();
+    if end < start {
+        ids.reverse();
+    }
+    ids
 }
 
 /// The sign of a row's role; a group's is a triangle that opens and closes it.

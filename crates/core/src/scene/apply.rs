@@ -3,8 +3,8 @@
 use super::component::{Members, Name, Parent, Touched};
 use super::painting::Worn;
 use super::{
-    Change, ChangeKind, Content, Edit, EntityId, MaterialId, Node, Role, Scene, SceneError, Subject, Subtree,
-    new_revision,
+    Change, ChangeKind, Content, Edit, EntityId, Flags, MaterialId, Node, Role, Scene, SceneError, Subject,
+    Subtree, new_revision,
 };
 use crate::{Camera, Finish, Light, Operation, Placement, Shape};
 
@@ -42,6 +42,7 @@ impl Scene {
             Edit::Light(id, light) => Ok(Edit::Light(id, self.exchange(id, light)?)),
             Edit::Camera(id, camera) => Ok(Edit::Camera(id, self.exchange(id, camera)?)),
             Edit::Placement(id, placement) => Ok(Edit::Placement(id, self.exchange(id, placement)?)),
+            Edit::Flags(id, flags) => Ok(Edit::Flags(id, self.exchange(id, flags)?)),
             Edit::MaterialOf(id, material) => {
                 self.check_material(material)?;
                 Ok(Edit::MaterialOf(id, self.exchange(id, material)?))
@@ -154,7 +155,7 @@ impl Scene {
         let id = node.id.unwrap_or_else(|| self.ids.take_entity());
         self.by_name.insert(node.name.clone(), id);
         self.record(Subject::Entity(id), ChangeKind::Added);
-        let common = (id, Name(node.name), node.placement, Touched(self.revision));
+        let common = (id, Name(node.name), node.placement, node.flags, Touched(self.revision));
         let entity = match node.content {
             Content::Shape(shape, material) => self.world.spawn((shape, material)),
             Content::Light(light) => self.world.spawn((light,)),
@@ -285,6 +286,7 @@ slots! {
     Camera: Camera, Camera;
     Operation: Group, Operation;
     Placement: Group, Placement;
+    Flags: Group, Flags;
     Name: Group, Name;
 }
 
@@ -348,6 +350,7 @@ mod tests {
             (Edit::Light(r.lamp, light(9.0)), entity(r.lamp), ChangeKind::Light),
             (Edit::Camera(r.eye, camera(0.3)), entity(r.eye), ChangeKind::Camera),
             (Edit::Placement(r.things, moved(1.0, 2.0, 3.0)), entity(r.things), ChangeKind::Placement),
+            (Edit::Flags(r.lamps, Flags { hidden: true, locked: false }), entity(r.lamps), ChangeKind::Flags),
             (Edit::MaterialOf(r.ball, r.grey), entity(r.ball), ChangeKind::Material),
             (Edit::Parent(r.ball, None), entity(r.ball), ChangeKind::Parent),
             (Edit::Order(r.eye, 0), entity(r.eye), ChangeKind::Order),

@@ -26,6 +26,16 @@ impl std::fmt::Display for Role {
     }
 }
 
+/// Component of every entity: what a person has set aside for a while. All else of the entity stays as it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
+pub struct Flags {
+    /// It takes no part in any picture, and nothing that lies in it does: no shape is seen, no light shines. In a solid it
+    /// is as if it were not there.
+    pub hidden: bool,
+    /// It, and what lies in it, is not to be picked or moved by hand.
+    pub locked: bool,
+}
+
 /// Component of every entity: its name, which no other entity of the scene has.
 #[derive(Debug, Clone)]
 pub(super) struct Name(pub(super) String);

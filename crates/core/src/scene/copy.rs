@@ -23,21 +23,33 @@ impl Scene {
                 None => Content::Group(members),
             }
         };
-        Some(Node { id: Some(id), name: self.name(id)?, placement: self.placement(id)?, content })
+        Some(Node {
+            id: Some(id),
+            name: self.name(id)?,
+            placement: self.placement(id)?,
+            flags: self.flags(id),
+            content,
+        })
     }
 
     /// A copy of an entity with its members that can be inserted beside it, as its next sibling: with new ids,
     /// and with names that are free.
     #[must_use]
     pub fn duplicate(&self, id: EntityId) -> Option<Subtree> {
-        let mut node = self.node(id)?;
-        let mut taken = HashSet::new();
+        let node = self.fresh(self.node(id)?, &mut HashSet::new());
+        Some(Subtree { node, parent: self.parent(id), index: Some(self.index_of(id) + 1) })
+    }
+
+    /// A node that can be inserted beside all that is there: with new ids, and with names that are free and not among
+    /// `taken`. They join `taken`, so that several nodes can be made ready for one edit.
+    #[must_use]
+    pub fn fresh(&self, mut node: Node, taken: &mut HashSet<String>) -> Node {
         node.each_mut(&mut |copy| {
             copy.id = None;
             copy.name = free_name(&copy.name, |name| taken.contains(name) || self.by_name.contains_key(name));
             taken.insert(copy.name.clone());
         });
-        Some(Subtree { node, parent: self.parent(id), index: Some(self.index_of(id) + 1) })
+        node
     }
 
     /// `wish`, or where an entity has that name already, `wish` with the first free number from 2 behind it. An

@@ -1,6 +1,6 @@
 //! What can be changed in a scene, and how is a change written down?
 
-use super::{EntityId, MaterialId, Settings, Subtree, TextureId};
+use super::{EntityId, Flags, MaterialId, Settings, Subtree, TextureId};
 use crate::{Camera, Finish, Light, Material, Operation, Placement, Shape, Texture};
 
 /// One change to a [`Scene`](super::Scene). [`Scene::apply`](super::Scene::apply) does it and answers with the
@@ -21,6 +21,8 @@ pub enum Edit {
     Camera(EntityId, Camera),
     /// Places an entity anew, relative to its group.
     Placement(EntityId, Placement),
+    /// Hides an entity or locks it, or takes that back.
+    Flags(EntityId, Flags),
     /// Gives a shape entity another of the scene's materials.
     MaterialOf(EntityId, MaterialId),
     /// Makes an entity the last member of a group, or the last at the top of the scene. Its own placement stays,
@@ -118,6 +120,8 @@ pub enum ChangeKind {
     Camera,
     /// The placement of an entity within its group.
     Placement,
+    /// Whether an entity is hidden or locked.
+    Flags,
     /// Which material a shape has.
     Material,
     /// Which group an entity is a member of, and its place among its siblings.

@@ -28,7 +28,7 @@ mod tree;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-pub use component::Role;
+pub use component::{Flags, Role};
 pub use edit::{Change, ChangeKind, Edit, Subject};
 pub use error::SceneError;
 pub use history::History;
@@ -160,6 +160,24 @@ impl Scene {
     #[must_use]
     pub fn placement(&self, id: EntityId) -> Option<Placement> {
         self.component(id)
+    }
+
+    /// What has been set aside about an entity itself; see [`Self::is_hidden`] for the groups round it.
+    #[must_use]
+    pub fn flags(&self, id: EntityId) -> Flags {
+        self.component(id).unwrap_or_default()
+    }
+
+    /// Whether an entity, or a group that it lies in, is hidden.
+    #[must_use]
+    pub fn is_hidden(&self, id: EntityId) -> bool {
+        std::iter::once(id).chain(self.ancestors(id)).any(|id| self.flags(id).hidden)
+    }
+
+    /// Whether an entity, or a group that it lies in, is locked.
+    #[must_use]
+    pub fn is_locked(&self, id: EntityId) -> bool {
+        std::iter::once(id).chain(self.ancestors(id)).any(|id| self.flags(id).locked)
     }
 
     /// A copy of one component, `None` without the entity or the component.

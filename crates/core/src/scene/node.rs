@@ -1,6 +1,6 @@
 //! What is inserted into a scene, and what a removal gives back: an entity with all its members.
 
-use super::{EntityId, MaterialId, Role};
+use super::{EntityId, Flags, MaterialId, Role};
 use crate::{Camera, Light, Operation, Placement, Shape};
 
 /// One entity with its members, outside any scene.
@@ -12,6 +12,8 @@ pub struct Node {
     pub name: String,
     /// Its placement relative to its group or, outside any group, to the world.
     pub placement: Placement,
+    /// Whether it is hidden or locked.
+    pub flags: Flags,
     /// What it is.
     pub content: Content,
 }
@@ -46,7 +48,7 @@ impl Node {
     /// An unmoved entity with a new id.
     #[must_use]
     pub fn new(name: impl Into<String>, content: Content) -> Self {
-        Self { id: None, name: name.into(), placement: Placement::IDENTITY, content }
+        Self { id: None, name: name.into(), placement: Placement::IDENTITY, flags: Flags::default(), content }
     }
 
     /// A shape of `material`.
@@ -83,6 +85,12 @@ impl Node {
     #[must_use]
     pub fn placed(self, placement: Placement) -> Self {
         Self { placement, ..self }
+    }
+
+    /// The same, hidden or locked as said.
+    #[must_use]
+    pub fn flagged(self, flags: Flags) -> Self {
+        Self { flags, ..self }
     }
 
     /// The same under an id of the caller's choice, which the scene must not be using.
@@ -122,7 +130,7 @@ impl Node {
     }
 
     /// Changes this node, then its members and theirs.
-    pub(super) fn each_mut(&mut self, change: &mut impl FnMut(&mut Self)) {
+    pub fn each_mut(&mut self, change: &mut impl FnMut(&mut Self)) {
         change(self);
         if let Content::Group(members) | Content::Solid(_, members) = &mut self.content {
             for member in members {

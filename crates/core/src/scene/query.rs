@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 
-use super::component::{Parent, Touched};
+use super::component::{Flags, Parent, Touched};
 use super::{EntityId, MaterialId, Scene};
 use crate::{Camera, Light, Placement, Shape};
 
@@ -45,26 +45,28 @@ impl Scene {
         self.listed()
     }
 
-    /// All shapes where they stand in the world, with the materials they wear. Measured: 10,000 balls in under 1 ms.
+    /// All shapes that are not hidden, where they stand in the world, with the materials they wear. Measured: 10,000 balls in under 1 ms.
     #[must_use]
     pub fn world_shapes(&self) -> Vec<(Placed<Shape>, MaterialId)> {
         let shapes = self.placed(|shape: &Shape, at| Some(shape.placed(at)));
-        shapes.into_iter().filter_map(|(shape, material)| Some((shape, material?))).collect()
+        let seen = shapes.into_iter().filter(|shape| !shape.hidden);
+        seen.filter_map(|shape| Some((shape.placed, shape.material?))).collect()
     }
 
-    /// All lights where they stand in the world.
+    /// All lights that are not hidden, where they stand in the world.
     #[must_use]
     pub fn world_lights(&self) -> Vec<Placed<Light>> {
-        self.placed(|light: &Light, at| Some(light.placed(at))).into_iter().map(|(light, _)| light).collect()
+        let lights = self.placed(|light: &Light, at| Some(light.placed(at)));
+        lights.into_iter().filter(|light| !light.hidden).map(|light| light.placed).collect()
     }
 
-    /// All cameras where they stand in the world, without those that their groups take further away than numbers
+    /// All cameras, hidden ones too, where they stand in the world, without those that their groups take further away than numbers
     /// reach.
     #[must_use]
     pub fn world_cameras(&self) -> Vec<Placed<Camera>> {
         self.placed(|camera: &Camera, at| camera.placed(at).ok())
             .into_iter()
-            .map(|(camera, _)| camera)
+            .map(|camera| camera.placed)
             .collect()
     }
 
@@ -76,29 +78,34 @@ impl Scene {
         list
     }
 
-    /// Every component of a type, placed in the world, with the material of its entity, by age.
-    fn placed<T: hecs::Component>(
-        &self,
-        place: impl Fn(&T, &Placement) -> Option<T>,
-    ) -> Vec<(Placed<T>, Option<MaterialId>)> {
+    /// Every component of a type, placed in the world, by age.
+    fn placed<T: hecs::Component>(&self, place: impl Fn(&T, &Placement) -> Option<T>) -> Vec<Found<T>> {
         let mut groups = HashMap::new();
-        let mut query =
-            self.world.query::<(&EntityId, &T, &Placement, &Touched, Option<&MaterialId>, Option<&Parent>)>();
+        type Row<'a, T> = (
+            &'a EntityId,
+            &'a T,
+            &'a Placement,
+            &'a Touched,
+            &'a Flags,
+            Option<&'a MaterialId>,
+            Option<&'a Parent>,
+        );
+        let mut query = self.world.query::<Row<'_, T>>();
         let mut list: Vec<_> = query
             .iter()
-            .filter_map(|(&id, part, own, touched, material, parent)| {
-                let (part, touched) = match parent {
-                    None => (place(part, own)?, touched.0),
+            .filter_map(|(&id, part, own, touched, flags, material, parent)| {
+                let (part, touched, hidden) = match parent {
+                    None => (place(part, own)?, touched.0, flags.hidden),
                     Some(&Parent(group)) => {
                         let around: &Around = groups.entry(group).or_insert_with(|| self.around(group));
                         let at = around.placements.iter().fold(*own, |at, outer| at.then(outer));
-                        (place(part, &at)?, touched.0.max(around.touched))
+                        (place(part, &at)?, touched.0.max(around.touched), flags.hidden || around.hidden)
                     }
                 };
-                Some((Placed { id, part, touched }, material.copied()))
+                Some(Found { placed: Placed { id, part, touched }, material: material.copied(), hidden })
             })
             .collect();
-        list.sort_unstable_by_key(|(placed, _)| placed.id);
+        list.sort_unstable_by_key(|found| found.placed.id);
         list
     }
 
@@ -107,8 +114,17 @@ impl Scene {
         Around {
             placements: groups().filter_map(|id| self.placement(id)).collect(),
             touched: groups().filter_map(|id| self.component::<Touched>(id)).map(|t| t.0).max().unwrap_or(0),
+            hidden: self.is_hidden(group),
         }
     }
+}
+
+/// A part in the world, with the material of its entity.
+struct Found<T> {
+    placed: Placed<T>,
+    material: Option<MaterialId>,
+    /// By itself or with a group that it lies in.
+    hidden: bool,
 }
 
 /// What members of a group have in common.
@@ -117,6 +133,8 @@ struct Around {
     placements: Vec<Placement>,
     /// When one of them was last placed anew or joined another.
     touched: u64,
+    /// Whether one of them is hidden.
+    hidden: bool,
 }
 
 #[cfg(test)]
@@ -164,6 +182,27 @@ mod tests {
         }
         assert_eq!(Some(r.scene.world_lights()[0].part.clone()), r.scene.world_light(r.lamp));
         assert_eq!(Some(r.scene.world_cameras()[0].part.clone()), r.scene.world_camera(r.eye));
+    }
+
+    #[test]
+    fn what_is_hidden_is_not_listed_and_keeps_its_place() {
+        let mut r = Room::new();
+        let listed = |scene: &Scene| (scene.world_shapes().len(), scene.world_lights().len());
+        let set = |r: &mut Room, id, hidden| {
+            r.scene.apply(Edit::Flags(id, Flags { hidden, locked: true })).unwrap();
+        };
+        let all = listed(&r.scene);
+        let (things, ball) = (r.things, r.ball);
+        set(&mut r, ball, true);
+        assert_eq!(listed(&r.scene), (all.0 - 1, all.1));
+        set(&mut r, things, true);
+        assert_eq!(listed(&r.scene), (1, 0), "all that lies in it");
+        assert!(r.scene.is_hidden(r.lamp) && r.scene.is_locked(r.lamp) && !r.scene.is_hidden(r.floor));
+        assert_eq!(r.scene.flags(r.lamp), Flags::default());
+        set(&mut r, ball, false);
+        set(&mut r, things, false);
+        assert_eq!(listed(&r.scene), all);
+        assert_eq!(r.scene.world_cameras().len(), 1);
     }
 
     #[test]

@@ -17,11 +17,12 @@ pub struct PlacedSolid {
 }
 
 impl Scene {
-    /// All solids that are no parts of others, where they stand in the world.
+    /// All solids that are no parts of others and not hidden, where they stand in the world.
     #[must_use]
     pub fn world_solids(&self) -> Vec<PlacedSolid> {
         let is_outer = |&id: &EntityId| {
             self.operation(id).is_some()
+                && !self.is_hidden(id)
                 && self.parent(id).is_none_or(|parent| self.operation(parent).is_none())
         };
         self.walk().into_iter().filter(is_outer).filter_map(|id| self.world_solid(id)).collect()
@@ -54,7 +55,14 @@ impl Parts<'_> {
         self.touched = self.touched.max(self.scene.component::<Touched>(id)?.0);
         if let Some(operation) = self.scene.operation(id) {
             let members = self.scene.children(Some(id));
-            let rules = members.into_iter().map(|member| self.rule(member, &at)).collect::<Option<_>>()?;
+            let mut rules = Vec::new();
+            for member in members {
+                if self.scene.flags(member).hidden {
+                    self.touched = self.touched.max(self.scene.component::<Touched>(member)?.0);
+                } else {
+                    rules.push(self.rule(member, &at)?);
+                }
+            }
             return Some(Rule::Combined(operation, rules));
         }
         self.shapes.push(self.scene.shape(id)?.placed(&at));

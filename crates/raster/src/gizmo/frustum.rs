@@ -3,7 +3,7 @@
 use super::Gizmo;
 use crate::canvas::Canvas;
 use crate::ink::Ink;
-use crate::stage::Stage;
+use crate::stage::{Stage, seen};
 use crate::tint::Tint;
 use catoptra_core::glam::DVec3;
 use catoptra_core::scene::{EntityId, Role};
@@ -50,7 +50,7 @@ fn frustum(canvas: &mut Canvas<'_>, camera: &Camera, depth: f64, ink: Ink) {
 
 /// The scene's cameras in the world, but for the one the picture is seen from.
 fn cameras<'a>(stage: &'a Stage<'_>) -> impl Iterator<Item = (EntityId, Camera)> + 'a {
-    let ids = stage.scene.entities_of(Role::Camera);
+    let ids = seen(stage.scene, Role::Camera);
     ids.filter_map(|id| {
         let camera = stage.scene.world_camera(id)?;
         let apart = camera.eye().distance(stage.view.stand());

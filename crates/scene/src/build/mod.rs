@@ -213,7 +213,7 @@ impl<'a> Builder<'a> {
             Some(_) => return,
         };
         let name = item.name.as_ref().map(|name| name.value.clone()).unwrap_or_default();
-        let node = Node::new(name, content).placed(item.placement);
+        let node = Node::new(name, content).placed(item.placement).flagged(item.flags);
         let id = self.scene.next_entity_id();
         match self.scene.apply(Edit::insert(Subtree { node, parent, index: None })) {
             Ok(_) => self.ids[place] = Some(Id::Entity(id)),

@@ -97,6 +97,7 @@ impl Builder<'_> {
                 placement: (!item.steps.is_empty()).then_some(item.placement),
                 material: self.check_material(item),
                 removed: item.removed,
+                flags: item.flags,
             };
             if parts.insert(name.value.clone(), change).is_some() {
                 let message = format!("the part \"{}\" is given twice", name.value);

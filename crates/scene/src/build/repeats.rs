@@ -69,7 +69,7 @@ impl Builder<'_> {
                 _ => self.content(item, members)?,
             };
             let name = item.name.as_ref().map(|name| name.value.clone()).unwrap_or_default();
-            nodes.push(Node::new(name, content).placed(item.placement));
+            nodes.push(Node::new(name, content).placed(item.placement).flagged(item.flags));
         }
         Some(nodes)
     }

@@ -75,6 +75,14 @@ impl SceneFile {
         file
     }
 
+    /// The same as the text of the file at `path`, whatever that holds: what stands there now counts as known.
+    #[must_use]
+    pub fn assigned_to(self, path: &Path) -> Self {
+        // A file that cannot be read holds something else than the nothing that is known then.
+        let stored = std::fs::read_to_string(path).unwrap_or_default();
+        Self { path: Some(path.to_owned()), stored, ..self }
+    }
+
     /// The file it was loaded from or saved to last.
     #[must_use]
     pub fn path(&self) -> Option<&Path> {

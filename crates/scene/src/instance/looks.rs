@@ -92,17 +92,21 @@ impl Instance {
 
     /// Values of the model with the textures of the scene.
     fn mapped(&self, values: &Values) -> Values {
-        let texture = |id: TextureId| self.textures.get(id.index() as usize - 1).copied().unwrap_or(id);
-        values.iter().fold(Values::new(), |all, (field, value)| {
-            let value = match value {
-                Value::Texture(id) => Value::Texture(texture(*id)),
-                Value::Textured(textured) => {
-                    let by = TextureUse { texture: texture(textured.by.texture), ..textured.by };
-                    textured.base.clone().textured(by)
-                }
-                other => other.clone(),
-            };
-            all.with(field, value)
-        })
+        repainted(values, |id| self.textures.get(id.index() as usize - 1).copied().unwrap_or(id))
     }
+}
+
+/// Values with other textures in the place of theirs.
+pub(crate) fn repainted(values: &Values, texture: impl Fn(TextureId) -> TextureId) -> Values {
+    values.iter().fold(Values::new(), |all, (field, value)| {
+        let value = match value {
+            Value::Texture(id) => Value::Texture(texture(*id)),
+            Value::Textured(textured) => {
+                let by = TextureUse { texture: texture(textured.by.texture), ..textured.by };
+                textured.base.clone().textured(by)
+            }
+            other => other.clone(),
+        };
+        all.with(field, value)
+    })
 }

@@ -46,7 +46,8 @@ impl<'a> Making<'a> {
             other => other.clone(),
         };
         let placement = part.and_then(|part| part.placement).unwrap_or(node.placement);
-        Ok(Node::new(full_name(&self.instance.name, &node.name), content).placed(placement))
+        let flags = part.map(|part| part.flags).unwrap_or_default();
+        Ok(Node::new(full_name(&self.instance.name, &node.name), content).placed(placement).flagged(flags))
     }
 
     /// The shape with the path by which scene text names its mesh.

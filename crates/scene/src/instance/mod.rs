@@ -8,13 +8,14 @@ mod parts;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use catoptra_core::scene::{EntityId, MaterialId, Node, Scene, TextureId};
+use catoptra_core::scene::{EntityId, Flags, MaterialId, Node, Scene, TextureId};
 use catoptra_core::{InvalidPart, Placement};
 
 use crate::build::Id;
 use crate::model::Model;
 use crate::state::State;
 pub(crate) use find::{find, find_mut, image_named, mesh_named, names};
+pub(crate) use looks::repainted;
 use making::Making;
 use parts::FilePart;
 pub(crate) use parts::{PartNow, Wish};
@@ -33,6 +34,7 @@ pub(crate) struct Override {
     pub(crate) placement: Option<Placement>,
     pub(crate) material: Option<MaterialId>,
     pub(crate) removed: bool,
+    pub(crate) flags: Flags,
 }
 
 /// What the text says of parts, by their names in the file.

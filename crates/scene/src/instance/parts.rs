@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use catoptra_core::Placement;
-use catoptra_core::scene::{Content, EntityId, MaterialId, Node, Scene};
+use catoptra_core::scene::{Content, EntityId, Flags, MaterialId, Node, Scene};
 
 use super::{Instance, ModelSource, full_name};
 use crate::build::Id;
@@ -30,8 +30,8 @@ pub(crate) enum Wish {
     Whatever,
     /// That the part is left out.
     Removed,
-    /// Where it stands and what it wears.
-    There { placement: Placement, material: Option<MaterialId> },
+    /// Where it stands, what it wears, and whether it is hidden or locked.
+    There { placement: Placement, material: Option<MaterialId>, flags: Flags },
 }
 
 /// One thing in a model as the scene has it.
@@ -51,7 +51,8 @@ pub(crate) struct PartNow<'a> {
 impl PartNow<'_> {
     /// Whether no node need tell of it.
     pub(crate) fn is_as_in_file(&self) -> bool {
-        let there = Wish::There { placement: self.placement, material: self.material };
+        let (placement, material) = (self.placement, self.material);
+        let there = Wish::There { placement, material, flags: Flags::default() };
         self.wish == there && !self.has_guests
     }
 }
@@ -134,7 +135,8 @@ impl Instance {
         let same = scene.parent(id) == group
             && now.name == full_name(&self.name, &part.name)
             && Some(&now.part) == part.content.as_ref();
-        same.then(|| Wish::There { placement: now.placement, material: scene.material_of(id) })
+        let material = scene.material_of(id);
+        same.then_some(Wish::There { placement: now.placement, material, flags: now.flags })
     }
 
     /// Whether in every group the members of the file come first and in the file's order: so they will when the text is read.

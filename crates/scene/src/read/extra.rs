@@ -1,5 +1,5 @@
 //! What some nodes are told beside the fields that the core lists: the file of a model, whether a part of it is left out, how
-//! often a repeat repeats and in which steps.
+//! often a repeat repeats and in which steps, and whether something is hidden or locked.
 
 use catoptra_core::Placement;
 use kdl::{KdlEntry, KdlNode, KdlValue};
@@ -7,7 +7,8 @@ use kdl::{KdlEntry, KdlNode, KdlValue};
 use super::placement::STEPS;
 use super::value::value_span;
 use super::{Reader, span_of};
-use crate::outline::{Item, Sort, Span};
+use crate::flags::{self, FLAGS, Flag};
+use crate::outline::{FlagText, Item, Sort, Span};
 
 /// The most copies that one repeat makes. What all repeats of a text make together is bounded beside that.
 pub(crate) const MOST_COPIES: u32 = 100_000;
@@ -19,12 +20,13 @@ pub(crate) const FILE: &str = "file";
 pub(crate) const REMOVE: &str = "remove";
 
 /// Something that nodes of one sort are told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub(super) enum Extra {
     File,
     Remove,
     Count,
     Step,
+    Flag(Flag),
 }
 
 /// Which nodes are told what, by which word.
@@ -38,12 +40,14 @@ pub(super) const EXTRAS: [(Sort, &str, Extra); 4] = [
 /// What a word tells a node of that sort.
 pub(super) fn extra(sort: Sort, word: &str) -> Option<Extra> {
     let same = |of: Sort| of.word() == sort.word();
-    EXTRAS.iter().find(|(of, known, _)| same(*of) && *known == word).map(|(.., extra)| *extra)
+    let own = EXTRAS.iter().find(|(of, known, _)| same(*of) && *known == word).map(|(.., extra)| *extra);
+    own.or_else(|| flags::named(word).filter(|_| sort.is_entity()).map(Extra::Flag))
 }
 
 /// The words for what a node of that sort is told.
 pub(super) fn words_for(sort: Sort) -> impl Iterator<Item = &'static str> {
-    EXTRAS.iter().filter(move |(of, ..)| of.word() == sort.word()).map(|(_, word, _)| *word)
+    let own = EXTRAS.iter().filter(move |(of, ..)| of.word() == sort.word()).map(|(_, word, _)| *word);
+    own.chain(FLAGS.iter().filter(move |_| sort.is_entity()).map(|flag| flag.word))
 }
 
 impl Reader<'_> {
@@ -51,7 +55,7 @@ impl Reader<'_> {
     pub(super) fn read_extra(&mut self, extra: Extra, node: &KdlNode, item: &mut Item) {
         let span = span_of(node.span());
         let span = span.start..span.start + self.text[span].trim_end().len();
-        if extra == Extra::Step {
+        if matches!(extra, Extra::Step) {
             return self.read_step_of_repeat(node, item);
         }
         let entries = self.arguments(node);
@@ -64,6 +68,7 @@ impl Reader<'_> {
                 self.read_remove(&entries, at, item);
             }
             Extra::Count | Extra::Step => self.read_count(&entries, at, item),
+            Extra::Flag(flag) => self.read_set_flag(flag, &entries, (span, false), item),
         }
     }
 
@@ -80,6 +85,7 @@ impl Reader<'_> {
             Extra::Step => {
                 self.complaints.add_with(span, "the step of a repeat stands in its block", STEP_FORM);
             }
+            Extra::Flag(flag) => self.read_set_flag(flag, &[entry], (span, true), item),
         }
     }
 
@@ -124,6 +130,28 @@ impl Reader<'_> {
         match entries.first().and_then(|entry| entry.value().as_bool()) {
             Some(removed) if entries.len() == 1 => item.removed = removed,
             _ => self.complaints.add(span, "remove takes #true or #false"),
+        }
+    }
+
+    /// Reads whether something is hidden, or locked.
+    fn read_set_flag(
+        &mut self,
+        flag: Flag,
+        entries: &[&KdlEntry],
+        (span, property): (Span, bool),
+        item: &mut Item,
+    ) {
+        let word = flag.word;
+        if let Some(before) = item.flag_texts.iter().find(|text| text.word == word) {
+            let first = before.span.start;
+            return self.complaints.add_again(span, format!("{word} is given twice"), first);
+        }
+        match entries.first().and_then(|entry| entry.value().as_bool()) {
+            Some(on) if entries.len() == 1 => {
+                (flag.set)(&mut item.flags, on);
+                item.flag_texts.push(FlagText { word, span, property });
+            }
+            _ => self.complaints.add(span, format!("{word} takes #true or #false")),
         }
     }
 

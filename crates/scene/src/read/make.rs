@@ -5,6 +5,7 @@ use catoptra_core::Field;
 use super::Reader;
 use super::node::MATERIAL;
 use super::placement::STEPS;
+use crate::flags::FLAGS;
 use crate::outline::{Item, Sort, Span};
 use crate::words;
 
@@ -40,6 +41,7 @@ impl Reader<'_> {
         }
         if sort.is_entity() {
             known.extend(STEPS.iter().map(|(step, ..)| *step));
+            known.extend(FLAGS.iter().map(|flag| flag.word));
         }
         let message = format!(
             "{} has no \"{name}\"{}",

@@ -3,10 +3,10 @@
 use catoptra_core::scene::Scene;
 use catoptra_core::{Field, FieldKind, Value};
 
-use super::layout::{self, INDENT};
-use super::splice::Splice;
+use super::layout::{self, INDENT, Place};
+use super::splice::{Splice, without_space};
 use super::value::{number, quoted, words};
-use super::{node, paint, placement};
+use super::{flags, node, paint, placement};
 use crate::build::Id;
 use crate::outline::{FieldText, Item, Outline, Part, Sort};
 use crate::scan;
@@ -17,7 +17,9 @@ pub(crate) fn edit(text: &str, outline: &Outline, ids: &[Id], scene: &Scene) -> 
     let mut splices = Vec::new();
     for (item, &id) in outline.items.iter().zip(ids) {
         if let Some(now) = State::of(scene, id) {
-            edit_item(text, item, &now, scene, &mut splices);
+            let mut own = Vec::new();
+            edit_item(text, item, &now, scene, &mut own);
+            splices.append(&mut without_empty_block(text, item, own));
         }
         // Parts of models and what stands in repeats are no entities: of them only the names of materials follow here.
         if let (Some(old), Some(worn)) = (&item.material, id.named_material())
@@ -44,13 +46,32 @@ fn edit_item(text: &str, item: &Item, now: &State, scene: &Scene, splices: &mut 
         splices.push(Splice::new(old.span.clone(), quoted(new)));
     }
     let mut lines = edit_fields(text, item, &now.part, scene, splices);
-    let steps = placement::edit(text, item, &now.placement, splices);
+    let mut steps = placement::edit(text, item, &now.placement, splices);
+    steps.extend(flags::edit(text, item, &now.flags, splices));
     if now.part.sort().has_members() {
         put_at_start(text, item, &steps, splices);
     } else {
         lines.extend(steps);
     }
     put_at_end(text, item, &lines, splices);
+}
+
+/// Where splices would leave an empty block, the block goes as a whole.
+fn without_empty_block(text: &str, item: &Item, mut splices: Vec<Splice>) -> Vec<Splice> {
+    let Some(block) = scan::block_of(text, item.span.clone()) else { return splices };
+    let is_inside = |splice: &Splice| block.start < splice.range.start && splice.range.end < block.end;
+    if !splices.iter().any(is_inside) || splices.iter().any(|s| is_inside(s) && !s.text.is_empty()) {
+        return splices;
+    }
+    let is_taken = |at: usize| splices.iter().any(|splice| splice.range.contains(&at));
+    let mut left = text[block.start + 1..block.end - 1].char_indices();
+    if left.any(|(at, c)| !(c.is_whitespace() || c == ';' || is_taken(block.start + 1 + at))) {
+        return splices;
+    }
+    splices.retain(|splice| !is_inside(splice));
+    let before = text[..block.start].trim_end_matches([' ', '\t']).len();
+    splices.push(Splice::new(before..block.end, ""));
+    splices
 }
 
 /// Changes and removes fields; answers with the lines of those that are new.
@@ -165,17 +186,20 @@ impl Change<'_> {
 
 fn removal(text: &str, written: &FieldText) -> Splice {
     if written.property {
-        // The space before it goes with it.
-        let before = &text[..written.span.start];
-        Splice::new(before.trim_end_matches([' ', '\t']).len()..written.span.end, "")
+        without_space(text, &written.span)
     } else {
-        Splice::new(layout::whole_node(text, &written.span), "")
+        Splice::new(layout::taken_out(text, &written.span), "")
     }
 }
 
 pub(super) fn put_at_start(text: &str, item: &Item, lines: &[String], splices: &mut Vec<Splice>) {
+    if lines.is_empty() {
+        return;
+    }
+    if let Some((at, lines)) = layout::in_one_line(text, item, Place::Start, &lines.join("\n")) {
+        return splices.push(Splice::new(at..at, lines));
+    }
     match layout::gap_at_start(text, item) {
-        _ if lines.is_empty() => {}
         Some(gap) => splices.push(Splice::new(gap.at..gap.at, gap.fill(text, &lines.join("\n")))),
         None => put_at_end(text, item, lines, splices),
     }
@@ -186,6 +210,9 @@ pub(super) fn put_at_end(text: &str, item: &Item, lines: &[String], splices: &mu
         return;
     }
     let lines = lines.join("\n");
+    if let Some((at, lines)) = layout::in_one_line(text, item, Place::End, &lines) {
+        return splices.push(Splice::new(at..at, lines));
+    }
     match layout::gap_at_end(text, item) {
         Some(gap) => splices.push(Splice::new(gap.at..gap.at, gap.fill(text, &lines))),
         None => splices.push(new_block(text, item, &lines)),

@@ -46,6 +46,42 @@ pub(crate) fn whole_node(text: &str, node: &Span) -> Span {
     node.start..end
 }
 
+/// What goes when a line of a block goes: as [`whole_node`], but where others stand before it on the line, with the semicolon
+/// that sets it apart from them.
+pub(crate) fn taken_out(text: &str, node: &Span) -> Span {
+    let before = text[line_start(text, node.start)..node.start].trim_end_matches([' ', '\t']);
+    if before.ends_with(';') {
+        return line_start(text, node.start) + before.len() - 1..node.end;
+    }
+    whole_node(text, node)
+}
+
+/// Where lines go into a block that has all it holds on the line of its braces: the place, and the text with what sets it
+/// apart. `None` for other blocks, and for one that holds nothing.
+pub(crate) fn in_one_line(text: &str, item: &Item, place: Place, lines: &str) -> Option<(usize, String)> {
+    let block = scan::block_of(text, item.span.clone())?;
+    let inside = &text[block.start + 1..block.end - 1];
+    if inside.contains('\n') || inside.trim().is_empty() || inside.contains("//") {
+        return None;
+    }
+    let lines = lines.lines().collect::<Vec<_>>().join("; ");
+    Some(match place {
+        Place::Start => (block.start + 1, format!(" {lines};")),
+        Place::End => {
+            let end = block.start + 1 + inside.trim_end().len();
+            let closed = inside.trim_end().ends_with(';');
+            (end, if closed { format!(" {lines};") } else { format!("; {lines}") })
+        }
+    })
+}
+
+/// Where in a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Place {
+    Start,
+    End,
+}
+
 /// The end of the node's line if nothing but a comment follows it there, to put the next node after.
 pub(crate) fn after_node(text: &str, node: &Span) -> Option<usize> {
     let end = line_end(text, node.end);

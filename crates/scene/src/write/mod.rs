@@ -5,6 +5,7 @@
 //! as it was, to the byte.
 
 mod edit;
+mod flags;
 mod full;
 mod layout;
 mod node;

@@ -7,6 +7,7 @@ use super::layout::INDENT;
 use super::placement;
 use super::value::{number, paint, quoted, words};
 use crate::build::Id;
+use crate::flags;
 use crate::instance::Instance;
 use crate::outline::{Part, Sort};
 use crate::read::{FILE, MATERIAL};
@@ -75,6 +76,7 @@ impl<'a> Nodes<'a> {
         let mut lines = field_lines(&state.part, scene);
         lines.extend(model.map(|model| format!("{FILE} {}", quoted(model.path()))));
         lines.extend(placement::steps(&state.placement));
+        lines.extend(flags::lines(&state.flags));
         let members: Vec<EntityId> = match id {
             Id::Entity(group) if model.is_none() => {
                 scene.children(Some(group)).into_iter().filter(|&m| is_new(m)).collect()

@@ -7,9 +7,9 @@ use catoptra_core::scene::{MaterialId, Scene};
 
 use super::edit::{new_block, put_at_end, put_at_start};
 use super::layout::{self, INDENT};
-use super::placement;
-use super::splice::Splice;
+use super::splice::{Splice, without_space};
 use super::value::quoted;
+use super::{flags, placement};
 use crate::build::Id;
 use crate::instance::{Instance, PartNow, Wish};
 use crate::outline::{Item, Outline, PART, Sort};
@@ -99,9 +99,10 @@ fn new_node(part: &PartNow<'_>, scene: &Scene) -> Option<String> {
         Wish::Whatever => None,
         Wish::Removed => Some(format!("{PART} {name} {{ {REMOVE} {LEFT_OUT} }}")),
         Wish::There { .. } if part.is_as_in_file() => None,
-        Wish::There { placement, .. } => {
+        Wish::There { placement, flags, .. } => {
             let material = worn(part).map(|id| format!(" {MATERIAL}={}", quoted(scene.material_name(id))));
-            let steps = if placement == part.placement { Vec::new() } else { steps(&placement) };
+            let mut steps = if placement == part.placement { Vec::new() } else { steps(&placement) };
+            steps.extend(crate::flags::lines(&flags));
             let block = match steps.as_slice() {
                 [] => String::new(),
                 [step] => format!(" {{ {step} }}"),
@@ -120,7 +121,7 @@ fn steps(placement: &Placement) -> Vec<String> {
 
 /// Changes a node so that it says what has become of its part.
 fn edit_node(text: &str, item: &Item, id: Id, part: &PartNow<'_>, scene: &Scene, splices: &mut Vec<Splice>) {
-    let take_out = |span: &std::ops::Range<usize>| Splice::new(layout::whole_node(text, span), "");
+    let take_out = |span: &std::ops::Range<usize>| Splice::new(layout::taken_out(text, span), "");
     match part.wish {
         Wish::Whatever => {}
         Wish::Removed if item.removed => {}
@@ -135,7 +136,7 @@ fn edit_node(text: &str, item: &Item, id: Id, part: &PartNow<'_>, scene: &Scene,
                 None => put_at_start(text, item, &[format!("{REMOVE} {LEFT_OUT}")], splices),
             }
         }
-        Wish::There { placement, material } => {
+        Wish::There { placement, material, flags } => {
             match &item.remove {
                 Some((span, false)) if item.removed => splices.push(take_out(span)),
                 Some((span, true)) if item.removed => splices.push(without_space(text, span)),
@@ -145,7 +146,8 @@ fn edit_node(text: &str, item: &Item, id: Id, part: &PartNow<'_>, scene: &Scene,
             if let Some(material) = material.filter(|_| said != material) {
                 wear(text, item, material, part, scene, splices);
             }
-            place(text, item, &placement, part, splices);
+            let flags = flags::edit(text, item, &flags, splices);
+            place(text, item, (&placement, flags), part, splices);
         }
     }
 }
@@ -170,26 +172,24 @@ fn wear(
     }
 }
 
-/// Makes the node place its part, or say nothing where it stands as in the file.
-fn place(text: &str, item: &Item, to: &Placement, part: &PartNow<'_>, splices: &mut Vec<Splice>) {
+/// Makes the node place its part, or say nothing where it stands as in the file; `flags` are lines that come with that.
+fn place(
+    text: &str,
+    item: &Item,
+    (to, flags): (&Placement, Vec<String>),
+    part: &PartNow<'_>,
+    splices: &mut Vec<Splice>,
+) {
     let said = if item.steps.is_empty() { part.placement } else { item.placement };
     if *to == said {
-        return;
+        return put_at_start(text, item, &flags, splices);
     }
     let as_in_file = *to == part.placement;
     if as_in_file || placement::steps(to).is_empty() || item.steps.is_empty() {
-        splices.extend(item.steps.iter().map(|step| Splice::new(layout::whole_node(text, &step.span), "")));
-        if !as_in_file {
-            put_at_start(text, item, &steps(to), splices);
-        }
-        return;
+        splices.extend(item.steps.iter().map(|step| Splice::new(layout::taken_out(text, &step.span), "")));
+        let steps = if as_in_file { Vec::new() } else { steps(to) };
+        return put_at_start(text, item, &[steps, flags].concat(), splices);
     }
     let lines = placement::edit(text, item, to, splices);
-    put_at_end(text, item, &lines, splices);
-}
-
-/// Takes out a property and the space before it.
-fn without_space(text: &str, span: &std::ops::Range<usize>) -> Splice {
-    let before = &text[..span.start];
-    Splice::new(before.trim_end_matches([' ', '\t']).len()..span.end, "")
+    put_at_end(text, item, &[lines, flags].concat(), splices);
 }

@@ -66,7 +66,7 @@ pub(super) fn edit(text: &str, item: &Item, new: &Placement, splices: &mut Vec<S
         && let Some(by) = move_between(&last.before, new)
     {
         if by == DVec3::ZERO {
-            splices.push(Splice::new(layout::whole_node(text, &last.span), ""));
+            splices.push(Splice::new(layout::taken_out(text, &last.span), ""));
             return Vec::new();
         }
         let words = by.to_array().map(number);
@@ -84,11 +84,11 @@ pub(super) fn edit(text: &str, item: &Item, new: &Placement, splices: &mut Vec<S
         return vec![move_by(by)];
     }
     for step in others {
-        splices.push(Splice::new(layout::whole_node(text, &step.span), ""));
+        splices.push(Splice::new(layout::taken_out(text, &step.span), ""));
     }
     let steps = steps(new);
     if steps.is_empty() {
-        splices.push(Splice::new(layout::whole_node(text, &last.span), ""));
+        splices.push(Splice::new(layout::taken_out(text, &last.span), ""));
         return steps;
     }
     let newline = format!("{}{}", layout::newline(text), layout::indent_at(text, last.span.start));

@@ -18,28 +18,64 @@ impl Splice {
     }
 }
 
-/// Applies splices that do not overlap. Answers with the new text, where each place of `kept` has gone (`None` if
-/// it was replaced), and the ids of the new nodes with the places at which their text begins.
+/// Takes out a property and the space before it.
+pub(super) fn without_space(text: &str, property: &Span) -> Splice {
+    let before = &text[..property.start];
+    Splice::new(before.trim_end_matches([' ', '\t']).len()..property.end, "")
+}
+
+/// Applies splices. Answers with the new text, where each place of `kept` has gone (`None` if it was replaced), and the ids
+/// of the new nodes with the places at which their text begins.
 pub(crate) fn apply(
     text: &str,
-    mut splices: Vec<Splice>,
+    splices: Vec<Splice>,
     kept: &[usize],
 ) -> (String, Vec<Option<usize>>, Vec<Id>) {
+    let (out, splices) = settle(text, splices);
+    let moved = kept.iter().map(|&at| follow(&splices, at)).collect();
+    (out, moved, splices.into_iter().flat_map(|s| s.ids).collect())
+}
+
+/// Applies splices, and answers with them in order and without overlaps. Neighbours that are taken out may both take what
+/// stands between them; any other overlap would be a mistake of ours, and the earlier splice then stands.
+fn settle(text: &str, mut splices: Vec<Splice>) -> (String, Vec<Splice>) {
     splices.sort_by_key(|s| (s.range.start, s.range.end));
+    let mut settled: Vec<Splice> = Vec::with_capacity(splices.len());
     let mut out = String::with_capacity(text.len());
     let mut from = 0;
-    for splice in &splices {
-        // An overlap would be a mistake of ours; the earlier splice then stands.
+    for mut splice in splices {
         if splice.range.start < from {
+            if splice.text.is_empty()
+                && splice.range.end > from
+                && let Some(last) = settled.last_mut()
+            {
+                from = splice.range.end;
+                from += if opens(&out) { apart(&text[from..]) } else { 0 };
+                last.range.end = from;
+            }
             continue;
         }
         out.push_str(&text[from..splice.range.start]);
+        if opens(&out) {
+            splice.text.drain(..apart(&splice.text));
+        }
         out.push_str(&splice.text);
         from = splice.range.end;
+        settled.push(splice);
     }
     out.push_str(&text[from..]);
-    let moved = kept.iter().map(|&at| follow(&splices, at)).collect();
-    (out, moved, splices.into_iter().flat_map(|s| s.ids).collect())
+    (out, settled)
+}
+
+/// Whether a text ends where a block begins: what comes first in a block is set apart from nothing.
+fn opens(text: &str) -> bool {
+    text.trim_end_matches([' ', '\t']).ends_with('{')
+}
+
+/// How long what sets a node apart is, at the start of a text.
+fn apart(text: &str) -> usize {
+    let rest = text.trim_start_matches([' ', '\t']);
+    rest.strip_prefix(';').map_or(0, |rest| text.len() - rest.trim_start_matches([' ', '\t']).len())
 }
 
 /// Where a place of the old text stands in the new.

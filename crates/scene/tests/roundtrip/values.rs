@@ -118,10 +118,7 @@ fn settings_change_or_appear() {
     let text = edited(|scene| {
         scene.apply(Edit::Settings(Settings::new(Rgb::new(0.0, 0.0, 0.1), 4).unwrap())).unwrap();
     });
-    assert!(
-        text.contains("settings { max-depth 4 \n    background 0 0 0.1\n} // three are enough"),
-        "{text}"
-    );
+    assert!(text.contains("settings { max-depth 4; background 0 0 0.1 } // three are enough"), "{text}");
     let (mut scene, mut file) = parse("// nothing yet\n", "empty.kdl", None).unwrap();
     scene.apply(Edit::Settings(Settings::default().with_max_depth(9).unwrap())).unwrap();
     file.update(&scene);

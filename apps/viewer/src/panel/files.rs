@@ -1,0 +1,107 @@
+//! How is a file chosen? A list of what lies in a folder, over all else.
+
+use std::path::{Path, PathBuf};
+
+use egui::{Frame, Id, Key, Modal, Rect, RichText, ScrollArea, TextEdit, Ui};
+
+use super::theme;
+use crate::browse::{Browser, Purpose};
+use crate::guard::Next;
+use crate::viewer::{Viewer, Wanted};
+
+/// Width of the box in points, where the window has room.
+const WIDTH: f32 = 440.0;
+
+/// What a person does to the way to a file.
+enum Step {
+    Stay,
+    Cancel,
+    Chosen(PathBuf),
+}
+
+/// Shows the folder, if a file is wanted. All keys and clicks are for the box while it stands there.
+pub(super) fn show(ui: &Ui, viewer: &mut Viewer, window: Rect) {
+    let Some(mut browser) = viewer.browser.take() else { return };
+    let frame = Frame::window(ui.style()).inner_margin(14);
+    let modal = Modal::new(Id::new("files")).frame(frame).show(ui.ctx(), |ui| {
+        ui.set_width((window.width() - 40.0).clamp(60.0, WIDTH));
+        let height = (window.height() - 190.0).clamp(40.0, 320.0);
+        contents(ui, &mut browser, height)
+    });
+    match modal.inner {
+        Step::Stay => viewer.browser = Some(browser),
+        Step::Cancel => {}
+        Step::Chosen(path) => match browser.purpose {
+            Purpose::Open => viewer.leave(Next::Open(path)),
+            Purpose::Save(next) => viewer.save_to(path, next),
+            Purpose::Model => viewer.wanted = Some(Wanted::Model(path)),
+        },
+    }
+}
+
+fn contents(ui: &mut Ui, browser: &mut Browser, height: f32) -> Step {
+    let (title, word) = match browser.purpose {
+        Purpose::Open => ("Open a scene or a model", "Open"),
+        Purpose::Save(_) => ("Save the scene as", "Save"),
+        Purpose::Model => ("Put a model into the scene", "Put in"),
+    };
+    ui.label(RichText::new(title).strong().size(15.0));
+    ui.add_space(4.0);
+    ui.horizontal(|ui| {
+        if ui.button("Up").on_hover_text("The folder that this one lies in.").clicked() {
+            browser.go_up();
+        }
+        ui.add(egui::Label::new(browser.folder.display().to_string()).truncate());
+    });
+    let opened = list(ui, browser, height);
+    let mut step = opened.map_or(Step::Stay, |name| {
+        browser.typed = name;
+        browser.choose().map_or(Step::Stay, Step::Chosen)
+    });
+    let field = ui
+        .add(TextEdit::singleline(&mut browser.typed).hint_text("name or path").desired_width(f32::INFINITY));
+    if field.changed() {
+        (browser.problem, browser.replaces) = (None, None);
+    }
+    let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    if ui.memory(|memory| memory.focused().is_none()) {
+        field.request_focus();
+    }
+    if let Some(problem) = &browser.problem {
+        ui.label(RichText::new(problem).color(theme::ACCENT));
+    }
+    ui.add_space(6.0);
+    ui.horizontal(|ui| {
+        let word = if browser.replaces.is_some() { "Replace" } else { word };
+        let button = |word| egui::Button::new(word).min_size(egui::vec2(72.0, 24.0));
+        if (ui.add(button(word)).clicked() || entered)
+            && let Some(path) = browser.choose()
+        {
+            step = Step::Chosen(path);
+        }
+        if ui.add(button("Cancel")).clicked() {
+            step = Step::Cancel;
+        }
+    });
+    step
+}
+
+/// What lies in the folder; a click takes a name, a double click opens it. Returns what was opened.
+fn list(ui: &mut Ui, browser: &mut Browser, height: f32) -> Option<String> {
+    let mut opened = None;
+    let row = ui.spacing().interact_size.y;
+    let area = ScrollArea::vertical().id_salt("files").auto_shrink([false, false]).max_height(height);
+    area.show_rows(ui, row, browser.entries.len(), |ui, seen| {
+        for entry in &browser.entries[seen] {
+            let shown = if entry.is_folder { format!("{}/", entry.name) } else { entry.name.clone() };
+            let label = ui.selectable_label(Path::new(&browser.typed) == Path::new(&entry.name), shown);
+            if label.double_clicked() || (label.clicked() && entry.is_folder) {
+                opened = Some(entry.name.clone());
+            } else if label.clicked() {
+                browser.typed.clone_from(&entry.name);
+                (browser.problem, browser.replaces) = (None, None);
+            }
+        }
+    });
+    opened
+}
