@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-use catoptra_raster::Layer;
 use catoptra_tracer::Pool;
 use winit::application::ApplicationHandler;
 use winit::event::{StartCause, WindowEvent};
@@ -19,6 +18,7 @@ use crate::frame_worker::{Finished, FrameWorker};
 use crate::guard::Next;
 use crate::loader::{Opened, Outcome};
 use crate::options::Options;
+use crate::overlays::Overlays;
 use crate::recovery::{self, Kept};
 use crate::screen::Screen;
 use crate::status::Meter;
@@ -60,7 +60,7 @@ pub(crate) struct App {
     pub(crate) shown: Option<Finished<Frame>>,
     /// The number of the newest request.
     pub(crate) asked: u64,
-    pub(crate) layer: Layer,
+    pub(crate) overlays: Overlays,
     pub(crate) meter: Meter,
     pub(crate) last_frame: Option<Instant>,
     pub(crate) status_due: Option<Instant>,
@@ -95,7 +95,7 @@ impl App {
         proxy: EventLoopProxy<Wake>,
     ) -> Self {
         let wake = proxy.clone();
-        let worker = FrameWorker::start(PoolTracing { pool: Arc::clone(&pool) }, move || {
+        let worker = FrameWorker::start(PoolTracing::new(Arc::clone(&pool)), move || {
             // The loop may have ended; then no one waits for the frame.
             let _ = wake.send_event(Wake::Frame);
         });
@@ -116,7 +116,7 @@ impl App {
             modifiers: ModifiersState::empty(),
             shown: None,
             asked: 0,
-            layer: Layer::new(),
+            overlays: Overlays::default(),
             meter: Meter::default(),
             last_frame: None,
             status_due: None,
@@ -141,7 +141,7 @@ impl App {
 
     fn take_ball(&mut self) {
         if let Some(finished) = self.balls.take() {
-            self.viewer.preview.put(finished.frame, finished.divisor == 1);
+            self.viewer.preview.put(finished.frame, finished.is_last);
             self.viewer.stale.panel = true;
         }
     }
@@ -153,6 +153,7 @@ impl App {
         if self.viewer.stale.trace && width > 0 && height > 0 && !self.starting {
             self.viewer.stale.trace = false;
             self.asked = self.worker.submit(self.viewer.request());
+            self.meter.asked();
         }
     }
 

@@ -1,5 +1,5 @@
 //! Who traces while the window stays awake? One thread that takes the newest request, prepares its scene, traces it coarse
-//! to fine, and leaves each finished frame where the window picks it up.
+//! to fine, gives it more samples then, and leaves each finished frame where the window picks it up.
 //!
 //! A newer request takes the place of one that still waits. It abandons refinement under way at once; a first, coarse
 //! frame is let finish (else a fast hand would never see one) unless it has overrun its time, and so is the preparation,
@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use catoptra_tracer::Control;
 
-use crate::refine::{Pace, reduced};
+use crate::refine::{Pace, Pass, reduced};
 
 /// How long a first frame may take before a newer request abandons it.
 const OVERDUE: Duration = Duration::from_millis(60);
@@ -45,6 +45,17 @@ pub(crate) trait Tracing: Send + 'static {
         control: &Control,
         spares: &mut Vec<Self::Spare>,
     ) -> Option<Self::Frame>;
+
+    /// By which passes a full frame is given more samples; none where it has all at once.
+    fn passes(_: &Self::Job) -> Vec<Pass> {
+        Vec::new()
+    }
+
+    /// Traces a pass over the full picture, after all passes before it; `None` when it was cancelled, or where there are no
+    /// passes. What is used up goes to the spares.
+    fn add(&mut self, _: &Self::Job, _: Pass, _: &Control, _: &mut Vec<Self::Spare>) -> Option<Self::Frame> {
+        None
+    }
 }
 
 /// A frame with what is known about it.
@@ -54,8 +65,12 @@ pub(crate) struct Finished<F> {
     pub(crate) frame: F,
     /// Which request it answers: the number that [`FrameWorker::submit`] gave.
     pub(crate) generation: u64,
-    /// How many pixels each way one pixel of it stands for; 1 ends a request.
+    /// How many pixels each way one pixel of it stands for.
     pub(crate) divisor: u32,
+    /// The pass that gave it samples.
+    pub(crate) pass: Option<Pass>,
+    /// Nothing finer follows.
+    pub(crate) is_last: bool,
     /// How long it took.
     pub(crate) took: Duration,
 }
@@ -168,11 +183,17 @@ fn work<T: Tracing>(shared: &Shared<T>, mut tracing: T, wake: &impl Fn()) {
     while let Some((generation, request)) = next(shared) {
         let job = tracing.prepare(request);
         let (width, height) = T::size(&job);
-        for (step, divisor) in pace.steps(width, height).into_iter().enumerate() {
-            let first = step == 0;
+        let passes = T::passes(&job);
+        let divisors = pace.steps(width, height).into_iter().map(|divisor| (divisor, None));
+        let steps: Vec<_> = divisors.chain(passes.into_iter().map(|pass| (1, Some(pass)))).collect();
+        for (i, &(divisor, pass)) in steps.iter().enumerate() {
+            let first = i == 0;
             let Some((control, mut spares)) = begin(shared, first) else { break };
             let since = Instant::now();
-            let frame = tracing.trace(&job, divisor, &control, &mut spares);
+            let frame = match pass {
+                None => tracing.trace(&job, divisor, &control, &mut spares),
+                Some(pass) => tracing.add(&job, pass, &control, &mut spares),
+            };
             let took = since.elapsed();
             let Some(frame) = frame else {
                 if first {
@@ -181,9 +202,12 @@ fn work<T: Tracing>(shared: &Shared<T>, mut tracing: T, wake: &impl Fn()) {
                 end(shared, spares, None);
                 break;
             };
-            let (w, h) = reduced(width, height, divisor);
-            pace.record(u64::from(w) * u64::from(h), took);
-            end(shared, spares, Some(Finished { frame, generation, divisor, took }));
+            if pass.is_none() {
+                let (w, h) = reduced(width, height, divisor);
+                pace.record(u64::from(w) * u64::from(h), took);
+            }
+            let is_last = i + 1 == steps.len();
+            end(shared, spares, Some(Finished { frame, generation, divisor, pass, is_last, took }));
             wake();
         }
     }
@@ -246,6 +270,9 @@ mod tests {
     /// A request whose preparation ends when told.
     const SLOW: u32 = 99;
 
+    /// A request that is given more samples.
+    const FINE: u32 = 50;
+
     impl Tracing for Steered {
         type Request = u32;
         type Job = u32;
@@ -269,13 +296,34 @@ mod tests {
             control: &Control,
             _: &mut Vec<(u32, u32)>,
         ) -> Option<(u32, u32)> {
-            self.begun.send((*request, divisor)).ok()?;
+            self.wait((*request, divisor), control)
+        }
+
+        fn passes(request: &u32) -> Vec<Pass> {
+            Pass::all(if *request == FINE { 8 } else { 0 }, 4)
+        }
+
+        /// A frame with the number of samples, in hundreds, in the place of the divisor.
+        fn add(
+            &mut self,
+            request: &u32,
+            pass: Pass,
+            control: &Control,
+            _: &mut Vec<(u32, u32)>,
+        ) -> Option<(u32, u32)> {
+            self.wait((*request, 100 * pass.to), control)
+        }
+    }
+
+    impl Steered {
+        fn wait(&self, frame: (u32, u32), control: &Control) -> Option<(u32, u32)> {
+            self.begun.send(frame).ok()?;
             loop {
                 if control.is_cancelled() {
                     return None;
                 }
                 if self.go.recv_timeout(Duration::from_millis(1)).is_ok() {
-                    return Some((*request, divisor));
+                    return Some(frame);
                 }
             }
         }
@@ -309,9 +357,13 @@ mod tests {
         }
 
         fn finish(&self) -> (u32, u32) {
+            self.finished().frame
+        }
+
+        fn finished(&self) -> Finished<(u32, u32)> {
             self.go.send(()).unwrap();
             self.woken.recv_timeout(Duration::from_secs(20)).unwrap();
-            self.worker.take().unwrap().frame
+            self.worker.take().unwrap()
         }
     }
 
@@ -326,6 +378,35 @@ mod tests {
             divisors.push(begun.1);
         }
         assert_eq!(divisors, [8, 4, 2, 1]);
+    }
+
+    #[test]
+    fn a_full_picture_is_given_its_passes_and_only_then_is_at_rest() {
+        let bench = Bench::new();
+        bench.worker.submit(FINE);
+        let mut steps = Vec::new();
+        loop {
+            bench.begun();
+            let Finished { frame, divisor, pass, is_last, .. } = bench.finished();
+            assert_eq!(pass.is_some(), frame.1 >= 100);
+            steps.push((frame.1, divisor));
+            if is_last {
+                break;
+            }
+        }
+        assert_eq!(steps, [(8, 8), (4, 4), (2, 2), (1, 1), (400, 1), (800, 1)]);
+        assert!(bench.begun.recv_timeout(Duration::from_millis(30)).is_err(), "nothing more is begun");
+    }
+
+    #[test]
+    fn a_new_request_abandons_a_pass() {
+        let bench = Bench::new();
+        bench.worker.submit(FINE);
+        while bench.begun().1 < 100 {
+            bench.finish();
+        }
+        bench.worker.submit(2);
+        assert_eq!(bench.begun(), (2, 8));
     }
 
     #[test]

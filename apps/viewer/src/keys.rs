@@ -177,6 +177,7 @@ pub(crate) const OTHERS: &[(&str, &str)] = &[
     ("Drop a scene", "open it; asks about unsaved edits"),
     ("Drop a picture", "make it the texture of the selected shape"),
     ("Right click in the tree", "what can be done with what is selected"),
+    ("Ctrl and +, -, 0", "panel and text larger, smaller, as usual"),
     ("Tab, Enter", "go through a question's buttons, press one"),
 ];
 

@@ -23,6 +23,7 @@ mod naming;
 mod opening;
 mod options;
 mod outline;
+mod overlays;
 mod panel;
 mod preview;
 mod recent;

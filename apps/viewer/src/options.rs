@@ -16,7 +16,7 @@ pub(crate) struct Options {
     /// Threads that trace [default: one per core].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// Size of the window's content in pixels.
+    /// Size of the window's content in logical pixels: on a display of scale 2 each is two pixels wide and high.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub(crate) size: (u32, u32),
     /// Write a line on stderr for each finished frame: milliseconds, rays, size.

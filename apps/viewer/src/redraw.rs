@@ -3,8 +3,6 @@
 
 use std::time::{Duration, Instant};
 
-use catoptra_raster::{DepthField, Overlay};
-
 use crate::app::App;
 use crate::canvas::{Pixels, Region};
 use crate::screen::{Fitted, Screen};
@@ -98,6 +96,8 @@ impl App {
             rays: finished.frame.rays,
             size: (size.width, size.height),
             divisor: finished.divisor,
+            pass: finished.pass,
+            is_last: finished.is_last,
         };
         if self.options.log_frames {
             eprintln!("{}", figures.log_line());
@@ -150,11 +150,8 @@ impl App {
         }
         let overlay = self.viewer.overlay(&frame.camera);
         if is_any_shown(&self.viewer) {
-            let depths = if frame.size == size { frame.film.depths() } else { Vec::new() };
-            let film = frame.film.size();
-            let depth = DepthField { width: film.width, height: film.height, metres: &depths };
-            Overlay { depth: Some(depth), ..overlay }.draw(&mut self.layer);
-            self.layer.blend_over(&mut picture.data);
+            let film = Some(&frame.film).filter(|_| frame.size == size);
+            self.overlays.lay_over(&mut picture.data, overlay, film, shown.generation);
         }
     }
 

@@ -1,6 +1,8 @@
 //! How coarse must a frame be to keep up with the hand, and by which steps does it become fine? Pure arithmetic:
-//! the seconds that recent pixels took decide the first divisor, and each later step halves it down to 1.
+//! the seconds that recent pixels took decide the first divisor, and each later step halves it down to 1. A full picture
+//! that is at rest is then given more samples, pass by pass.
 
+use std::ops::Range;
 use std::time::Duration;
 
 /// What tracing one frame may take while something moves, in seconds: a 60 Hz frame less the time to show it.
@@ -71,6 +73,35 @@ pub(crate) fn reduced(width: u32, height: u32, divisor: u32) -> (u32, u32) {
     (width.div_ceil(divisor), height.div_ceil(divisor))
 }
 
+/// Some more of the samples of a full picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Pass {
+    /// Samples that each pixel has before.
+    pub(crate) from: u32,
+    /// Samples that each pixel has after it.
+    pub(crate) to: u32,
+    /// Samples that each pixel is to have.
+    pub(crate) of: u32,
+}
+
+impl Pass {
+    /// The passes to `of` samples a pixel, with `stride` samples each.
+    pub(crate) fn all(of: u32, stride: u32) -> Vec<Self> {
+        let starts = (0..of).step_by(stride.max(1) as usize);
+        starts.map(|from| Self { from, to: (from + stride.max(1)).min(of), of }).collect()
+    }
+
+    /// The numbers of its samples.
+    pub(crate) fn range(self) -> Range<u32> {
+        self.from..self.to
+    }
+
+    /// Whether none comes after it.
+    pub(crate) fn is_last(self) -> bool {
+        self.to == self.of
+    }
+}
+
 fn pixels((width, height): (u32, u32)) -> u64 {
     u64::from(width) * u64::from(height)
 }
@@ -125,6 +156,17 @@ mod tests {
         assert_eq!(pace.steps(1000, 1000)[0], 2);
         pace.seconds_per_pixel = Some(0.008e-6);
         assert_eq!(pace.steps(1000, 1000)[0], 1);
+    }
+
+    #[test]
+    fn passes_follow_each_other_up_to_the_last_sample() {
+        for (of, stride) in [(16, 4), (10, 4), (3, 8), (5, 0), (0, 4)] {
+            let passes = Pass::all(of, stride);
+            let ranges: Vec<u32> = passes.iter().flat_map(|pass| pass.range()).collect();
+            assert_eq!(ranges, (0..of).collect::<Vec<u32>>());
+            let last = passes.iter().filter(|pass| pass.is_last()).count();
+            assert_eq!(last, usize::from(of > 0));
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use egui::{Context, FullOutput, ViewportId};
 use softbuffer::{Rect, Surface};
-use winit::dpi::PhysicalSize;
+use winit::dpi::{LogicalSize, PhysicalSize};
 use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
 use winit::window::Window;
 
@@ -40,14 +40,14 @@ pub(crate) struct Screen {
 }
 
 impl Screen {
-    /// Opens a window with a content of that size in pixels.
+    /// Opens a window with a content of that size in logical pixels: as many pixels each as the display's scale says.
     ///
     /// # Errors
     /// Why there is none, for people.
     pub(crate) fn open(event_loop: &ActiveEventLoop, (width, height): (u32, u32)) -> Result<Self, String> {
         let attributes = Window::default_attributes()
             .with_title("catoptra")
-            .with_inner_size(PhysicalSize::new(width, height))
+            .with_inner_size(LogicalSize::new(width, height))
             .with_min_inner_size(PhysicalSize::new(1, 1));
         let window = Rc::new(event_loop.create_window(attributes).map_err(|e| e.to_string())?);
         let context =

@@ -6,10 +6,12 @@ use std::time::{Duration, Instant};
 use catoptra_core::Scene;
 use catoptra_tracer::Snapshot;
 
+use crate::refine::Pass;
+
 /// How far back frames are counted.
 const WINDOW: Duration = Duration::from_secs(1);
 
-/// After this long without a frame the picture is at rest.
+/// After this long without a frame nothing moves.
 pub(crate) const REST: Duration = Duration::from_millis(400);
 
 /// What is told of one finished frame.
@@ -23,18 +25,26 @@ pub(crate) struct FrameFigures {
     pub(crate) size: (u32, u32),
     /// How many pixels each way one of them stands for.
     pub(crate) divisor: u32,
+    /// The pass that gave it samples.
+    pub(crate) pass: Option<Pass>,
+    /// Nothing finer follows.
+    pub(crate) is_last: bool,
 }
 
 impl FrameFigures {
-    /// The line for a log: milliseconds, rays, size, divisor.
+    /// The line for a log: milliseconds, rays, size, divisor or samples a pixel, and whether it is the last for now.
     pub(crate) fn log_line(&self) -> String {
+        let step = match self.pass {
+            None => format!("1/{}", self.divisor),
+            Some(Pass { to, of, .. }) => format!("samples {to}/{of}"),
+        };
         format!(
-            "frame {:.2} ms {} rays {}x{} 1/{}",
+            "frame {:.2} ms {} rays {}x{} {step}{}",
             milliseconds(self.took),
             self.rays,
             self.size.0,
             self.size.1,
-            self.divisor
+            if self.is_last { " at rest" } else { "" }
         )
     }
 }
@@ -54,6 +64,14 @@ impl Meter {
         self.forget(now);
     }
 
+    /// Notes that another picture was asked for: the last one is not at rest any more.
+    pub(crate) fn asked(&mut self) {
+        if let Some(last) = &mut self.last {
+            last.is_last = false;
+            last.pass = None;
+        }
+    }
+
     /// The line to show at `now`: frame time, frames and rays per second, size, threads.
     pub(crate) fn line(&mut self, threads: usize, now: Instant) -> String {
         self.forget(now);
@@ -71,14 +89,17 @@ impl Meter {
         )
     }
 
-    /// Frames per second, or that there are none to count.
+    /// Frames per second while it moves, else how far it is refined.
     fn rate(&self, now: Instant) -> String {
-        match (self.ends.front(), self.ends.back()) {
-            (Some(first), Some(last)) if now.duration_since(*last) < REST && last > first => {
+        let last = self.last.map(|last| (last.is_last, last.pass));
+        match (last, self.ends.front(), self.ends.back()) {
+            (Some((true, _)), ..) => "at rest".to_owned(),
+            (Some((false, Some(pass))), ..) => format!("refining {}/{}", pass.to, pass.of),
+            (_, Some(first), Some(last)) if now.duration_since(*last) < REST && last > first => {
                 let seconds = last.duration_since(*first).as_secs_f64();
                 format!("{:.0} fps", (self.ends.len() - 1) as f64 / seconds)
             }
-            _ => "at rest".to_owned(),
+            _ => "refining".to_owned(),
         }
     }
 
@@ -115,8 +136,14 @@ fn ray_rate(rays_per_second: f64) -> String {
 mod tests {
     use super::*;
 
-    const FRAME: FrameFigures =
-        FrameFigures { took: Duration::from_millis(10), rays: 500_000, size: (640, 360), divisor: 2 };
+    const FRAME: FrameFigures = FrameFigures {
+        took: Duration::from_millis(10),
+        rays: 500_000,
+        size: (640, 360),
+        divisor: 2,
+        pass: None,
+        is_last: false,
+    };
 
     #[test]
     fn the_line_tells_time_rate_rays_size_and_threads() {
@@ -130,12 +157,21 @@ mod tests {
     }
 
     #[test]
-    fn without_new_frames_it_is_at_rest() {
+    fn it_is_at_rest_only_when_nothing_finer_follows() {
         let mut meter = Meter::default();
-        let start = Instant::now();
-        meter.record(FRAME, start);
-        meter.record(FRAME, start + Duration::from_millis(10));
-        assert!(meter.line(1, start + Duration::from_secs(5)).contains("at rest"));
+        let (start, later) = (Instant::now(), Duration::from_secs(5));
+        let pass = |to| Some(Pass { from: to - 4, to, of: 16 });
+        for (frame, told) in [
+            (FRAME, "refining"),
+            (FrameFigures { divisor: 1, ..FRAME }, "refining"),
+            (FrameFigures { divisor: 1, pass: pass(4), ..FRAME }, "refining 4/16"),
+            (FrameFigures { divisor: 1, pass: pass(16), is_last: true, ..FRAME }, "at rest"),
+        ] {
+            meter.record(frame, start);
+            assert_eq!(meter.rate(start + later), told);
+        }
+        meter.asked();
+        assert_eq!(meter.rate(start + later), "refining");
     }
 
     #[test]
@@ -161,5 +197,7 @@ mod tests {
     #[test]
     fn a_log_line_is_one_line() {
         assert_eq!(FRAME.log_line(), "frame 10.00 ms 500000 rays 640x360 1/2");
+        let last = FrameFigures { pass: Some(Pass { from: 12, to: 16, of: 16 }), is_last: true, ..FRAME };
+        assert_eq!(last.log_line(), "frame 10.00 ms 500000 rays 640x360 samples 16/16 at rest");
     }
 }

@@ -8,7 +8,7 @@ use catoptra_tracer::{Backend, Control, Extraction, Film, Pool, Size, Snapshot, 
 use crate::canvas::Pixels;
 use crate::frame_worker::Tracing;
 use crate::latest::Latest;
-use crate::refine::reduced;
+use crate::refine::{Pass, reduced};
 
 /// All that a picture depends on.
 #[derive(Clone)]
@@ -21,6 +21,8 @@ pub(crate) struct Request {
     pub(crate) backend: &'static dyn Backend,
     /// From where, how large when traced in full, and what is shown.
     pub(crate) view: View,
+    /// Samples a pixel that the full picture is to have in the end.
+    pub(crate) at_rest: u32,
     /// How radiance becomes colour.
     pub(crate) tone: Tone,
 }
@@ -87,10 +89,33 @@ fn tile_edge(size: Size) -> u32 {
     if size.pixels() < SMALL { Film::TILE / 4 } else { Film::TILE }
 }
 
+/// The passes in which samples are added to a full picture.
+const PASSES: u32 = 16;
+
+/// Samples of the smallest pass: so many lie evenly in a pixel.
+const LEAST_PASS: u32 = 4;
+
 /// Traces on a pool of threads.
 pub(crate) struct PoolTracing {
     /// The threads.
-    pub(crate) pool: Arc<Pool>,
+    pool: Arc<Pool>,
+    /// The full picture to which samples are being added.
+    growing: Option<Film>,
+}
+
+impl PoolTracing {
+    /// On these threads.
+    pub(crate) fn new(pool: Arc<Pool>) -> Self {
+        Self { pool, growing: None }
+    }
+
+    fn encoded(&self, request: &Request, film: Film, pixels: Pixels, rays: u64) -> Frame {
+        let View { camera, size, .. } = &request.view;
+        let (camera, size) = (camera.clone(), (size.width, size.height));
+        let mut frame = Frame { film, pixels, camera, size, tone: request.tone, rays };
+        frame.encode(request.tone, &self.pool);
+        frame
+    }
 }
 
 impl Tracing for PoolTracing {
@@ -125,10 +150,34 @@ impl Tracing for PoolTracing {
             spares.push(Spare { film, pixels });
             return None;
         };
-        let rays = stats.rays.total();
-        let mut frame = Frame { film, pixels, camera: view.camera, size: full, tone: request.tone, rays };
-        frame.encode(request.tone, &self.pool);
-        Some(frame)
+        Some(self.encoded(request, film, pixels, stats.rays.total()))
+    }
+
+    fn passes(Job { request, .. }: &Job) -> Vec<Pass> {
+        let of = request.at_rest;
+        Pass::all(of, of.div_ceil(PASSES).max(LEAST_PASS))
+    }
+
+    fn add(
+        &mut self,
+        Job { request, snapshot }: &Job,
+        pass: Pass,
+        control: &Control,
+        spares: &mut Vec<Spare>,
+    ) -> Option<Frame> {
+        let growing = self.growing.take().filter(|_| pass.from > 0);
+        let mut film = growing.unwrap_or_else(|| room(request.view.size, spares).film);
+        let view = View { samples: pass.of, range: Some(pass.range()), ..request.view.clone() };
+        let traced = render(request.backend, snapshot, &view, &mut film, &self.pool, control);
+        let pixels = spares.pop().map(|spare| spare.pixels).unwrap_or_default();
+        let Ok(stats) = traced else {
+            spares.push(Spare { film, pixels });
+            return None;
+        };
+        if !pass.is_last() {
+            self.growing = Some(film.clone());
+        }
+        Some(self.encoded(request, film, pixels, stats.rays.total()))
     }
 }
 
@@ -144,7 +193,40 @@ mod tests {
         let pool = Arc::new(Pool::new(1).unwrap());
         let mut viewer = Viewer::new(loader::welcome(&pool).unwrap());
         viewer.size = (64, 48);
-        (viewer, PoolTracing { pool })
+        (viewer, PoolTracing::new(pool))
+    }
+
+    #[test]
+    fn passes_come_to_the_picture_of_all_samples_at_once() {
+        let (viewer, mut tracing) = viewer_and_tracing();
+        let job = tracing.prepare(viewer.request());
+        let (control, mut spares) = (Control::default(), Vec::new());
+        let mut last = None;
+        for pass in PoolTracing::passes(&job) {
+            let frame = tracing.add(&job, pass, &control, &mut spares).unwrap();
+            assert_eq!(frame.film.samples(5, 5), pass.to);
+            last = Some(frame);
+        }
+        let samples = job.request.at_rest;
+        assert!(samples >= 16, "{samples}");
+        let view = job.request.view.clone().with_samples(samples);
+        let mut film = Film::new(view.size);
+        render(job.request.backend, &job.snapshot, &view, &mut film, &tracing.pool, &control).unwrap();
+        assert_eq!(last.unwrap().film.radiances(), film.radiances());
+        assert!(tracing.growing.is_none(), "nothing is kept at rest");
+    }
+
+    #[test]
+    fn an_abandoned_pass_begins_anew() {
+        let (viewer, mut tracing) = viewer_and_tracing();
+        let job = tracing.prepare(viewer.request());
+        let (control, mut spares) = (Control::default(), Vec::new());
+        let passes = PoolTracing::passes(&job);
+        assert!(tracing.add(&job, passes[0], &control, &mut spares).is_some());
+        control.cancel();
+        assert!(tracing.add(&job, passes[1], &control, &mut spares).is_none());
+        let first = tracing.add(&job, passes[0], &Control::default(), &mut spares).unwrap();
+        assert_eq!(first.film.samples(5, 5), passes[0].to);
     }
 
     #[test]

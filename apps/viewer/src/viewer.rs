@@ -29,6 +29,9 @@ const OCCLUSION_SAMPLES: u32 = 16;
 /// Paths a pixel: a picture that is noisy and soon there.
 const PATH_SAMPLES: u32 = 16;
 
+/// How many times its first samples a full picture is given at rest, unless the scene asks for more.
+const AT_REST: u32 = 16;
+
 /// What has to be done again since something changed.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Stale {
@@ -137,6 +140,7 @@ impl Viewer {
             axes: false,
             lights: true,
             cones: false,
+            beams: false,
             selection: true,
             cameras: false,
             scale: 1.0,
@@ -274,16 +278,18 @@ impl Viewer {
 
     /// What the worker is to trace now.
     pub(crate) fn request(&self) -> Request {
-        let view = match self.document.scene().settings().integrator() {
-            Integrator::Whitted => self.view().with_samples(1),
-            Integrator::Path => self.view().with_samples(PATH_SAMPLES),
-            Integrator::Occlusion => self.view().with_samples(OCCLUSION_SAMPLES),
+        let samples = match self.document.scene().settings().integrator() {
+            Integrator::Whitted => 1,
+            Integrator::Path => PATH_SAMPLES,
+            Integrator::Occlusion => OCCLUSION_SAMPLES,
         };
+        let at_rest = self.document.scene().settings().samples().max(AT_REST * samples);
         Request {
             extraction: Arc::clone(&self.extraction),
             latest: Arc::clone(&self.latest),
             backend: self.settings.backend,
-            view,
+            view: self.view().with_samples(samples),
+            at_rest,
             tone: self.tone(),
         }
     }
@@ -319,14 +325,11 @@ impl Viewer {
         }
     }
 
-    /// Selects these. Cones are shown from the first spot light on that becomes the active one.
+    /// Selects these.
     pub(crate) fn select_all(&mut self, selection: Selection) {
         if self.selection != selection {
             self.finish_name();
             self.selection = selection;
-            let light = self.selection.active().and_then(|id| self.document.scene().light(id));
-            let is_spot = light.is_some_and(|l| l.position().is_some() && l.direction().is_some());
-            self.settings.style.cones |= is_spot;
             self.stale.overlay = true;
             self.stale.panel = true;
         }

@@ -68,7 +68,7 @@ impl Overlay<'_> {
     /// The handle of a light under the pixel (`x`, `y`), within 6 pixels (times the scale); those of selected lights come
     /// before others, nearer ones before farther ones.
     ///
-    /// Rings of spot lights can be gripped while cones are shown; the sides, corners and rims of lights that are surfaces
+    /// Rings of spot lights can be gripped while their cone is shown; the sides, corners and rims of lights that are surfaces
     /// while lights are shown and the light is selected.
     pub fn grip_at(&self, x: f64, y: f64) -> Option<Grip> {
         let any = self.style.cones || (self.style.lights && !self.selection.is_empty());
@@ -113,7 +113,7 @@ mod tests {
         alphas.iter().map(|&alpha| u64::from(alpha)).sum()
     }
 
-    const CONES: OverlayStyle = OverlayStyle { cones: true, ..OverlayStyle::NONE };
+    const CONES: OverlayStyle = OverlayStyle { cones: true, beams: true, ..OverlayStyle::NONE };
     const AXES: OverlayStyle = OverlayStyle { axes: true, ..OverlayStyle::NONE };
 
     #[test]
@@ -203,6 +203,26 @@ mod tests {
         let camera = sample::camera();
         let alphas = alphas(&sample::overlay(&scene, &camera, CONES));
         assert_eq!(alphas[60 * WIDTH as usize + 60], 0);
+    }
+
+    #[test]
+    fn a_cone_is_lines_of_what_is_selected_unless_asked() {
+        let (scene, light) = lit_by(spot(DVec3::new(0.0, 3.0, 0.0), DVec3::NEG_Y, 20.0, 60.0));
+        let camera = sample::camera();
+        let covered = |style: OverlayStyle, selection: &[_]| {
+            let overlay = Overlay { selection, ..sample::overlay(&scene, &camera, style) };
+            let shown = alphas(&overlay).into_iter().filter(|&alpha| alpha > 0).count();
+            let grips = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (f64::from(x), f64::from(y))));
+            (shown, grips.step_by(7).any(|(x, y)| overlay.grip_at(x, y).is_some()))
+        };
+        let lights = OverlayStyle { lights: true, ..OverlayStyle::NONE };
+        let (mark, no_grip) = covered(lights, &[]);
+        let (lines, grip) = covered(lights, &[light]);
+        let (beam, _) = covered(OverlayStyle { beams: true, ..lights }, &[light]);
+        assert!(!no_grip && grip, "the rings are gripped where they are seen");
+        assert!(lines > 4 * mark && beam > 3 * lines, "{mark} {lines} {beam}");
+        let (others, _) = covered(OverlayStyle { cones: true, ..lights }, &[]);
+        assert!(others > 3 * mark, "all cones are shown when asked: {others}");
     }
 
     #[test]

@@ -65,6 +65,11 @@ impl<'a> Stage<'a> {
         self.selection.iter().any(|&outer| self.scene.lies_in(id, outer))
     }
 
+    /// Whether the cone of that light is shown, if it has one.
+    pub(crate) fn shows_cone(&self, placed: &PlacedLight) -> bool {
+        self.style.cones || (self.style.lights && placed.selected)
+    }
+
     /// Metres to the first surface from a point along a unit direction. Meshes are left out: a walk over all their
     /// triangles is too slow for a gizmo.
     pub(crate) fn nearest_surface(&self, from: DVec3, direction: DVec3) -> Option<f64> {

@@ -9,8 +9,10 @@ pub struct OverlayStyle {
     pub axes: bool,
     /// Marks of lights, and the outlines of those that are surfaces.
     pub lights: bool,
-    /// Cones of spot lights.
+    /// Cones of all spot lights. Without it selected ones show theirs while lights are shown.
     pub cones: bool,
+    /// Cones are filled by a beam of light, and not lines alone.
+    pub beams: bool,
     /// Bounds of what is selected.
     pub selection: bool,
     /// Frusta of the scene's cameras.
@@ -22,7 +24,16 @@ pub struct OverlayStyle {
 impl Default for OverlayStyle {
     /// Everything, for a display of scale 1.
     fn default() -> Self {
-        Self { grid: true, axes: true, lights: true, cones: true, selection: true, cameras: true, scale: 1.0 }
+        Self {
+            grid: true,
+            axes: true,
+            lights: true,
+            cones: true,
+            beams: true,
+            selection: true,
+            cameras: true,
+            scale: 1.0,
+        }
     }
 }
 
@@ -33,6 +44,7 @@ impl OverlayStyle {
         axes: false,
         lights: false,
         cones: false,
+        beams: false,
         selection: false,
         cameras: false,
         scale: 1.0,

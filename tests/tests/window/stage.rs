@@ -175,7 +175,7 @@ impl Stage {
         self.window.parse().expect("xdotool names windows by number")
     }
 
-    /// Waits until the picture is traced in full and neither it nor anything else on the screen changes.
+    /// Waits until the picture is refined and neither it nor anything else on the screen changes.
     pub(crate) fn settle(&self) -> Picture {
         let (begin, mut since, mut last) = (Instant::now(), Instant::now(), None);
         while since.elapsed() < SETTLED {
@@ -183,7 +183,7 @@ impl Stage {
             sleep(LOOK);
             let log = self.log();
             let now = (log.len(), std::fs::read(self.buffer_file()).ok());
-            if last.as_ref() != Some(&now) || !log.trim_end().ends_with(" 1/1") {
+            if last.as_ref() != Some(&now) || !log.trim_end().ends_with(" at rest") {
                 since = Instant::now();
                 last = Some(now);
             }
@@ -258,7 +258,8 @@ impl Drop for Stage {
 /// Starts the viewer in a folder; what it remembers is in that folder too.
 fn open_viewer(folder: &Path, display: &str, scale: u32, file: Option<&str>) -> Child {
     let mut command = Command::new(programs::viewer());
-    command.args(["--log-frames", "--threads", "2", "--size", &format!("{}x{}", SIZE.0, SIZE.1)]);
+    let (width, height) = (SIZE.0 / scale as usize, SIZE.1 / scale as usize);
+    command.args(["--log-frames", "--threads", "2", "--size", &format!("{width}x{height}")]);
     command.args(file);
     command.current_dir(folder).env("DISPLAY", display).env_remove("WAYLAND_DISPLAY");
     command.env("WINIT_X11_SCALE_FACTOR", scale.to_string()).env("XDG_STATE_HOME", folder.join("state"));

@@ -1,11 +1,10 @@
-//! What floats over the picture? The status line, the sign of the turntable, the list of keys, what has failed, and the
+//! What floats over the picture? The status line, the sign of the turntable, what has failed, and the
 //! report of an error.
 
 use egui::{Align2, Area, Frame, Id, Margin, Order, Rect, RichText, Stroke, Ui, Window};
 
 use super::theme;
 use crate::input::Mode;
-use crate::keys::{BINDINGS, OTHERS};
 use crate::viewer::Viewer;
 
 /// The line at the lower left of the picture: figures, and what there is to tell.
@@ -67,33 +66,6 @@ pub(super) fn failure(ui: &Ui, viewer: &mut Viewer, room: Rect) {
                 }
             });
         });
-}
-
-/// All keys.
-pub(super) fn help(ui: &Ui, viewer: &mut Viewer, room: Rect) {
-    let mut open = viewer.shown.help;
-    Window::new("Keys and mouse")
-        .open(&mut open)
-        .pivot(Align2::CENTER_CENTER)
-        .fixed_pos(room.center())
-        .constrain_to(room)
-        .auto_sized()
-        .collapsible(false)
-        .show(ui.ctx(), |ui| {
-            egui::ScrollArea::vertical().max_height((room.height() - 70.0).max(60.0)).show(ui, list_keys);
-        });
-    viewer.shown.help = open;
-}
-
-fn list_keys(ui: &mut Ui) {
-    egui::Grid::new("keys").num_columns(2).spacing([18.0, 3.0]).show(ui, |ui| {
-        let keys = BINDINGS.iter().map(|binding| (binding.label, binding.doc));
-        for (what, does) in OTHERS.iter().copied().chain(keys) {
-            ui.strong(what);
-            ui.label(does);
-            ui.end_row();
-        }
-    });
 }
 
 /// What is wrong with a file.

@@ -7,6 +7,7 @@ mod clicks;
 mod dialogs;
 mod fields;
 mod files;
+mod help;
 mod inspector;
 mod kind;
 mod material;
@@ -46,9 +47,9 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, status: &str) -> Rect {
     }
     dialogs::status(ui, viewer, status, room);
     dialogs::turntable(ui, viewer, room);
-    dialogs::help(ui, viewer, room);
     dialogs::error(ui, viewer, room);
     dialogs::failure(ui, viewer, room);
+    help::show(ui, viewer, whole);
     add::show(ui, viewer, whole);
     files::show(ui, viewer, whole);
     question::show(ui, viewer, whole);

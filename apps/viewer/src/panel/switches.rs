@@ -64,11 +64,13 @@ fn overlays(ui: &mut Ui, viewer: &mut Viewer) {
         egui::Grid::new("overlays").num_columns(3).spacing([10.0, 2.0]).show(ui, |ui| {
             ui.checkbox(&mut style.grid, "grid");
             ui.checkbox(&mut style.axes, "axes");
-            ui.checkbox(&mut style.cones, "cones");
+            ui.checkbox(&mut style.cones, "all cones").on_hover_text("Cones of lights not selected, too.");
             ui.end_row();
             ui.checkbox(&mut style.lights, "lights");
             ui.checkbox(&mut style.cameras, "cameras");
             ui.checkbox(&mut style.selection, "bounds");
+            ui.end_row();
+            ui.checkbox(&mut style.beams, "beams").on_hover_text("Cones are filled, not lines alone.");
             ui.end_row();
         });
     });

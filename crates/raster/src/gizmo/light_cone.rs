@@ -1,8 +1,8 @@
 //! Where does a spot light shine, and how does it fall off between its inner and its outer cone?
 //!
-//! A beam of nested translucent cones, one per step of the falloff, so that it is brightest where the light is; the
-//! inner and the outer ring with their edges; thin rings where three quarters, half and a quarter of the light pass.
-//! A selected light shows all of it and the handles of its rings; others keep to thin lines.
+//! The inner and the outer ring with their edges; thin rings where three quarters, half and a quarter of the light pass;
+//! where a style asks for beams, nested translucent cones, one per step of the falloff, brightest where the light is.
+//! A selected light shows all of it and the handles of its rings; others keep to thin lines, and show them if asked.
 
 use super::Gizmo;
 use super::mark::{Rim, knob, lamp};
@@ -41,8 +41,12 @@ fn draw(stage: &Stage<'_>, canvas: &mut Canvas<'_>) {
     for placed in &stage.lights {
         let Some(apex) = apex(placed) else { continue };
         let tint = placed.tint();
-        if let (true, Some(cone)) = (stage.style.cones, Cone::of(stage, placed)) {
-            beam(canvas, &cone, tint, placed.selected);
+        if stage.shows_cone(placed)
+            && let Some(cone) = Cone::of(stage, placed)
+        {
+            if stage.style.beams {
+                beam(canvas, &cone, tint, placed.selected);
+            }
             lines(canvas, &cone, tint, placed.selected);
             canvas.flush();
             if placed.selected {

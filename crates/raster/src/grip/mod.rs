@@ -82,12 +82,12 @@ const REACH: f64 = 6.0;
 const SMALLEST: f64 = 2.0;
 
 /// The handle under the pixel (`x`, `y`): of selected lights first, then the nearest. Lamps have handles while they are
-/// selected, rings while cones are shown.
+/// selected, rings while their cone is shown.
 pub(crate) fn grip_at(stage: &Stage<'_>, x: f64, y: f64) -> Option<Grip> {
     let reach = REACH * f64::from(stage.scale());
     let mut best: Option<(bool, f64, Grip)> = None;
     for placed in &stage.lights {
-        let rings = if stage.style.cones { ring::handles(stage, placed, (x, y)) } else { Vec::new() };
+        let rings = if stage.shows_cone(placed) { ring::handles(stage, placed, (x, y)) } else { Vec::new() };
         let sizes = if stage.style.lights && placed.selected {
             let rectangle = rectangle::handle(stage, placed, (x, y), reach);
             rectangle.or_else(|| rim::handle(stage, placed, (x, y)))
