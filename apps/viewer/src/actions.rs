@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use catoptra_core::Aabb;
 use catoptra_core::scene::{Edit, EntityId, Role};
 use catoptra_raster::Grip;
 
 use crate::browse::Purpose;
 use crate::camera_control::{self, NOTCH, ORBIT_PER_PIXEL};
 use crate::deeds::Deed;
+use crate::framing;
 use crate::guard::Next;
 use crate::input::{Drag, Gesture, Mode};
 use crate::keys::Command;
@@ -16,6 +16,7 @@ use crate::making;
 use crate::selection::Picking;
 use crate::tracing::Frame;
 use crate::viewer::Viewer;
+use crate::views;
 
 /// How far a turntable drag turns the objects, in degrees per pixel.
 const TURN_PER_PIXEL: f64 = 0.3;
@@ -25,6 +26,9 @@ const STEP: f64 = 0.05;
 
 /// The target is pushed ahead when the camera comes nearer than this share of the scene's size.
 const NEAREST: f64 = 0.02;
+
+/// The share by which a drag that zooms comes nearer, per pixel upwards.
+const ZOOM_PER_PIXEL: f64 = 0.005;
 
 /// The step keys of drags; panels use keys with this bit clear.
 const DRAG_KEY: u64 = 1 << 63;
@@ -36,10 +40,12 @@ pub(crate) fn run(viewer: &mut Viewer, command: Command) {
         Command::Quit => viewer.leave(Next::Close),
         Command::Help => viewer.shown.help = !viewer.shown.help,
         Command::Panel => viewer.shown.panel = !viewer.shown.panel,
-        Command::FrameAll => frame_all(viewer),
-        Command::FrameSelected => frame_selected(viewer),
+        Command::FrameAll => framing::frame_all(viewer),
+        Command::FrameSelected => framing::frame_selected(viewer),
         Command::ResetCamera => viewer.adopt(viewer.through.or(viewer.document.scene().main_camera())),
         Command::NextCamera => next_camera(viewer),
+        Command::Look(side) => viewer.look(views::from_side(&viewer.camera, side)),
+        Command::OtherProjection => viewer.look(views::other_projection(&viewer.camera)),
         Command::Step(right, up) => {
             let camera = camera_control::step(&viewer.camera, f64::from(right) * STEP, f64::from(up) * STEP);
             viewer.look(camera);
@@ -90,25 +96,6 @@ fn dragging(mode: Mode) -> &'static str {
     match mode {
         Mode::Orbit => "move the camera round",
         Mode::Turntable => "turn the objects about the origin",
-    }
-}
-
-fn frame_all(viewer: &mut Viewer) {
-    let everything = viewer.everything();
-    if everything.is_empty() {
-        viewer.notify("nothing here has an end: back to the scene's camera");
-        viewer.adopt(viewer.document.scene().main_camera());
-    } else {
-        viewer.frame(everything);
-    }
-}
-
-fn frame_selected(viewer: &mut Viewer) {
-    let scene = viewer.document.scene();
-    let bounds = viewer.selection.ids().iter().filter_map(|id| scene.world_bounds(*id)).reduce(Aabb::union);
-    match bounds {
-        Some(bounds) => viewer.frame(bounds),
-        None => viewer.notify("select something that has an end first"),
     }
 }
 
@@ -203,7 +190,16 @@ fn drag_by(viewer: &mut Viewer, drag: Drag, by: (f64, f64), to: (f64, f64)) {
     match drag {
         Drag::Orbit => {
             let (yaw, pitch) = (-by.0 * ORBIT_PER_PIXEL, by.1 * ORBIT_PER_PIXEL);
-            viewer.look(camera_control::orbit(&viewer.camera, yaw, pitch));
+            let (before, orbit) = (&viewer.camera, camera_control::orbit);
+            let after = orbit(before, yaw, pitch);
+            let level = || orbit(before, yaw, 0.0);
+            viewer.look(views::above_floors(viewer.document.scene(), before, after, level));
+        }
+        Drag::Zoom => {
+            let factor = (-by.1 * ZOOM_PER_PIXEL).exp();
+            let target =
+                viewer.camera.eye() + viewer.camera.forward() * camera_control::focus(&viewer.camera);
+            viewer.look(camera_control::zoom_to(&viewer.camera, target, factor.recip()));
         }
         Drag::Pan => viewer.look(camera_control::pan(&viewer.camera, by, f64::from(viewer.size.1))),
         Drag::Turn => turn_objects(viewer, by),

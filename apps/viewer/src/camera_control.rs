@@ -57,6 +57,12 @@ fn moved(camera: &Camera, by: DVec3) -> Camera {
     looking(camera, camera.eye() + by, target(camera) + by, camera.up_hint())
 }
 
+/// The same target from the same distance, along that direction, which need not be of length 1.
+pub(crate) fn seen_along(camera: &Camera, direction: DVec3, up: DVec3) -> Camera {
+    let target = target(camera);
+    looking(camera, target - direction.normalize_or(camera.forward()) * focus(camera), target, up)
+}
+
 /// Goes round the target: `yaw` about the direction given as up (radians, seen from there anticlockwise), then
 /// `pitch` upwards. The view never passes a pole.
 pub(crate) fn orbit(camera: &Camera, yaw: f64, pitch: f64) -> Camera {

@@ -54,6 +54,14 @@ impl Region {
     }
 }
 
+/// Gives a row of pixels another length, and memory back that is more than twice what they need.
+pub(crate) fn resize(pixels: &mut Vec<u32>, length: usize, filled: u32) {
+    pixels.resize(length, filled);
+    if pixels.capacity() > 2 * length {
+        pixels.shrink_to_fit();
+    }
+}
+
 /// Pixels with their size, row-major from the top left, 0x00RRGGBB.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Pixels {
@@ -135,7 +143,7 @@ impl Canvas {
     pub(crate) fn lay(&mut self, traced: &Pixels, (width, height): (u32, u32)) {
         self.picture.width = width;
         self.picture.height = height;
-        self.picture.data.resize(width as usize * height as usize, BACKDROP);
+        resize(&mut self.picture.data, width as usize * height as usize, BACKDROP);
         if traced.data.is_empty() || width == 0 {
             self.picture.data.fill(BACKDROP);
         } else if (traced.width, traced.height) == (width, height) {
@@ -242,6 +250,14 @@ mod tests {
         canvas.lay(&traced(), (2, 2));
         canvas.lay(&Pixels::default(), (2, 1));
         assert_eq!(canvas.picture_mut().data, [BACKDROP; 2]);
+    }
+
+    #[test]
+    fn a_smaller_picture_gives_memory_back() {
+        let mut canvas = Canvas::default();
+        canvas.lay(&traced(), (700, 500));
+        canvas.lay(&traced(), (128, 72));
+        assert!(canvas.picture.data.capacity() <= 2 * 128 * 72);
     }
 
     #[test]

@@ -105,7 +105,8 @@ impl App {
     fn button(&mut self, screen: &mut Screen, event: &WindowEvent, state: ElementState, button: MouseButton) {
         let button = match button {
             MouseButton::Left => Button::Left,
-            MouseButton::Right | MouseButton::Middle => Button::Other,
+            MouseButton::Right => Button::Right,
+            MouseButton::Middle => Button::Middle,
             _ => return,
         };
         if state == ElementState::Released {

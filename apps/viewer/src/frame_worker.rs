@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use catoptra_tracer::Control;
 
-use crate::refine::{Pace, Pass, reduced};
+use crate::refine::{Pace, Pass, USUAL_FRAME, reduced};
 
 /// How long a first frame may take before a newer request abandons it.
 const OVERDUE: Duration = Duration::from_millis(60);
@@ -45,6 +45,11 @@ pub(crate) trait Tracing: Send + 'static {
         control: &Control,
         spares: &mut Vec<Self::Spare>,
     ) -> Option<Self::Frame>;
+
+    /// What the first frame of a request may take from the hand to the eye, in milliseconds.
+    fn frame_time(_: &Self::Job) -> f64 {
+        USUAL_FRAME
+    }
 
     /// By which passes a full frame is given more samples; none where it has all at once.
     fn passes(_: &Self::Job) -> Vec<Pass> {
@@ -146,9 +151,12 @@ impl<T: Tracing> FrameWorker<T> {
         self.shared.lock().finished.take()
     }
 
-    /// Gives a used frame back to be filled again.
+    /// Gives a used frame back to be filled again; at rest nothing is kept.
     pub(crate) fn give_back(&self, frame: T::Frame) {
-        keep(&mut self.shared.lock().spares, frame.into());
+        let mut state = self.shared.lock();
+        if state.under_way.is_some() || state.waiting.is_some() {
+            keep(&mut state.spares, frame.into());
+        }
     }
 }
 
@@ -184,7 +192,8 @@ fn work<T: Tracing>(shared: &Shared<T>, mut tracing: T, wake: &impl Fn()) {
         let job = tracing.prepare(request);
         let (width, height) = T::size(&job);
         let passes = T::passes(&job);
-        let divisors = pace.steps(width, height).into_iter().map(|divisor| (divisor, None));
+        let divisors =
+            pace.steps((width, height), T::frame_time(&job)).into_iter().map(|divisor| (divisor, None));
         let steps: Vec<_> = divisors.chain(passes.into_iter().map(|pass| (1, Some(pass)))).collect();
         for (i, &(divisor, pass)) in steps.iter().enumerate() {
             let first = i == 0;
@@ -240,7 +249,8 @@ fn begin<T: Tracing>(shared: &Shared<T>, first: bool) -> Option<(Arc<Control>, V
     Some((control, std::mem::take(&mut state.spares)))
 }
 
-/// Notes that a frame is done with, and leaves it to be taken. One that was not taken in time is used again.
+/// Notes that a frame is done with, and leaves it to be taken. One that was not taken in time is used again; after the last
+/// one, with nothing to do, the room is given back.
 fn end<T: Tracing>(shared: &Shared<T>, spares: Vec<T::Spare>, finished: Option<Finished<T::Frame>>) {
     let mut state = shared.lock();
     state.under_way = None;
@@ -251,6 +261,9 @@ fn end<T: Tracing>(shared: &Shared<T>, spares: Vec<T::Spare>, finished: Option<F
         && let Some(missed) = std::mem::replace(&mut state.finished, finished)
     {
         keep(&mut state.spares, missed.frame.into());
+    }
+    if state.waiting.is_none() && state.finished.as_ref().is_some_and(|finished| finished.is_last) {
+        state.spares = Vec::new();
     }
 }
 
@@ -396,6 +409,26 @@ mod tests {
         }
         assert_eq!(steps, [(8, 8), (4, 4), (2, 2), (1, 1), (400, 1), (800, 1)]);
         assert!(bench.begun.recv_timeout(Duration::from_millis(30)).is_err(), "nothing more is begun");
+    }
+
+    #[test]
+    fn at_rest_no_room_is_kept() {
+        let bench = Bench::new();
+        bench.worker.submit(FINE);
+        let spares = || bench.worker.shared.lock().spares.len();
+        loop {
+            bench.begun();
+            let finished = bench.finished();
+            if finished.is_last {
+                bench.worker.give_back(finished.frame);
+                break;
+            }
+        }
+        assert_eq!(spares(), 0);
+        bench.worker.submit(1);
+        bench.begun();
+        bench.worker.give_back((7, 7));
+        assert_eq!(spares(), 1, "while something is traced it is used again");
     }
 
     #[test]

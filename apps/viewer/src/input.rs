@@ -41,8 +41,10 @@ impl Mode {
 pub(crate) enum Button {
     /// The main one.
     Left,
-    /// Right or middle: both pan.
-    Other,
+    /// The one under the wheel: it moves the camera, whatever the main one does.
+    Middle,
+    /// The right one: it pans.
+    Right,
 }
 
 /// Which keys are held while a button or another key goes down.
@@ -63,6 +65,8 @@ pub(crate) enum Drag {
     Orbit,
     /// The camera's place in its own plane.
     Pan,
+    /// The camera's distance from its target.
+    Zoom,
     /// How the objects are turned.
     Turn,
     /// A spot light's cone angle, or a lamp's size.
@@ -114,7 +118,9 @@ impl Pointer {
             return;
         }
         let drag = match (button, held.shift, grip, mode) {
-            (Button::Other, ..) | (_, true, ..) => Drag::Pan,
+            (Button::Right, ..) | (_, true, ..) => Drag::Pan,
+            (Button::Middle, ..) if held.ctrl => Drag::Zoom,
+            (Button::Middle, ..) => Drag::Orbit,
             (Button::Left, false, Some(grip), _) => Drag::Handle(grip),
             (Button::Left, false, None, Mode::Orbit) => Drag::Orbit,
             (Button::Left, false, None, Mode::Turntable) => Drag::Turn,
@@ -212,21 +218,30 @@ mod tests {
     #[test]
     fn shift_and_the_right_button_pan() {
         for mut pointer in
-            [pressed(Button::Left, SHIFT, Mode::Orbit), pressed(Button::Other, NONE, Mode::Turntable)]
+            [pressed(Button::Left, SHIFT, Mode::Orbit), pressed(Button::Right, NONE, Mode::Turntable)]
         {
             assert!(matches!(pointer.moved((50.0, 10.0)), Gesture::Dragged { drag: Drag::Pan, .. }));
         }
     }
 
     #[test]
+    fn the_middle_button_orbits_pans_with_shift_and_zooms_with_ctrl() {
+        for (held, drag) in [(NONE, Drag::Orbit), (SHIFT, Drag::Pan), (CTRL, Drag::Zoom)] {
+            let moved = pressed(Button::Middle, held, Mode::Turntable).moved((50.0, 10.0));
+            assert!(matches!(moved, Gesture::Dragged { drag: found, .. } if found == drag), "{moved:?}");
+        }
+        assert_eq!(pressed(Button::Middle, NONE, Mode::Orbit).release(Button::Middle), Gesture::None);
+    }
+
+    #[test]
     fn a_right_click_selects_nothing() {
-        assert_eq!(pressed(Button::Other, NONE, Mode::Orbit).release(Button::Other), Gesture::None);
+        assert_eq!(pressed(Button::Right, NONE, Mode::Orbit).release(Button::Right), Gesture::None);
     }
 
     #[test]
     fn letting_go_of_another_button_ends_nothing() {
         let mut pointer = pressed(Button::Left, NONE, Mode::Orbit);
-        assert_eq!(pointer.release(Button::Other), Gesture::None);
+        assert_eq!(pointer.release(Button::Right), Gesture::None);
         assert!(pointer.is_pressed());
     }
 

@@ -3,6 +3,7 @@
 use winit::keyboard::{Key, NamedKey};
 
 use crate::input::Held;
+use crate::views::Side;
 
 /// What a key asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +20,10 @@ pub(crate) enum Command {
     ResetCamera,
     /// Look through the scene's next camera.
     NextCamera,
+    /// Look at the same target from a side.
+    Look(Side),
+    /// Look with parallel rays, or with perspective again.
+    OtherProjection,
     /// Move the camera in its own plane: steps to the right and up.
     Step(i8, i8),
     /// Change between orbiting the camera and turning the objects.
@@ -127,10 +132,17 @@ const fn letter(
 pub(crate) const BINDINGS: &[Binding] = &[
     named(NamedKey::F1, "F1", Command::Help, "show or hide this list"),
     named(NamedKey::Tab, "Tab", Command::Panel, "show or hide the panel"),
-    named(NamedKey::Home, "Home", Command::FrameAll, "see everything"),
-    letter(NONE, "f", "F", Command::FrameSelected, "see the selected thing"),
+    named(NamedKey::Home, "Home", Command::FrameAll, "see everything, lights too"),
+    letter(NONE, "f", "F", Command::FrameSelected, "see what is selected"),
     letter(NONE, "r", "R", Command::ResetCamera, "back to the scene's camera"),
     letter(NONE, "c", "C", Command::NextCamera, "look through the next camera"),
+    letter(NONE, "1", "1", Command::Look(Side::Front), "look from the front (numpad too)"),
+    letter(NONE, "3", "3", Command::Look(Side::Right), "look from the right"),
+    letter(NONE, "7", "7", Command::Look(Side::Top), "look from above"),
+    letter(CTRL, "1", "Ctrl+1", Command::Look(Side::Back), "look from the back"),
+    letter(CTRL, "3", "Ctrl+3", Command::Look(Side::Left), "look from the left"),
+    letter(CTRL, "7", "Ctrl+7", Command::Look(Side::Bottom), "look from below, through the floor"),
+    letter(NONE, "5", "5", Command::OtherProjection, "without perspective, or with it"),
     named(NamedKey::ArrowLeft, "Left", Command::Step(-1, 0), "move the camera left"),
     named(NamedKey::ArrowRight, "Right", Command::Step(1, 0), "move the camera right"),
     named(NamedKey::ArrowUp, "Up", Command::Step(0, 1), "move the camera up"),
@@ -169,6 +181,7 @@ pub(crate) const OTHERS: &[(&str, &str)] = &[
     ("Click", "select what is under the pointer"),
     ("Shift or Ctrl click", "select one more, or one less; Shift in the tree: all up to there"),
     ("Left drag", "orbit the camera; turntable: turn the objects"),
+    ("Middle drag", "orbit the camera; with Shift pan, with Ctrl zoom"),
     ("Right or Shift drag", "pan"),
     ("Left drag on a ring", "change a spot light's cone angle"),
     ("Left drag on a rim", "change the size of the selected lamp: sides, corners too"),

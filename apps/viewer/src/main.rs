@@ -13,7 +13,9 @@ mod dropped;
 mod egui_paint;
 mod events;
 mod frame_worker;
+mod framing;
 mod guard;
+mod icon;
 mod input;
 mod keys;
 mod latest;
@@ -37,6 +39,7 @@ mod selection;
 mod status;
 mod tracing;
 mod viewer;
+mod views;
 mod watch;
 
 use std::io::Write as _;

@@ -5,8 +5,11 @@
 use std::ops::Range;
 use std::time::Duration;
 
-/// What tracing one frame may take while something moves, in seconds: a 60 Hz frame less the time to show it.
-pub(crate) const BUDGET: f64 = 0.0115;
+/// What one frame may take while something moves, in milliseconds, unless a person says otherwise: one of 60 a second.
+pub(crate) const USUAL_FRAME: f64 = 16.0;
+
+/// The share of a frame's time that is for tracing; the rest is for showing it.
+const TRACED_SHARE: f64 = 0.72;
 
 /// The divisors that a first frame may have: each pixel of the film stands for a square of that many pixels.
 const DIVISORS: [u32; 9] = [1, 2, 3, 4, 6, 8, 12, 16, 24];
@@ -46,9 +49,10 @@ impl Pace {
         self.seconds_per_pixel = self.seconds_per_pixel.map(|s| 2.0 * s);
     }
 
-    /// The divisors for a picture of `width` x `height`, coarsest first, always ending in 1.
-    pub(crate) fn steps(&mut self, width: u32, height: u32) -> Vec<u32> {
-        let mut divisor = self.first(width, height);
+    /// The divisors for a picture of `width` x `height` of which the first is to take `frame` milliseconds, coarsest first,
+    /// always ending in 1.
+    pub(crate) fn steps(&mut self, (width, height): (u32, u32), frame: f64) -> Vec<u32> {
+        let mut divisor = self.first(width, height, 1e-3 * TRACED_SHARE * frame);
         self.last_first = divisor;
         let mut steps = vec![divisor];
         while divisor > 1 {
@@ -58,10 +62,10 @@ impl Pace {
         steps
     }
 
-    fn first(&self, width: u32, height: u32) -> u32 {
+    fn first(&self, width: u32, height: u32, budget: f64) -> u32 {
         let Some(cost) = self.seconds_per_pixel else { return UNMEASURED };
         let fits = |d: &&u32| {
-            let budget = if **d < self.last_first { FINER * BUDGET } else { BUDGET };
+            let budget = if **d < self.last_first { FINER * budget } else { budget };
             pixels(reduced(width, height, **d)) as f64 * cost <= budget
         };
         DIVISORS.iter().find(fits).copied().unwrap_or(DIVISORS[DIVISORS.len() - 1])
@@ -114,48 +118,56 @@ mod tests {
     fn a_fast_scene_is_traced_in_full_at_once() {
         let mut pace = Pace::default();
         pace.record(1_000_000, Duration::from_secs_f64(0.005));
-        assert_eq!(pace.steps(1280, 720), [1]);
+        assert_eq!(pace.steps((1280, 720), USUAL_FRAME), [1]);
     }
 
     #[test]
     fn a_slow_scene_starts_coarse_and_ends_in_full() {
         let mut pace = Pace::default();
         pace.record(1280 * 720, Duration::from_secs_f64(0.4));
-        assert_eq!(pace.steps(1280, 720), [6, 3, 1]);
+        assert_eq!(pace.steps((1280, 720), USUAL_FRAME), [6, 3, 1]);
     }
 
     #[test]
     fn the_first_frame_is_coarse_until_something_is_measured() {
-        assert_eq!(Pace::default().steps(1280, 720), [8, 4, 2, 1]);
+        assert_eq!(Pace::default().steps((1280, 720), USUAL_FRAME), [8, 4, 2, 1]);
     }
 
     #[test]
     fn the_coarsest_step_is_taken_when_nothing_fits() {
         let mut pace = Pace::default();
         pace.record(10_000, Duration::from_secs_f64(100.0));
-        assert_eq!(pace.steps(1280, 720)[0], 24);
+        assert_eq!(pace.steps((1280, 720), USUAL_FRAME)[0], 24);
     }
 
     #[test]
     fn an_overrun_makes_the_next_frame_coarser() {
         let mut pace = Pace::default();
         pace.record(1_000_000, Duration::from_secs_f64(0.012));
-        let before = pace.steps(1000, 1000)[0];
+        let before = pace.steps((1000, 1000), USUAL_FRAME)[0];
         for _ in 0..3 {
             pace.overran();
         }
-        assert!(pace.steps(1000, 1000)[0] > before);
+        assert!(pace.steps((1000, 1000), USUAL_FRAME)[0] > before);
     }
 
     #[test]
     fn a_first_frame_becomes_finer_only_with_time_to_spare() {
         let mut pace = Pace::default();
         pace.record(1_000_000, Duration::from_secs_f64(0.013));
-        assert_eq!(pace.steps(1000, 1000)[0], 2);
+        assert_eq!(pace.steps((1000, 1000), USUAL_FRAME)[0], 2);
         pace.seconds_per_pixel = Some(0.011e-6);
-        assert_eq!(pace.steps(1000, 1000)[0], 2);
+        assert_eq!(pace.steps((1000, 1000), USUAL_FRAME)[0], 2);
         pace.seconds_per_pixel = Some(0.008e-6);
-        assert_eq!(pace.steps(1000, 1000)[0], 1);
+        assert_eq!(pace.steps((1000, 1000), USUAL_FRAME)[0], 1);
+    }
+
+    #[test]
+    fn a_longer_frame_is_finer() {
+        let mut pace = Pace::default();
+        pace.record(1280 * 720, Duration::from_secs_f64(0.4));
+        let firsts = [100.0, 33.0, 16.0, 5.0].map(|frame| pace.steps((1280, 720), frame)[0]);
+        assert_eq!(firsts, [3, 6, 6, 12]);
     }
 
     #[test]
@@ -173,7 +185,7 @@ mod tests {
     fn a_handful_of_pixels_tells_nothing() {
         let mut pace = Pace::default();
         pace.record(10, Duration::from_secs_f64(1.0));
-        assert_eq!(pace.steps(100, 100)[0], UNMEASURED);
+        assert_eq!(pace.steps((100, 100), USUAL_FRAME)[0], UNMEASURED);
     }
 
     #[test]

@@ -8,14 +8,30 @@ use egui::{Context, FullOutput, ViewportId};
 use softbuffer::{Rect, Surface};
 use winit::dpi::{LogicalSize, PhysicalSize};
 use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
-use winit::window::Window;
+use winit::window::{Window, WindowAttributes};
 
 use crate::canvas::{Canvas, Region};
 use crate::egui_paint::EguiLayer;
+use crate::icon;
 use crate::panel;
 
 /// A wish of egui to be shown again later than this is no wish.
 const NEVER: Duration = Duration::from_secs(3600);
+
+/// By what a desktop knows whose window it is: `StartupWMClass` of `catoptra.desktop`.
+pub(crate) const CLASS: &str = "catoptra";
+
+#[cfg(target_os = "linux")]
+fn named(attributes: WindowAttributes) -> WindowAttributes {
+    use winit::platform::x11::WindowAttributesExtX11 as _;
+    attributes.with_name(CLASS, CLASS)
+}
+
+/// Elsewhere a window is known by its program.
+#[cfg(not(target_os = "linux"))]
+fn named(attributes: WindowAttributes) -> WindowAttributes {
+    attributes
+}
 
 /// A surface that has the size of the window.
 pub(crate) struct Fitted {
@@ -45,8 +61,9 @@ impl Screen {
     /// # Errors
     /// Why there is none, for people.
     pub(crate) fn open(event_loop: &ActiveEventLoop, (width, height): (u32, u32)) -> Result<Self, String> {
-        let attributes = Window::default_attributes()
+        let attributes = named(Window::default_attributes())
             .with_title("catoptra")
+            .with_window_icon(icon::icon())
             .with_inner_size(LogicalSize::new(width, height))
             .with_min_inner_size(PhysicalSize::new(1, 1));
         let window = Rc::new(event_loop.create_window(attributes).map_err(|e| e.to_string())?);

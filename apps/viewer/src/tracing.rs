@@ -5,7 +5,7 @@ use std::sync::Arc;
 use catoptra_core::Camera;
 use catoptra_tracer::{Backend, Control, Extraction, Film, Pool, Size, Snapshot, Tone, View, render};
 
-use crate::canvas::Pixels;
+use crate::canvas::{Pixels, resize};
 use crate::frame_worker::Tracing;
 use crate::latest::Latest;
 use crate::refine::{Pass, reduced};
@@ -21,6 +21,8 @@ pub(crate) struct Request {
     pub(crate) backend: &'static dyn Backend,
     /// From where, how large when traced in full, and what is shown.
     pub(crate) view: View,
+    /// What a frame may take while something moves, in milliseconds.
+    pub(crate) frame_time: f64,
     /// Samples a pixel that the full picture is to have in the end.
     pub(crate) at_rest: u32,
     /// How radiance becomes colour.
@@ -55,7 +57,7 @@ impl Frame {
         let Size { width, height } = self.film.size();
         self.pixels.width = width;
         self.pixels.height = height;
-        self.pixels.data.resize(width as usize * height as usize, 0);
+        resize(&mut self.pixels.data, width as usize * height as usize, 0);
         tone.encode(&self.film, pool, &mut self.pixels.data);
         self.tone = tone;
     }
@@ -151,6 +153,10 @@ impl Tracing for PoolTracing {
             return None;
         };
         Some(self.encoded(request, film, pixels, stats.rays.total()))
+    }
+
+    fn frame_time(Job { request, .. }: &Job) -> f64 {
+        request.frame_time
     }
 
     fn passes(Job { request, .. }: &Job) -> Vec<Pass> {

@@ -20,6 +20,7 @@ use crate::loader::Opened;
 use crate::making::add::Adding;
 use crate::naming::Named;
 use crate::preview::Preview;
+use crate::refine::USUAL_FRAME;
 use crate::selection::{Picking, Selection};
 use crate::tracing::Request;
 
@@ -65,6 +66,8 @@ pub(crate) struct ViewSettings {
     pub(crate) display: Display,
     /// Which overlays are drawn.
     pub(crate) style: OverlayStyle,
+    /// What a frame may take while something moves, in milliseconds.
+    pub(crate) frame_time: f64,
 }
 
 /// What the window is to do that the viewer cannot do by itself.
@@ -157,6 +160,7 @@ impl Viewer {
                 backend: backends()[0],
                 display: Display::Srgb,
                 style,
+                frame_time: USUAL_FRAME,
             },
             selection: Selection::default(),
             texture: None,
@@ -289,6 +293,7 @@ impl Viewer {
             latest: Arc::clone(&self.latest),
             backend: self.settings.backend,
             view: self.view().with_samples(samples),
+            frame_time: self.settings.frame_time,
             at_rest,
             tone: self.tone(),
         }

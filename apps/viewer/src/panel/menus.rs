@@ -7,6 +7,7 @@ use egui::{Button, Ui};
 use crate::guard::Next;
 use crate::keys::{self, Command};
 use crate::viewer::Viewer;
+use crate::views::Side;
 use crate::{actions, recent, recovery};
 
 /// What is done with files.
@@ -38,6 +39,21 @@ const SELECTED: &[Command] = &[
     Command::Delete,
 ];
 
+/// From where it is seen.
+const VIEW: &[Command] = &[
+    Command::FrameAll,
+    Command::FrameSelected,
+    Command::ResetCamera,
+    Command::NextCamera,
+    Command::Look(Side::Front),
+    Command::Look(Side::Right),
+    Command::Look(Side::Top),
+    Command::Look(Side::Back),
+    Command::Look(Side::Left),
+    Command::Look(Side::Bottom),
+    Command::OtherProjection,
+];
+
 /// The bar of menus.
 pub(super) fn bar(ui: &mut Ui, viewer: &mut Viewer) {
     ui.horizontal(|ui| {
@@ -51,6 +67,7 @@ pub(super) fn bar(ui: &mut Ui, viewer: &mut Viewer) {
             ui.separator();
             commands(ui, viewer, SELECTED);
         });
+        ui.menu_button("Look", |ui| commands(ui, viewer, VIEW));
         if ui.button("Add…").on_hover_text("Add something (Shift+A).").clicked() {
             viewer.adding = Some(crate::making::add::Adding::default());
         }

@@ -3,7 +3,7 @@
 use catoptra_core::InvalidPart;
 use catoptra_core::scene::{Edit, Integrator, Settings};
 use catoptra_tracer::{Display, backends};
-use egui::{ComboBox, Ui};
+use egui::{ComboBox, Slider, Ui};
 
 use super::fields::{self, Offers, step_key};
 use crate::input::Mode;
@@ -19,6 +19,9 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
             ui.end_row();
             ui.label("backend");
             backend(ui, viewer);
+            ui.end_row();
+            ui.label("frame time");
+            frame_time(ui, viewer);
             ui.end_row();
         });
         overlays(ui, viewer);
@@ -54,6 +57,15 @@ fn backend(ui: &mut Ui, viewer: &mut Viewer) {
             }
         }
     });
+}
+
+/// Milliseconds that a frame may take while something moves.
+const FRAME_TIMES: std::ops::RangeInclusive<f64> = 8.0..=100.0;
+
+fn frame_time(ui: &mut Ui, viewer: &mut Viewer) {
+    let told = "What a frame may take while something moves: more is sharper, less is smoother.";
+    let slider = Slider::new(&mut viewer.settings.frame_time, FRAME_TIMES).suffix(" ms").fixed_decimals(0);
+    ui.add(slider).on_hover_text(told);
 }
 
 fn overlays(ui: &mut Ui, viewer: &mut Viewer) {

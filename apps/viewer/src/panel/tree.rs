@@ -1,8 +1,11 @@
 //! What is in the scene? A tree of groups, shapes, lights and cameras; a click selects, with Shift all up to there, with Ctrl
-//! one more.
+//! one more. A field above it leaves those that are searched; what is picked elsewhere comes in sight.
+
+use std::collections::HashSet;
+use std::ops::Range;
 
 use catoptra_core::scene::{EntityId, Flags, Role, Scene};
-use egui::{Id, ScrollArea, Sense, Ui};
+use egui::{Id, ScrollArea, Sense, TextEdit, Ui};
 
 use super::{menus, theme};
 use crate::making;
@@ -21,15 +24,66 @@ struct Row {
 
 /// Shows the tree in that height, in points; only rows in sight are laid out.
 pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer, height: f32) {
+    ui.scope(|ui| {
+        ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
+        show_rows(ui, viewer, height);
+    });
+}
+
+fn show_rows(ui: &mut Ui, viewer: &mut Viewer, height: f32) {
+    let search = search_field(ui);
+    let picked = newly_picked(ui, viewer);
     let mut rows = Vec::new();
     collect(ui, viewer.document.scene(), None, 0, &mut rows);
+    if !search.trim().is_empty() {
+        rows = found(viewer.document.scene(), &search);
+    }
     let row_height = ui.spacing().interact_size.y;
-    let area = ScrollArea::vertical().id_salt("tree").auto_shrink([false, false]).max_height(height);
+    let step = row_height + ui.spacing().item_spacing.y;
+    let mut area = ScrollArea::vertical().id_salt("tree").auto_shrink([false, false]).max_height(height);
+    let seen_id = Id::new("rows in sight");
+    let seen: Range<usize> = ui.data(|data| data.get_temp(seen_id)).unwrap_or_default();
+    let picked = picked.and_then(|id| rows.iter().position(|row| row.id == id));
+    if let Some(offset) = picked.and_then(|row| scrolled_to(row, &seen)) {
+        area = area.vertical_scroll_offset(offset as f32 * step);
+    }
     area.show_rows(ui, row_height, rows.len(), |ui, seen| {
+        ui.data_mut(|data| data.insert_temp(seen_id, seen.clone()));
         for row in &rows[seen] {
             show_row(ui, viewer, &rows, row);
         }
     });
+}
+
+/// The field for the words of a name or a kind; what stands in it.
+fn search_field(ui: &mut Ui) -> String {
+    let id = Id::new("search of the tree");
+    let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_default();
+    let field =
+        TextEdit::singleline(&mut text).hint_text("filter by name or kind").desired_width(f32::INFINITY);
+    if ui.add(field).changed() {
+        ui.data_mut(|data| data.insert_temp(id, text.clone()));
+    }
+    text
+}
+
+/// The active thing, where it is another than the last time; the groups that it lies in are opened.
+fn newly_picked(ui: &Ui, viewer: &Viewer) -> Option<EntityId> {
+    let (id, active) = (Id::new("picked"), viewer.selection.active());
+    let before: Option<EntityId> = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    ui.data_mut(|data| data.insert_temp(id, active));
+    let picked = active.filter(|_| before != active)?;
+    for group in viewer.document.scene().ancestors(picked) {
+        ui.data_mut(|data| data.insert_temp(open_id(group), true));
+    }
+    Some(picked)
+}
+
+/// The first row to be shown, so that a row stands in the middle of as many as are in sight; `None` where it is in sight.
+fn scrolled_to(row: usize, seen: &Range<usize>) -> Option<usize> {
+    // The last row may be cut off.
+    let whole = seen.start..seen.end.saturating_sub(1);
+    (!whole.contains(&row)).then(|| row.saturating_sub(whole.len() / 2))
 }
 
 fn collect(ui: &Ui, scene: &Scene, group: Option<EntityId>, level: usize, rows: &mut Vec<Row>) {
@@ -41,6 +95,22 @@ fn collect(ui: &Ui, scene: &Scene, group: Option<EntityId>, level: usize, rows: 
             collect(ui, scene, Some(id), level + 1, rows);
         }
     }
+}
+
+/// Everything whose name and kind hold all the words that are searched, with the groups that it lies in, all open.
+fn found(scene: &Scene, search: &str) -> Vec<Row> {
+    let search = search.to_lowercase();
+    let fits = |id: EntityId| {
+        let line = format!("{} {}", scene.name(id).unwrap_or_default(), kind_name(scene, id)).to_lowercase();
+        search.split_whitespace().all(|word| line.contains(word))
+    };
+    let all = scene.walk();
+    let mut shown: HashSet<EntityId> = all.iter().copied().filter(|id| fits(*id)).collect();
+    shown.extend(shown.clone().into_iter().flat_map(|id| scene.ancestors(id)));
+    let row = |id: EntityId| {
+        Some(Row { id, level: scene.ancestors(id).count(), role: scene.role(id)?, open: true })
+    };
+    all.into_iter().filter(|id| shown.contains(id)).filter_map(row).collect()
 }
 
 fn open_id(id: EntityId) -> Id {
@@ -143,4 +213,34 @@ pub(super) fn kind_name(scene: &Scene, id: EntityId) -> &'static str {
     let light = || scene.light(id).map(|light| light.kind_name());
     let other = || if scene.role(id) == Some(Role::Camera) { "camera" } else { "group" };
     shape().or_else(light).unwrap_or_else(other)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_out_of_sight_comes_into_the_middle() {
+        assert_eq!(scrolled_to(3, &(2..8)), None);
+        assert_eq!(scrolled_to(40, &(2..13)), Some(35));
+        assert_eq!(scrolled_to(7, &(2..8)), Some(5), "the last one may be cut off");
+        assert_eq!(scrolled_to(1, &(20..31)), Some(0));
+    }
+
+    #[test]
+    fn a_search_leaves_what_fits_and_the_groups_round_it() {
+        let text = "matte \"m\" { color 0.5 }\nsphere \"plum ball\" material=\"m\" { radius 1 }\n\
+            group \"table\" { sphere \"Apple\" material=\"m\" { radius 1 } }\n\
+            point-light \"bulb\" { position 0 1 0; intensity 1 }\n";
+        let (scene, _) = catoptra_scene::parse(text, "text", None).unwrap();
+        let names = |search: &str| -> Vec<(String, usize)> {
+            let rows = found(&scene, search);
+            rows.iter().map(|row| (scene.name(row.id).unwrap_or_default().to_owned(), row.level)).collect()
+        };
+        let row = |name: &str, level| (name.to_owned(), level);
+        assert_eq!(names("apple"), [row("table", 0), row("Apple", 1)]);
+        assert_eq!(names("LIGHT"), [row("bulb", 0)]);
+        assert_eq!(names("sphere ball"), [row("plum ball", 0)]);
+        assert!(names("nothing").is_empty());
+    }
 }
