@@ -120,9 +120,8 @@ impl Pointer {
         let drag = match (button, held.shift, grip, mode) {
             (Button::Right, ..) | (_, true, ..) => Drag::Pan,
             (Button::Middle, ..) if held.ctrl => Drag::Zoom,
-            (Button::Middle, ..) => Drag::Orbit,
             (Button::Left, false, Some(grip), _) => Drag::Handle(grip),
-            (Button::Left, false, None, Mode::Orbit) => Drag::Orbit,
+            (Button::Middle, ..) | (Button::Left, false, None, Mode::Orbit) => Drag::Orbit,
             (Button::Left, false, None, Mode::Turntable) => Drag::Turn,
         };
         let picking = if held.shift || held.ctrl { Picking::Toggle } else { Picking::Only };

@@ -6,6 +6,7 @@ mod desktop;
 mod files;
 mod guards;
 mod making;
+mod manners;
 mod picture;
 mod programs;
 mod selecting;
