@@ -63,6 +63,7 @@ impl Overlays {
 
 #[cfg(test)]
 mod tests {
+    use catoptra_core::scene::{Edit, Role};
     use catoptra_tracer::Pool;
 
     use super::*;
@@ -91,12 +92,12 @@ mod tests {
         assert!(with_grid != first, "another style is another look");
         viewer.look(crate::camera_control::orbit(&viewer.camera, 0.3, 0.0));
         assert!(laid(&viewer, 2) != with_grid, "from elsewhere it looks otherwise");
-        let floor = viewer.document.scene().entity_named("floor");
-        let light = viewer.document.scene().entities_of(catoptra_core::scene::Role::Light).next();
-        viewer.select(light.or(floor));
+        let scene = viewer.document.scene();
+        let stands = |id: &EntityId| scene.light(*id).is_some_and(|light| light.position().is_some());
+        let light = scene.entities_of(Role::Light).find(stands).unwrap();
+        viewer.select(Some(light));
         let with_light = laid(&viewer, 2);
-        let light = light.unwrap();
-        viewer.edit(catoptra_core::scene::Edit::Remove(light));
+        viewer.edit(Edit::Remove(light));
         assert!(laid(&viewer, 2) != with_light, "what is gone is not seen");
     }
 }

@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn the_list_lies_within_windows_of_any_size() {
-        for size in [(1280.0, 720.0), (500.0, 350.0), (250.0, 175.0), (120.0, 120.0)] {
+        for size in [(1280.0, 720.0), (500.0, 350.0), (250.0, 175.0), (210.0, 150.0)] {
             let mut viewer = Viewer::new(loader::welcome(&Pool::new(1).unwrap()).unwrap());
             viewer.shown.help = true;
             let context = egui::Context::default();
