@@ -94,6 +94,10 @@ fn tile_edge(size: Size) -> u32 {
 /// The passes in which samples are added to a full picture.
 const PASSES: u32 = 16;
 
+/// Pixels of the largest picture that samples are added to, a little more than of a display of 4K: a film beside the shown
+/// one is kept for that, of 20 bytes a pixel.
+const LARGEST: usize = 10_000_000;
+
 /// Samples of the smallest pass: so many lie evenly in a pixel.
 const LEAST_PASS: u32 = 4;
 
@@ -160,7 +164,7 @@ impl Tracing for PoolTracing {
     }
 
     fn passes(Job { request, .. }: &Job) -> Vec<Pass> {
-        let of = request.at_rest;
+        let of = if request.view.size.pixels() <= LARGEST { request.at_rest } else { 0 };
         Pass::all(of, of.div_ceil(PASSES).max(LEAST_PASS))
     }
 
@@ -220,6 +224,16 @@ mod tests {
         render(job.request.backend, &job.snapshot, &view, &mut film, &tracing.pool, &control).unwrap();
         assert_eq!(last.unwrap().film.radiances(), film.radiances());
         assert!(tracing.growing.is_none(), "nothing is kept at rest");
+    }
+
+    #[test]
+    fn a_picture_larger_than_any_display_is_not_refined() {
+        let (mut viewer, mut tracing) = viewer_and_tracing();
+        for (size, refined) in [((3840, 2160), true), ((7000, 5000), false)] {
+            viewer.size = size;
+            let job = tracing.prepare(viewer.request());
+            assert_eq!(!PoolTracing::passes(&job).is_empty(), refined, "{size:?}");
+        }
     }
 
     #[test]

@@ -35,6 +35,7 @@ pub(super) fn show(ui: &Ui, viewer: &mut Viewer, whole: Rect) {
             let search = search(ui);
             ScrollArea::vertical()
                 .max_height(height)
+                .min_scrolled_height(height)
                 .auto_shrink([false, true])
                 .show(ui, |ui| list(ui, &search));
         });
