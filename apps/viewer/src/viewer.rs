@@ -139,7 +139,7 @@ impl Viewer {
             cones: false,
             selection: true,
             cameras: false,
-            scale: 1.0,
+            ..OverlayStyle::NONE
         };
         let seen = opened.document.scene().revision();
         let mut viewer = Self {
