@@ -8,6 +8,7 @@ use catoptra_tracer::{Backend, Control, Extraction, Film, Pool, Size, Snapshot, 
 use crate::canvas::Pixels;
 use crate::frame_worker::Tracing;
 use crate::latest::Latest;
+use crate::pass::{Numbers, OwnShapes, Pass, Seen};
 use crate::refine::reduced;
 
 /// All that a picture depends on.
@@ -23,6 +24,10 @@ pub(crate) struct Request {
     pub(crate) view: View,
     /// How radiance becomes colour.
     pub(crate) tone: Tone,
+    /// What is shown of the scene.
+    pub(crate) pass: &'static Pass,
+    /// The shapes of the scene before they are placed, if the pass asks for them.
+    pub(crate) own: OwnShapes,
 }
 
 /// A request with its scene frozen.
@@ -45,17 +50,46 @@ pub(crate) struct Frame {
     pub(crate) tone: Tone,
     /// How many rays it took.
     pub(crate) rays: u64,
+    /// What it shows of the scene.
+    pub(crate) pass: &'static Pass,
+    /// The numbers behind its colours, where they are false ones.
+    pub(crate) numbers: Option<Numbers>,
 }
 
 impl Frame {
-    /// Encodes the film anew.
+    /// Encodes the film anew; a pass with colours of its own keeps them.
     pub(crate) fn encode(&mut self, tone: Tone, pool: &Pool) {
+        self.tone = tone;
+        if self.pass.paint.is_some() {
+            return;
+        }
         let Size { width, height } = self.film.size();
         self.pixels.width = width;
         self.pixels.height = height;
         self.pixels.data.resize(width as usize * height as usize, 0);
         tone.encode(&self.film, pool, &mut self.pixels.data);
-        self.tone = tone;
+    }
+
+    /// Shows what the pass makes of the film; `false` when that was cancelled.
+    fn paint(
+        &mut self,
+        Job { request, snapshot }: &Job,
+        view: &View,
+        pool: &Pool,
+        control: &Control,
+    ) -> bool {
+        let Some(paint) = self.pass.paint else {
+            self.encode(request.tone, pool);
+            return true;
+        };
+        let (film, backend, own) = (&self.film, request.backend, &request.own);
+        let Some(painted) = paint(&Seen { film, snapshot, view, backend, own, pool, control }) else {
+            return false;
+        };
+        let Size { width, height } = self.film.size();
+        self.pixels = Pixels { width, height, data: painted.colors };
+        self.numbers = painted.numbers;
+        true
     }
 }
 
@@ -110,11 +144,12 @@ impl Tracing for PoolTracing {
 
     fn trace(
         &mut self,
-        Job { request, snapshot }: &Job,
+        job: &Job,
         divisor: u32,
         control: &Control,
         spares: &mut Vec<Spare>,
     ) -> Option<Frame> {
+        let Job { request, snapshot } = job;
         let full = (request.view.size.width, request.view.size.height);
         let (width, height) = reduced(full.0, full.1, divisor);
         let size = Size { width, height };
@@ -126,9 +161,13 @@ impl Tracing for PoolTracing {
             return None;
         };
         let rays = stats.rays.total();
-        let mut frame = Frame { film, pixels, camera: view.camera, size: full, tone: request.tone, rays };
-        frame.encode(request.tone, &self.pool);
-        Some(frame)
+        let (camera, tone, pass) = (view.camera.clone(), request.tone, request.pass);
+        let mut frame = Frame { film, pixels, camera, size: full, tone, rays, pass, numbers: None };
+        if frame.paint(job, &view, &self.pool, control) {
+            return Some(frame);
+        }
+        spares.push(frame.into());
+        None
     }
 }
 

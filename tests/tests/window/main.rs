@@ -6,8 +6,10 @@ mod desktop;
 mod files;
 mod guards;
 mod making;
+mod moving;
 mod picture;
 mod programs;
+mod seeing;
 mod selecting;
 mod stage;
 
