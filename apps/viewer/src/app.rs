@@ -13,6 +13,7 @@ use winit::keyboard::ModifiersState;
 use winit::window::WindowId;
 
 use crate::ball::BallTracing;
+use crate::comparison;
 use crate::dropped;
 use crate::frame_worker::{Finished, FrameWorker};
 use crate::guard::Next;
@@ -36,6 +37,8 @@ pub(crate) enum Wake {
     Picture(dropped::picture::Outcome),
     /// A model that was dropped was read.
     Model(dropped::model::Outcome),
+    /// A picture to compare with was read.
+    Comparison(comparison::Outcome),
     /// A picture of a material was finished.
     Ball,
     /// Files of the scene were changed.
@@ -197,6 +200,11 @@ impl ApplicationHandler<Wake> for App {
             Wake::Opened(outcome) => self.opened(outcome),
             Wake::Picture(outcome) => dropped::picture::put(&mut self.viewer, outcome),
             Wake::Model(outcome) => dropped::model::put(&mut self.viewer, outcome),
+            Wake::Comparison(outcome) => {
+                let told = self.viewer.comparison.put(outcome, self.viewer.tone());
+                self.viewer.notify(told);
+                self.viewer.stale.overlay = true;
+            }
             Wake::Ball => self.take_ball(),
             Wake::Changed(files) => self.files_changed(&files),
             Wake::Ended => {
@@ -237,6 +245,13 @@ impl ApplicationHandler<Wake> for App {
             self.balls.submit(sample);
         }
         self.write_picture_if_wanted();
+        if let Some(file) = self.viewer.comparison.take_wanted() {
+            let proxy = self.proxy.clone();
+            comparison::read(file, move |outcome| {
+                // The loop may have ended; then no one waits for the picture.
+                let _ = proxy.send_event(Wake::Comparison(outcome));
+            });
+        }
         if self.viewer.stale.overlay || self.viewer.stale.panel {
             self.request_redraw();
         }

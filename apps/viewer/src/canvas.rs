@@ -98,6 +98,14 @@ impl Fit {
         (across + 0.5 * f64::from(self.picture.0), f64::from(y) * self.scale())
     }
 
+    /// The film's pixel under a point of the picture, if there is one.
+    pub(crate) fn pixel(self, (x, y): (f64, f64)) -> Option<(u32, u32)> {
+        let across = (x - 0.5 * f64::from(self.picture.0)) / self.scale() + 0.5 * f64::from(self.film.0);
+        let down = y / self.scale();
+        let within = |at: f64, count: u32| (at >= 0.0 && at < f64::from(count)).then_some(at as u32);
+        Some((within(across, self.film.0)?, within(down, self.film.1)?))
+    }
+
     /// For the middle of each column of the picture the film's column before it and the share of the next, of 256.
     fn columns(self) -> Vec<Tap> {
         let (film, picture) = (f64::from(self.film.0), f64::from(self.picture.0));
@@ -242,6 +250,9 @@ mod tests {
         assert_eq!(fit.corner(0, 0).1, 0.0);
         assert!((fit.corner(0, 88).1 - 701.0).abs() < 1e-9);
         assert!((fit.corner(50, 0).0 + fit.corner(51, 0).0 - 805.0).abs() < 1e-9);
+        let (x, y) = fit.corner(17, 40);
+        assert_eq!(fit.pixel((x + 1.0, y + 1.0)), Some((17, 40)));
+        assert_eq!([fit.pixel((4.0, 701.5)), fit.pixel((-9.0, 4.0))], [None; 2]);
     }
 
     #[test]

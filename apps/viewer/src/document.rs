@@ -167,6 +167,12 @@ impl Document {
         self.path.is_some()
     }
 
+    /// The scene as it was before the last step; `None` before the first.
+    pub(crate) fn before_last_edit(&self) -> Option<Scene> {
+        let (mut scene, mut history) = (self.scene.clone(), self.history.clone());
+        history.undo(&mut scene).then_some(scene)
+    }
+
     /// Where the scene is written: to where it is kept, or under a new name in the folder of its model or the current one.
     pub(crate) fn place(&self) -> PathBuf {
         let folder = self.model.as_deref().and_then(Path::parent).unwrap_or(Path::new(""));

@@ -8,10 +8,13 @@ use winit::window::CursorIcon;
 use crate::actions;
 use crate::app::App;
 use crate::dropped;
+use crate::gestures;
 use crate::guard::{Answer, Next};
 use crate::input::{Button, Held, Mode};
 use crate::keys::{self, Command};
 use crate::screen::Screen;
+use crate::seeing::See;
+use crate::transform::{self, Ends};
 
 /// Pixels of a touchpad that make one notch of a wheel.
 const PIXELS_PER_NOTCH: f64 = 50.0;
@@ -42,6 +45,10 @@ impl App {
             WindowEvent::DroppedFile(path) => self.viewer.leave(Next::Open(path.clone())),
             WindowEvent::ModifiersChanged(modifiers) => {
                 self.modifiers = modifiers.state();
+                let held = self.held();
+                self.viewer.pointer.held = held;
+                let at = self.viewer.pointer.at;
+                transform::pull(&mut self.viewer, at, held.ctrl);
                 self.forward(screen, event);
             }
             WindowEvent::Resized(_)
@@ -53,7 +60,8 @@ impl App {
             }
             WindowEvent::Focused(false) => {
                 let gesture = self.viewer.pointer.cancel();
-                actions::gesture(&mut self.viewer, gesture);
+                gestures::gesture(&mut self.viewer, gesture);
+                self.viewer.show_before(false);
                 self.forward(screen, event);
             }
             _ => self.forward(screen, event),
@@ -79,12 +87,21 @@ impl App {
         let pressed = self.viewer.pointer.is_pressed();
         self.over_picture = pressed || self.is_over_picture(screen, to);
         let gesture = self.viewer.pointer.moved(to);
-        actions::gesture(&mut self.viewer, gesture);
+        gestures::gesture(&mut self.viewer, gesture);
+        if self.moves_by_keys() {
+            transform::pull(&mut self.viewer, to, self.modifiers.control_key());
+        }
         if !(was_over && self.over_picture) || screen.egui.egui_is_using_pointer() {
             self.forward(screen, event);
         } else if !pressed {
             self.show_grip(screen, to);
         }
+        self.read_off(to);
+    }
+
+    /// Whether things follow the pointer without a button.
+    fn moves_by_keys(&self) -> bool {
+        self.viewer.transform.as_ref().is_some_and(|transform| transform.ends == Ends::ByClick)
     }
 
     fn is_over_picture(&self, screen: &Screen, at: (f64, f64)) -> bool {
@@ -96,10 +113,10 @@ impl App {
         inside && !self.asks() && layer.is_none_or(|layer| layer.order == egui::Order::Background)
     }
 
-    /// The pointer tells that a handle can be dragged.
+    /// The pointer tells that something can be dragged.
     fn show_grip(&self, screen: &Screen, at: (f64, f64)) {
-        let grip = self.viewer.overlay(&self.viewer.camera).grip_at(at.0, at.1);
-        screen.window.set_cursor(if grip.is_some() { CursorIcon::Grab } else { CursorIcon::Default });
+        let hold = gestures::hold_at(&self.viewer, at);
+        screen.window.set_cursor(if hold.is_some() { CursorIcon::Grab } else { CursorIcon::Default });
     }
 
     fn button(&mut self, screen: &mut Screen, event: &WindowEvent, state: ElementState, button: MouseButton) {
@@ -111,12 +128,13 @@ impl App {
         };
         if state == ElementState::Released {
             let gesture = self.viewer.pointer.release(button);
-            actions::gesture(&mut self.viewer, gesture);
+            gestures::gesture(&mut self.viewer, gesture);
+        } else if self.viewer.transform.is_some() {
+            return self.end_transform(button);
         } else if self.over_picture && !self.asks() {
-            let (x, y) = self.viewer.pointer.at;
-            let grip = self.viewer.overlay(&self.viewer.camera).grip_at(x, y);
+            let hold = gestures::hold_at(&self.viewer, self.viewer.pointer.at);
             let mode: Mode = self.viewer.settings.mode;
-            self.viewer.pointer.press(button, self.held(), mode, grip);
+            self.viewer.pointer.press(button, self.held(), mode, hold);
             screen.egui.memory_mut(|memory| {
                 if let Some(focused) = memory.focused() {
                     memory.surrender_focus(focused);
@@ -126,21 +144,39 @@ impl App {
         self.forward(screen, event);
     }
 
+    /// A button goes down while things are moved: the left one keeps what was done, another takes it back.
+    fn end_transform(&mut self, button: Button) {
+        match button {
+            Button::Left => transform::keep(&mut self.viewer),
+            Button::Middle | Button::Right => transform::take_back(&mut self.viewer),
+        }
+        self.viewer.pointer.cancel();
+    }
+
     fn wheel(&mut self, delta: MouseScrollDelta) {
         let notches = match delta {
             MouseScrollDelta::LineDelta(_, lines) => f64::from(lines),
             MouseScrollDelta::PixelDelta(pixels) => pixels.y / PIXELS_PER_NOTCH,
         };
-        actions::wheel(&mut self.viewer, notches, self.modifiers.control_key());
+        gestures::wheel(&mut self.viewer, notches, self.modifiers.control_key());
     }
 
     /// A key goes to egui while something there is being typed, and is a command otherwise.
     fn key(&mut self, screen: &mut Screen, event: &WindowEvent, key: &KeyEvent) {
         let typing = screen.egui.egui_wants_keyboard_input();
         let command = self.command(key);
+        if key.state == ElementState::Pressed && self.key_to_transform(key) {
+            return;
+        }
         if command == Some(Command::Escape) && egui::Popup::is_any_open(&screen.egui) {
             // It closes the menu and nothing more.
             return self.forward(screen, event);
+        }
+        if command == Some(Command::See(See::Before)) && !typing {
+            if !key.repeat {
+                self.viewer.show_before(key.state == ElementState::Pressed);
+            }
+            return;
         }
         let everywhere = command.is_some_and(Command::is_everywhere);
         if key.state == ElementState::Pressed
@@ -153,6 +189,20 @@ impl App {
         } else if typing || key.logical_key != Key::Named(NamedKey::Tab) {
             self.forward(screen, event);
         }
+    }
+
+    /// Gives a key to what is being moved; with Ctrl it is a command, and what is being moved is kept before.
+    fn key_to_transform(&mut self, key: &KeyEvent) -> bool {
+        let is_command = self.modifiers.control_key() || self.modifiers.super_key();
+        let is_modifier = matches!(
+            key.logical_key,
+            Key::Named(NamedKey::Control | NamedKey::Super | NamedKey::Shift | NamedKey::Alt)
+        );
+        if is_command && !is_modifier {
+            transform::keep(&mut self.viewer);
+            return false;
+        }
+        transform::key(&mut self.viewer, &key.logical_key, self.modifiers.shift_key())
     }
 
     /// While something is asked, Esc cancels, Ctrl+Q asks anew, and all other keys go to the buttons.

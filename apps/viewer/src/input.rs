@@ -1,7 +1,8 @@
 //! What does the pointer mean over the picture? A press that stays put is a click, one that travels is a drag whose
 //! sort was settled when it began. Pure state, no window.
 
-use catoptra_raster::Grip;
+use catoptra_core::scene::EntityId;
+use catoptra_raster::{Constraint, Grip};
 
 use crate::selection::Picking;
 
@@ -58,6 +59,17 @@ pub(crate) struct Held {
     pub(crate) alt: bool,
 }
 
+/// What stands under the pointer that can be dragged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Hold {
+    /// A handle of a light.
+    Grip(Grip),
+    /// A handle that moves, turns or scales what is selected.
+    Handle(Constraint),
+    /// The mark of a light or a camera.
+    Mark(EntityId),
+}
+
 /// What a drag changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Drag {
@@ -69,8 +81,8 @@ pub(crate) enum Drag {
     Zoom,
     /// How the objects are turned.
     Turn,
-    /// A spot light's cone angle, or a lamp's size.
-    Handle(Grip),
+    /// What is held: a light's size, cone or aim, or where things are.
+    Hold(Hold),
 }
 
 /// What came of a pointer event. Positions and differences are in pixels of the picture, y down.
@@ -103,6 +115,8 @@ struct Press {
 pub(crate) struct Pointer {
     /// Where it was last seen, in pixels of the picture.
     pub(crate) at: (f64, f64),
+    /// Which keys are held.
+    pub(crate) held: Held,
     press: Option<Press>,
 }
 
@@ -113,14 +127,14 @@ impl Pointer {
     }
 
     /// A button goes down here. A second button while one is down changes nothing.
-    pub(crate) fn press(&mut self, button: Button, held: Held, mode: Mode, grip: Option<Grip>) {
+    pub(crate) fn press(&mut self, button: Button, held: Held, mode: Mode, hold: Option<Hold>) {
         if self.press.is_some() {
             return;
         }
-        let drag = match (button, held.shift, grip, mode) {
+        let drag = match (button, held.shift, hold, mode) {
             (Button::Right, ..) | (_, true, ..) => Drag::Pan,
             (Button::Middle, ..) if held.ctrl => Drag::Zoom,
-            (Button::Left, false, Some(grip), _) => Drag::Handle(grip),
+            (Button::Left, false, Some(hold), _) => Drag::Hold(hold),
             (Button::Middle, ..) | (Button::Left, false, None, Mode::Orbit) => Drag::Orbit,
             (Button::Left, false, None, Mode::Turntable) => Drag::Turn,
         };
@@ -179,7 +193,7 @@ mod tests {
     const NONE: Held = Held { shift: false, ctrl: false, alt: false };
 
     fn pressed(button: Button, held: Held, mode: Mode) -> Pointer {
-        let mut pointer = Pointer { at: (10.0, 10.0), press: None };
+        let mut pointer = Pointer { at: (10.0, 10.0), ..Pointer::default() };
         pointer.press(button, held, mode, None);
         pointer
     }

@@ -1,8 +1,10 @@
 //! Which key does what? One list: the window looks commands up in it, and the help page prints it.
 
+use catoptra_raster::Tool;
 use winit::keyboard::{Key, NamedKey};
 
 use crate::input::Held;
+use crate::seeing::See;
 use crate::views::Side;
 
 /// What a key asks for.
@@ -74,6 +76,16 @@ pub(crate) enum Command {
     Reload,
     /// Write the picture.
     Picture,
+    /// Look at the scene otherwise.
+    See(See),
+    /// Move, turn or scale what is selected with the pointer.
+    Transform(Tool),
+    /// Show the next handles about what is selected.
+    NextTool,
+    /// Put things onto surfaces as they are moved, or no more.
+    OnSurfaces,
+    /// Look through the selected light or camera, which then goes along, or end that.
+    Fly,
     /// Close the window.
     Quit,
 }
@@ -134,7 +146,7 @@ pub(crate) const BINDINGS: &[Binding] = &[
     named(NamedKey::Tab, "Tab", Command::Panel, "show or hide the panel"),
     named(NamedKey::Home, "Home", Command::FrameAll, "see everything, lights too"),
     letter(NONE, "f", "F", Command::FrameSelected, "see what is selected"),
-    letter(NONE, "r", "R", Command::ResetCamera, "back to the scene's camera"),
+    letter(NONE, "0", "0", Command::ResetCamera, "back to the scene's camera"),
     letter(NONE, "c", "C", Command::NextCamera, "look through the next camera"),
     letter(NONE, "1", "1", Command::Look(Side::Front), "look from the front (numpad too)"),
     letter(NONE, "3", "3", Command::Look(Side::Right), "look from the right"),
@@ -149,6 +161,37 @@ pub(crate) const BINDINGS: &[Binding] = &[
     named(NamedKey::ArrowDown, "Down", Command::Step(0, -1), "move the camera down"),
     letter(NONE, "t", "T", Command::ToggleMode, "orbit the camera, or turn the objects (an edit)"),
     letter(NONE, "o", "O", Command::ToggleOverlays, "show or hide all overlays"),
+    letter(
+        NONE,
+        "g",
+        "G",
+        Command::Transform(Tool::Move),
+        "move what is selected; then X Y Z, numbers, Ctrl, Esc",
+    ),
+    letter(NONE, "r", "R", Command::Transform(Tool::Turn), "turn what is selected, as with G"),
+    letter(NONE, "s", "S", Command::Transform(Tool::Scale), "scale what is selected, as with G"),
+    letter(NONE, "q", "Q", Command::NextTool, "handles that move, turn or scale, or none"),
+    letter(NONE, "n", "N", Command::OnSurfaces, "things that are moved stand on surfaces, or go freely"),
+    letter(NONE, "i", "I", Command::Fly, "look through the selected light or camera and fly it"),
+    letter(NONE, "]", "]", Command::See(See::Brighter(1)), "show the picture brighter, by a third of a stop"),
+    letter(NONE, "[", "[", Command::See(See::Brighter(-1)), "show the picture darker"),
+    letter(NONE, "e", "E", Command::See(See::Automatic), "exposure follows the picture, or stays"),
+    letter(
+        NONE,
+        "v",
+        "V",
+        Command::See(See::NextPass),
+        "show the next pass: albedo, normals, irradiance, work",
+    ),
+    letter(
+        NONE,
+        "m",
+        "M",
+        Command::See(See::Mute),
+        "mute the selected lights in this window; without any, none",
+    ),
+    letter(NONE, "l", "L", Command::See(See::Solo), "let the selected lights shine alone; without any, all"),
+    letter(NONE, "b", "B (held)", Command::See(See::Before), "see the scene before the last edit"),
     letter(NONE, "p", "P", Command::Picture, "write the picture as PNG"),
     named(NamedKey::Delete, "Delete", Command::Delete, "delete what is selected"),
     letter(SHIFT, "a", "Shift+A", Command::Add, "add something, where the pointer is"),
@@ -183,6 +226,10 @@ pub(crate) const OTHERS: &[(&str, &str)] = &[
     ("Left drag", "orbit the camera; turntable: turn the objects"),
     ("Middle drag", "orbit the camera; with Shift pan, with Ctrl zoom"),
     ("Right or Shift drag", "pan"),
+    ("Left drag on a handle", "move, turn or scale what is selected; numbers, Ctrl and Esc as with G"),
+    ("X Y Z while moving", "along that axis, again: its own; with Shift in a plane"),
+    ("Left drag on a mark", "move a light or a camera"),
+    ("Left drag on an aim", "aim the selected light at what is under the pointer"),
     ("Left drag on a ring", "change a spot light's cone angle"),
     ("Left drag on a rim", "change the size of the selected lamp: sides, corners too"),
     ("Wheel", "zoom to the pointer; turntable: along the view"),
@@ -230,7 +277,8 @@ mod tests {
 
     #[test]
     fn a_plain_letter_is_not_its_ctrl_command() {
-        assert_eq!(command(&typed("s"), NONE), None);
+        assert_eq!(command(&typed("s"), NONE), Some(Command::Transform(Tool::Scale)));
+        assert_eq!(command(&typed("s"), CTRL), Some(Command::Save));
         assert_eq!(command(&typed("p"), NONE), Some(Command::Picture));
         assert_eq!(command(&typed("p"), CTRL), None);
     }

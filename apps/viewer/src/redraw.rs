@@ -3,12 +3,16 @@
 
 use std::time::{Duration, Instant};
 
+use catoptra_tracer::Size;
+
 use crate::app::App;
-use crate::canvas::{Pixels, Region};
+use crate::canvas::{Fit, Pixels, Region};
+use crate::pass::PASSES;
 use crate::screen::{Fitted, Screen};
 use crate::status::{FrameFigures, REST, lamp_notes};
+use crate::tracing::Frame;
 use crate::viewer::Viewer;
-use crate::{actions, outline, panel};
+use crate::{actions, clipped, outline, panel};
 
 /// The status line is written anew this often while frames come in.
 const STATUS_EVERY: Duration = Duration::from_millis(200);
@@ -84,7 +88,11 @@ impl App {
         let line = self.meter.line(self.pool.threads(), now);
         let (backend, mode) = (self.viewer.settings.backend.name(), self.viewer.settings.mode.name());
         let notes = lamp_notes(self.viewer.document.scene(), &self.viewer.latest.get());
-        [&[line, backend.to_owned(), mode.to_owned()][..], &notes].concat().join("  ·  ")
+        let exposure = self.viewer.settings.exposure.words();
+        let pass =
+            Some(self.viewer.settings.pass.name).filter(|_| self.viewer.settings.pass.name != PASSES[0].name);
+        let shown: Vec<String> = pass.map(str::to_owned).into_iter().chain(exposure).collect();
+        [&[line, backend.to_owned(), mode.to_owned()][..], &shown, &notes].concat().join("  ·  ")
     }
 
     /// Takes the newest frame from the worker; `false` if there is none.
@@ -99,6 +107,11 @@ impl App {
             pass: finished.pass,
             is_last: finished.is_last,
         };
+        let settings = self.viewer.document.scene().settings().exposure();
+        if finished.frame.pass.paint.is_none() {
+            self.viewer.expose(self.viewer.settings.exposure.followed(&finished.frame.film, settings));
+        }
+        self.viewer.readout.legend = finished.frame.numbers.as_ref().map(|of| (of.scale, of.unit));
         if self.options.log_frames {
             eprintln!("{}", figures.log_line());
         }
@@ -111,7 +124,33 @@ impl App {
             self.worker.give_back(old.frame);
         }
         self.write_picture_if_wanted();
+        self.read_off(self.viewer.pointer.at);
         true
+    }
+
+    /// Reads off the picture what the pointer points to, if the pass has something to tell of it.
+    pub(crate) fn read_off(&mut self, at: (f64, f64)) {
+        let pointed = self
+            .shown
+            .as_ref()
+            .filter(|_| self.over_picture)
+            .and_then(|shown| self.pointed(&shown.frame, at));
+        if pointed.is_some() || self.viewer.readout.pointed.is_some() {
+            self.viewer.readout.pointed = pointed;
+            self.viewer.stale.panel = true;
+        }
+    }
+
+    fn pointed(&self, frame: &Frame, at: (f64, f64)) -> Option<String> {
+        frame.pass.paint?;
+        let Size { width, height } = frame.film.size();
+        let (x, y) = Fit::new((width, height), frame.size).pixel(at)?;
+        let name = frame.film.surface(x, y).and_then(|id| self.viewer.document.scene().name(id))?;
+        let number = frame.numbers.as_ref().map(|numbers| {
+            let value = numbers.values[y as usize * width as usize + x as usize];
+            format!("{} {}", panel::short(f64::from(value)), numbers.unit)
+        });
+        Some(number.map_or_else(|| name.clone(), |number| format!("{number}  ·  {name}")))
     }
 
     /// Writes the picture once it is the one that was asked for, in full.
@@ -142,6 +181,14 @@ impl App {
         let frame = &shown.frame;
         screen.canvas.lay(&frame.pixels, size);
         let picture = screen.canvas.picture_mut();
+        let in_full = (shown.divisor == 1).then_some(&frame.pixels);
+        let tone = self.viewer.tone();
+        self.viewer.comparison.lay_over(in_full, picture, tone);
+        let marks = self.viewer.settings.marks_clipped && frame.pass.paint.is_none();
+        let clipped = marks.then(|| clipped::mark(picture));
+        self.viewer.stale.panel |=
+            clipped != self.viewer.readout.clipped || self.viewer.comparison.file().is_some();
+        self.viewer.readout.clipped = clipped;
         let selection = &self.viewer.selection;
         if frame.size == size && !selection.is_empty() {
             let scene = self.viewer.document.scene();

@@ -8,6 +8,7 @@ use catoptra_tracer::{Backend, Control, Extraction, Film, Pool, Size, Snapshot, 
 use crate::canvas::{Pixels, resize};
 use crate::frame_worker::Tracing;
 use crate::latest::Latest;
+use crate::pass::{self, Numbers, OwnShapes, Seen};
 use crate::refine::{Pass, reduced};
 
 /// All that a picture depends on.
@@ -27,6 +28,10 @@ pub(crate) struct Request {
     pub(crate) at_rest: u32,
     /// How radiance becomes colour.
     pub(crate) tone: Tone,
+    /// What is shown of the scene.
+    pub(crate) pass: &'static pass::Pass,
+    /// The shapes of the scene before they are placed, if the pass asks for them.
+    pub(crate) own: OwnShapes,
 }
 
 /// A request with its scene frozen.
@@ -49,17 +54,46 @@ pub(crate) struct Frame {
     pub(crate) tone: Tone,
     /// How many rays it took.
     pub(crate) rays: u64,
+    /// What it shows of the scene.
+    pub(crate) pass: &'static pass::Pass,
+    /// The numbers behind its colours, where they are false ones.
+    pub(crate) numbers: Option<Numbers>,
 }
 
 impl Frame {
-    /// Encodes the film anew.
+    /// Encodes the film anew; a pass with colours of its own keeps them.
     pub(crate) fn encode(&mut self, tone: Tone, pool: &Pool) {
+        self.tone = tone;
+        if self.pass.paint.is_some() {
+            return;
+        }
         let Size { width, height } = self.film.size();
         self.pixels.width = width;
         self.pixels.height = height;
         resize(&mut self.pixels.data, width as usize * height as usize, 0);
         tone.encode(&self.film, pool, &mut self.pixels.data);
-        self.tone = tone;
+    }
+
+    /// Shows what the pass makes of the film; `false` when that was cancelled.
+    fn paint(
+        &mut self,
+        Job { request, snapshot }: &Job,
+        view: &View,
+        pool: &Pool,
+        control: &Control,
+    ) -> bool {
+        let Some(paint) = self.pass.paint else {
+            self.encode(request.tone, pool);
+            return true;
+        };
+        let (film, backend, own) = (&self.film, request.backend, &request.own);
+        let Some(painted) = paint(&Seen { film, snapshot, view, backend, own, pool, control }) else {
+            return false;
+        };
+        let Size { width, height } = self.film.size();
+        self.pixels = Pixels { width, height, data: painted.colors };
+        self.numbers = painted.numbers;
+        true
     }
 }
 
@@ -115,12 +149,24 @@ impl PoolTracing {
         Self { pool, growing: None }
     }
 
-    fn encoded(&self, request: &Request, film: Film, pixels: Pixels, rays: u64) -> Frame {
-        let View { camera, size, .. } = &request.view;
-        let (camera, size) = (camera.clone(), (size.width, size.height));
-        let mut frame = Frame { film, pixels, camera, size, tone: request.tone, rays };
-        frame.encode(request.tone, &self.pool);
-        frame
+    /// A frame of a film that was traced; `None` when that was cancelled, and then the room is among the spares.
+    fn painted(
+        &self,
+        job: &Job,
+        view: &View,
+        (film, pixels): (Film, Pixels),
+        rays: u64,
+        (control, spares): (&Control, &mut Vec<Spare>),
+    ) -> Option<Frame> {
+        let request = &job.request;
+        let size = (request.view.size.width, request.view.size.height);
+        let (camera, tone, pass) = (view.camera.clone(), request.tone, request.pass);
+        let mut frame = Frame { film, pixels, camera, size, tone, rays, pass, numbers: None };
+        if frame.paint(job, view, &self.pool, control) {
+            return Some(frame);
+        }
+        spares.push(frame.into());
+        None
     }
 }
 
@@ -141,11 +187,12 @@ impl Tracing for PoolTracing {
 
     fn trace(
         &mut self,
-        Job { request, snapshot }: &Job,
+        job: &Job,
         divisor: u32,
         control: &Control,
         spares: &mut Vec<Spare>,
     ) -> Option<Frame> {
+        let Job { request, snapshot } = job;
         let full = (request.view.size.width, request.view.size.height);
         let (width, height) = reduced(full.0, full.1, divisor);
         let size = Size { width, height };
@@ -156,7 +203,7 @@ impl Tracing for PoolTracing {
             spares.push(Spare { film, pixels });
             return None;
         };
-        Some(self.encoded(request, film, pixels, stats.rays.total()))
+        self.painted(job, &view, (film, pixels), stats.rays.total(), (control, spares))
     }
 
     fn frame_time(Job { request, .. }: &Job) -> f64 {
@@ -164,17 +211,13 @@ impl Tracing for PoolTracing {
     }
 
     fn passes(Job { request, .. }: &Job) -> Vec<Pass> {
-        let of = if request.view.size.pixels() <= LARGEST { request.at_rest } else { 0 };
+        let refined = request.view.size.pixels() <= LARGEST && request.pass.paint.is_none();
+        let of = if refined { request.at_rest } else { 0 };
         Pass::all(of, of.div_ceil(PASSES).max(LEAST_PASS))
     }
 
-    fn add(
-        &mut self,
-        Job { request, snapshot }: &Job,
-        pass: Pass,
-        control: &Control,
-        spares: &mut Vec<Spare>,
-    ) -> Option<Frame> {
+    fn add(&mut self, job: &Job, pass: Pass, control: &Control, spares: &mut Vec<Spare>) -> Option<Frame> {
+        let Job { request, snapshot } = job;
         let growing = self.growing.take().filter(|_| pass.from > 0);
         let mut film = growing.unwrap_or_else(|| room(request.view.size, spares).film);
         let view = View { samples: pass.of, range: Some(pass.range()), ..request.view.clone() };
@@ -187,7 +230,7 @@ impl Tracing for PoolTracing {
         if !pass.is_last() {
             self.growing = Some(film.clone());
         }
-        Some(self.encoded(request, film, pixels, stats.rays.total()))
+        self.painted(job, &view, (film, pixels), stats.rays.total(), (control, spares))
     }
 }
 

@@ -5,24 +5,29 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-use catoptra_core::scene::{Edit, EntityId, SceneError, Subject, TextureId};
-use catoptra_core::{Aabb, Camera, Integrator};
-use catoptra_raster::{Overlay, OverlayStyle};
-use catoptra_tracer::{Backend, Display, Extraction, Pick, Size, Tone, View, backends, pick};
+use catoptra_core::scene::{Edit, EntityId, Scene, SceneError, Subject, TextureId};
+use catoptra_core::{Camera, Integrator};
+use catoptra_raster::{Manipulator, Overlay, OverlayStyle};
+use catoptra_tracer::{Extraction, Tone, View};
 
 use crate::browse::Browser;
-use crate::camera_control;
+use crate::comparison::Comparison;
 use crate::document::Document;
+use crate::fly::Flown;
 use crate::guard::{Guard, Next};
-use crate::input::{Mode, Pointer};
+use crate::input::Pointer;
 use crate::latest::Latest;
+use crate::lighting::Lighting;
 use crate::loader::Opened;
 use crate::making::add::Adding;
 use crate::naming::Named;
+use crate::pass;
 use crate::preview::Preview;
-use crate::refine::USUAL_FRAME;
+use crate::seeing::{Readout, ViewSettings};
 use crate::selection::{Picking, Selection};
 use crate::tracing::Request;
+use crate::transform::{self, Ends, Transform};
+use crate::viewpoint::usual_camera;
 
 /// Samples a pixel where each is one direction that sees the sky or does not: a quarter of the noise of a single one.
 const OCCLUSION_SAMPLES: u32 = 16;
@@ -36,6 +41,8 @@ const AT_REST: u32 = 16;
 /// What has to be done again since something changed.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Stale {
+    /// The scene has to be copied for the worker.
+    pub(crate) scene: bool,
     /// The picture has to be traced.
     pub(crate) trace: bool,
     /// The overlays have to be drawn.
@@ -53,21 +60,6 @@ pub(crate) struct Shown {
     pub(crate) help: bool,
     /// Any overlay at all.
     pub(crate) overlays: bool,
-}
-
-/// How the scene is looked at.
-#[derive(Clone)]
-pub(crate) struct ViewSettings {
-    /// What a plain drag does.
-    pub(crate) mode: Mode,
-    /// Who traces.
-    pub(crate) backend: &'static dyn Backend,
-    /// How radiance becomes colour.
-    pub(crate) display: Display,
-    /// Which overlays are drawn.
-    pub(crate) style: OverlayStyle,
-    /// What a frame may take while something moves, in milliseconds.
-    pub(crate) frame_time: f64,
 }
 
 /// What the window is to do that the viewer cannot do by itself.
@@ -100,6 +92,8 @@ pub(crate) struct Viewer {
     pub(crate) camera: Camera,
     /// The scene's camera that was last looked through.
     pub(crate) through: Option<EntityId>,
+    /// As it was when it was last looked at.
+    pub(crate) seen_through: Option<Camera>,
     pub(crate) settings: ViewSettings,
     pub(crate) selection: Selection,
     /// The texture whose fields are shown.
@@ -109,7 +103,21 @@ pub(crate) struct Viewer {
     /// A name that is being typed, and whose it is to be.
     pub(crate) typed_name: Option<(Named, String)>,
     pub(crate) shown: Shown,
+    /// Which lights are left dark.
+    pub(crate) lighting: Lighting,
+    /// Whether the scene lacks lights and is lit from the camera.
+    pub(crate) headlight: bool,
+    /// The scene before the last edit, while that is shown.
+    pub(crate) before: Option<Scene>,
+    /// The picture that this one is compared with.
+    pub(crate) comparison: Comparison,
+    /// What stands by the pointer of what it points to, and the colours of numbers.
+    pub(crate) readout: Readout,
     pub(crate) pointer: Pointer,
+    /// What is being moved, turned or scaled.
+    pub(crate) transform: Option<Transform>,
+    /// The light or camera that goes along with the view.
+    pub(crate) flown: Option<Flown>,
     /// The size of the picture in pixels.
     pub(crate) size: (u32, u32),
     /// A line for the person, and since when it stands.
@@ -138,16 +146,6 @@ pub(crate) struct Viewer {
 impl Viewer {
     /// A viewer of that scene.
     pub(crate) fn new(opened: Opened) -> Self {
-        let style = OverlayStyle {
-            grid: false,
-            axes: false,
-            lights: true,
-            cones: false,
-            beams: false,
-            selection: true,
-            cameras: false,
-            scale: 1.0,
-        };
         let seen = opened.document.scene().revision();
         let mut viewer = Self {
             document: opened.document,
@@ -155,19 +153,21 @@ impl Viewer {
             latest: opened.latest,
             camera: usual_camera(),
             through: None,
-            settings: ViewSettings {
-                mode: Mode::Orbit,
-                backend: backends()[0],
-                display: Display::Srgb,
-                style,
-                frame_time: USUAL_FRAME,
-            },
+            seen_through: None,
+            settings: ViewSettings::usual(),
             selection: Selection::default(),
             texture: None,
             preview: Preview::default(),
             typed_name: None,
             shown: Shown { panel: true, help: false, overlays: true },
+            lighting: Lighting::default(),
+            headlight: false,
+            before: None,
+            comparison: Comparison::default(),
+            readout: Readout::default(),
             pointer: Pointer::default(),
+            transform: None,
+            flown: None,
             size: (0, 0),
             notice: None,
             error: None,
@@ -178,9 +178,10 @@ impl Viewer {
             names_next: false,
             guard: Guard::default(),
             picture_wanted: false,
-            stale: Stale { trace: true, overlay: true, panel: true },
+            stale: Stale { scene: false, trace: true, overlay: true, panel: true },
             seen,
         };
+        viewer.stale.scene = viewer.is_lit_otherwise();
         viewer.adopt(viewer.document.scene().main_camera());
         viewer
     }
@@ -198,6 +199,10 @@ impl Viewer {
         self.selection = Selection::default();
         self.texture = None;
         self.typed_name = None;
+        self.lighting.clear();
+        self.before = None;
+        self.transform = None;
+        self.flown = None;
         self.error = None;
         self.failure = None;
         self.browser = None;
@@ -211,7 +216,7 @@ impl Viewer {
             }
             None => self.adopt(self.document.scene().main_camera()),
         }
-        self.stale = Stale { trace: true, overlay: true, panel: true };
+        self.stale = Stale { scene: self.is_lit_otherwise(), trace: true, overlay: true, panel: true };
     }
 
     /// The names of what is selected and of the camera that was looked through.
@@ -227,87 +232,47 @@ impl Viewer {
         self.stale.panel = true;
     }
 
-    /// Looks from elsewhere.
-    pub(crate) fn look(&mut self, camera: Camera) {
-        if camera != self.camera {
-            self.camera = camera;
-            self.stale.trace = true;
-        }
-    }
-
-    /// Looks through a camera of the scene; without one, at everything.
-    pub(crate) fn adopt(&mut self, id: Option<EntityId>) {
-        let scene = self.document.scene();
-        let seen = id.and_then(|id| scene.world_camera(id));
-        self.through = seen.as_ref().and(id);
-        match seen {
-            Some(camera) if camera.target_distance().is_none() => self.look(self.aimed(&camera)),
-            Some(camera) => self.look(camera),
-            None => self.frame(self.everything()),
-        }
-        self.stale.overlay = true;
-    }
-
-    /// A camera that names no target is taken to look at the middle of what it sees in the middle of its picture.
-    fn aimed(&self, camera: &Camera) -> Camera {
-        let view = View::new(camera.clone(), Size::new(2, 2));
-        let Some(hit) = pick(&self.latest.get(), &view, 1.0, 1.0) else { return camera.clone() };
-        let bounds = self.document.scene().world_bounds(hit.entity);
-        let depth = bounds.map_or(0.0, |bounds| (bounds.centre() - camera.eye()).dot(camera.forward()));
-        camera_control::aimed(camera, depth.max(hit.distance))
-    }
-
-    /// The box round all bounded shapes.
-    pub(crate) fn everything(&self) -> Aabb {
-        let shapes = self.document.scene().world_shapes();
-        shapes.iter().filter_map(|(shape, _)| shape.part.bounds()).fold(Aabb::EMPTY, Aabb::union)
-    }
-
-    /// Moves the camera so that `bounds` is seen; an empty box changes nothing.
-    pub(crate) fn frame(&mut self, bounds: Aabb) {
-        let aspect = f64::from(self.size.0.max(1)) / f64::from(self.size.1.max(1));
-        self.look(camera_control::frame(&self.camera, bounds, aspect));
-    }
-
-    /// The tracer's view of the full picture.
-    pub(crate) fn view(&self) -> View {
-        View::of(self.document.scene(), self.camera.clone(), Size::new(self.size.0, self.size.1))
-    }
-
-    /// What the picture shows at a point, in pixels, as far as it is traced: what has been removed since is nothing.
-    pub(crate) fn pick(&self, x: f64, y: f64) -> Option<Pick> {
-        let hit = pick(&self.latest.get(), &self.view(), x, y);
-        hit.filter(|hit| self.document.scene().contains(hit.entity))
-    }
-
     /// What the worker is to trace now.
     pub(crate) fn request(&self) -> Request {
-        let samples = match self.document.scene().settings().integrator() {
+        let pass = self.settings.pass;
+        let integrator = pass.integrator.unwrap_or(self.document.scene().settings().integrator());
+        let samples = match integrator {
             Integrator::Whitted => 1,
             Integrator::Path => PATH_SAMPLES,
             Integrator::Occlusion => OCCLUSION_SAMPLES,
         };
         let at_rest = self.document.scene().settings().samples().max(AT_REST * samples);
+        let view = View { integrator, ..self.view().with_samples(samples) };
+        let own = if pass.paint.is_some() { pass::own_shapes(self.scene_shown()) } else { Arc::default() };
         Request {
             extraction: Arc::clone(&self.extraction),
             latest: Arc::clone(&self.latest),
             backend: self.settings.backend,
-            view: self.view().with_samples(samples),
+            view,
             frame_time: self.settings.frame_time,
             at_rest,
             tone: self.tone(),
+            pass,
+            own,
         }
     }
 
     /// How radiance becomes colour: as the panel and the scene say.
     pub(crate) fn tone(&self) -> Tone {
-        self.settings.display.exposed(self.document.scene().settings().exposure())
+        let scene = self.document.scene().settings().exposure();
+        self.settings.display.exposed(scene + self.settings.exposure.stops)
+    }
+
+    /// The handles about what is selected; none while keys move it.
+    fn manipulator(&self) -> Option<Manipulator> {
+        let by_keys = self.transform.as_ref().is_some_and(|transform| transform.ends == Ends::ByClick);
+        self.settings.tool.filter(|_| !by_keys).and_then(|tool| transform::manipulator(self, tool))
     }
 
     /// The overlays as seen by `camera` on a picture of that size.
     pub(crate) fn overlay<'a>(&'a self, camera: &'a Camera) -> Overlay<'a> {
         let style = if self.shown.overlays {
-            self.settings.style
+            OverlayStyle { manipulator: self.manipulator(), ..self.settings.style }
         } else {
             OverlayStyle { scale: self.settings.style.scale, ..OverlayStyle::NONE }
         };
@@ -372,26 +337,27 @@ impl Viewer {
     /// Brings everything up to what the scene has become; once for all that happened since the last time. The worker
     /// makes the snapshot.
     pub(crate) fn follow_scene(&mut self) {
-        let scene = self.document.scene();
-        if scene.revision() == self.seen {
-            return;
+        if self.document.scene().revision() != self.seen {
+            self.follow_edits();
         }
+        if std::mem::take(&mut self.stale.scene) {
+            self.copy_scene();
+        }
+    }
+
+    fn follow_edits(&mut self) {
+        let scene = self.document.scene();
         let changes = scene.changes_since(self.seen);
         let moved = self.through.filter(|id| changes.iter().any(|c| c.subject == Subject::Entity(*id)));
         self.seen = scene.revision();
-        self.extraction = Arc::new(Extraction::of(scene));
         self.selection = self.selection.without(|id| !scene.contains(id));
+        self.lighting.keep_lights_of(scene);
+        self.before = None;
         self.texture = self.texture.filter(|id| scene.find_texture(*id).is_some());
-        if moved.is_some() {
-            self.adopt(moved);
+        let flown = self.flown.as_ref().map(|flown| flown.id);
+        if moved.is_some() && moved != flown {
+            self.follow_camera(moved);
         }
-        self.stale = Stale { trace: true, overlay: true, panel: true };
+        self.stale = Stale { scene: true, trace: true, overlay: true, panel: true };
     }
-}
-
-/// Where one looks from before any scene says better.
-fn usual_camera() -> Camera {
-    use catoptra_core::glam::DVec3;
-    Camera::look_at(DVec3::new(4.0, 3.0, 8.0), DVec3::ZERO, DVec3::Y, std::f64::consts::FRAC_PI_4)
-        .unwrap_or_else(|_| unreachable!("constants that a camera accepts"))
 }

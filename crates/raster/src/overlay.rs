@@ -5,10 +5,12 @@ use crate::depth::DepthField;
 use crate::gizmo::GIZMOS;
 use crate::grip::{self, Grip};
 use crate::layer::Layer;
+use crate::manipulator::Constraint;
 use crate::projection::Projection;
 use crate::sight::Sight;
 use crate::stage::Stage;
 use crate::style::OverlayStyle;
+use catoptra_core::glam::DVec3;
 use catoptra_core::scene::{EntityId, Scene};
 use catoptra_core::{Camera, InvalidPart, Light};
 
@@ -90,6 +92,30 @@ impl Overlay<'_> {
         grip::drag(&self.stage(), grip, x, y)
     }
 
+    /// A light, in its own space, as it is once it aims at a point of the world; `None` for what aims nowhere, and at the
+    /// light itself.
+    ///
+    /// # Errors
+    /// A light that core refuses.
+    pub fn aim(&self, light: EntityId, at: DVec3) -> Option<Result<Light, InvalidPart>> {
+        let stage = self.stage();
+        let placed = stage.lights.iter().find(|placed| placed.id == light)?;
+        grip::aimed(&self.scene.light(light)?, placed, &self.scene.world_placement(light)?, at)
+    }
+
+    /// From where to where a selected light aims, in the world; `None` for what aims nowhere.
+    pub fn aim_line(&self, light: EntityId) -> Option<[DVec3; 2]> {
+        let stage = self.stage();
+        let placed = stage.lights.iter().find(|placed| placed.id == light)?;
+        grip::aim_line(&stage, placed)
+    }
+
+    /// The part of the style's manipulator under the pixel (`x`, `y`), if there is any.
+    pub fn manipulator_at(&self, x: f64, y: f64) -> Option<Constraint> {
+        let view = Projection::new(self.camera, self.width, self.height);
+        self.style.manipulator?.handle_at(&view, (x, y), f64::from(self.style.scale()))
+    }
+
     pub(crate) fn stage(&self) -> Stage<'_> {
         let view = Projection::new(self.camera, self.width, self.height);
         Stage::new(self.scene, view, self.style, self.selection)
@@ -100,7 +126,6 @@ impl Overlay<'_> {
 mod tests {
     use super::*;
     use crate::sample::{self, HEIGHT, WIDTH, lit_by, spot};
-    use catoptra_core::glam::DVec3;
 
     /// Opacity of every pixel, row-major.
     fn alphas(overlay: &Overlay<'_>) -> Vec<u8> {

@@ -1,5 +1,6 @@
 //! A scene with something for every gizmo, for tests.
 
+use crate::manipulator::{Manipulator, Tool};
 use crate::overlay::Overlay;
 use crate::projection::Projection;
 use crate::stage::Stage;
@@ -113,6 +114,11 @@ pub(crate) fn scene() -> Scene {
     let side = Camera::look_at(DVec3::new(-3.0, 1.0, -1.0), DVec3::ZERO, DVec3::Y, 0.8).unwrap();
     scene.add_camera("side", side, None).unwrap();
     scene
+}
+
+/// Arrows at the ball of [`scene`].
+pub(crate) fn manipulator() -> Manipulator {
+    Manipulator { tool: Tool::Move, pivot: DVec3::Y, axes: Manipulator::WORLD }
 }
 
 /// Ten metres before the origin, two up, looking level along -z.

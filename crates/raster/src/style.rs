@@ -1,5 +1,7 @@
 //! Which gizmos are shown, and how large?
 
+use crate::manipulator::Manipulator;
+
 /// Which gizmos are shown, and how large.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OverlayStyle {
@@ -17,13 +19,16 @@ pub struct OverlayStyle {
     pub selection: bool,
     /// Frusta of the scene's cameras.
     pub cameras: bool,
+    /// The handles by which things are moved, turned or scaled, if there are any.
+    pub manipulator: Option<Manipulator>,
     /// Pixels in a pixel of an ordinary display: 2 doubles all widths and marks. Held to 0.25 to 16; NaN counts as 1.
     pub scale: f32,
 }
 
 impl Default for OverlayStyle {
-    /// Everything, for a display of scale 1.
+    /// Everything that a scene has by itself, for a display of scale 1.
     fn default() -> Self {
+        let all = Self::NONE;
         Self {
             grid: true,
             axes: true,
@@ -32,7 +37,7 @@ impl Default for OverlayStyle {
             beams: true,
             selection: true,
             cameras: true,
-            scale: 1.0,
+            ..all
         }
     }
 }
@@ -47,6 +52,7 @@ impl OverlayStyle {
         beams: false,
         selection: false,
         cameras: false,
+        manipulator: None,
         scale: 1.0,
     };
 

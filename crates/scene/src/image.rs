@@ -1,5 +1,6 @@
 //! How pictures go out to PNG files and come in from them, and from JPEG, WebP, OpenEXR and Radiance files.
 
+pub mod false_color;
 mod jpeg;
 mod load;
 mod openexr;

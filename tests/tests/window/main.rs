@@ -7,8 +7,10 @@ mod files;
 mod guards;
 mod making;
 mod manners;
+mod moving;
 mod picture;
 mod programs;
+mod seeing;
 mod selecting;
 mod stage;
 

@@ -22,7 +22,8 @@ const TEXT: &str = "image-texture \"wood\" { file \"wood.png\"; wrap-v \"clamp\"
     glass \"clear\"\nmetal \"gold\" { preset \"gold\" }\nprincipled \"all\"\n\
     sphere \"ball\" material=\"grey\" { radius 1 }\nsphere \"old\" material=\"worn\" { radius 1 }\n\
     sphere \"lens\" material=\"clear\" { radius 1 }\nsphere \"ring\" material=\"gold\" { radius 1 }\n\
-    sphere \"toy\" material=\"all\" { radius 1 }\n";
+    sphere \"toy\" material=\"all\" { radius 1 }\n\
+    sphere \"small\" material=\"grey\" { radius 1; scale 0.375 }\n";
 
 /// A viewer with egui.
 struct Bench {
@@ -80,6 +81,22 @@ impl Bench {
         self.frame(vec![Event::PointerMoved(pos)]);
         self.frame(vec![button(true)]);
         self.frame(vec![button(false)]);
+        self.frames(2);
+    }
+
+    /// Clicks on a number, types over it, and ends that by a key.
+    fn type_over(&mut self, number: &str, text: &str, key: egui::Key) {
+        self.click(number);
+        self.frame(vec![Event::Text(text.to_owned())]);
+        let end = |pressed| Event::Key {
+            key,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        };
+        self.frame(vec![end(true)]);
+        self.frame(vec![end(false)]);
         self.frames(2);
     }
 
@@ -288,4 +305,30 @@ fn a_finish_gets_a_normal_map_and_loses_it() {
     assert_eq!(finish(&bench).normal_map().map(|map| map.texture), Some(bench.texture("wood")));
     bench.click("×");
     assert!(finish(&bench).is_plain());
+}
+
+#[test]
+fn numbers_are_worked_out_and_given_up_by_escape() {
+    let mut bench = Bench::new("small");
+    let scale = |bench: &Bench| {
+        let scene = bench.viewer.document.scene();
+        scene.placement(scene.entity_named("small").unwrap()).unwrap().scale()
+    };
+    bench.type_over("0.375", "2/3", egui::Key::Escape);
+    assert_eq!(scale(&bench), 0.375);
+    assert!(bench.viewer.document.is_saved());
+    bench.type_over("0.375", "1/4", egui::Key::Enter);
+    assert_eq!(scale(&bench), 0.25);
+    bench.undo();
+    bench.type_over("0.375", "-3", egui::Key::Enter);
+    assert_eq!(scale(&bench), 0.375, "what is refused changes nothing");
+}
+
+#[test]
+fn a_colour_is_typed_in_digits_or_as_the_file_has_it() {
+    let mut bench = Bench::new("ball");
+    let digits = bench.frames(2).into_iter().rev().find(|(text, _)| text.starts_with('#')).unwrap().0;
+    bench.type_over(&digits, "0.5 1/4 1", egui::Key::Enter);
+    assert_eq!(bench.value("grey", "color"), Value::Color(catoptra_core::Rgb::new(0.5, 0.25, 1.0)));
+    bench.undo();
 }

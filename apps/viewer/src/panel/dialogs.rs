@@ -1,10 +1,8 @@
-//! What floats over the picture? The status line, the sign of the turntable, what has failed, and the
-//! report of an error.
+//! What floats over the picture? The status line, what has failed, and the report of an error.
 
 use egui::{Align2, Area, Frame, Id, Margin, Order, Rect, RichText, Stroke, Ui, Window};
 
 use super::theme;
-use crate::input::Mode;
 use crate::viewer::Viewer;
 
 /// The line at the lower left of the picture: figures, and what there is to tell.
@@ -23,27 +21,6 @@ pub(super) fn status(ui: &Ui, viewer: &Viewer, figures: &str, room: Rect) {
                     ui.add(egui::Label::new(RichText::new(notice).color(theme::ACCENT)).wrap());
                 }
                 ui.add(egui::Label::new(figures).truncate());
-            });
-        });
-}
-
-/// A sign that stands while a drag changes the scene and not the view.
-pub(super) fn turntable(ui: &Ui, viewer: &Viewer, room: Rect) {
-    if viewer.settings.mode != Mode::Turntable {
-        return;
-    }
-    let frame = Frame::new().fill(theme::ACCENT).corner_radius(4).inner_margin(Margin::symmetric(10, 4));
-    Area::new(Id::new("turntable"))
-        .order(Order::Middle)
-        .interactable(false)
-        .pivot(Align2::CENTER_TOP)
-        .fixed_pos(room.center_top() + egui::vec2(0.0, 8.0))
-        .constrain_to(room)
-        .show(ui.ctx(), |ui| {
-            frame.show(ui, |ui| {
-                ui.set_max_width((room.width() - 40.0).max(40.0));
-                let text = "Turntable: dragging turns the objects and changes the scene. T goes back.";
-                ui.add(egui::Label::new(RichText::new(text).strong().color(theme::FLOATING)).wrap());
             });
         });
 }

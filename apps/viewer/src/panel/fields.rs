@@ -5,7 +5,8 @@ use std::hash::{Hash as _, Hasher as _};
 use catoptra_core::{Field, FieldKind, InvalidPart, Kind, TextureId, Value, Values};
 use egui::Ui;
 
-use super::{paint, widgets};
+use super::number::Pace;
+use super::{color, paint, widgets};
 
 /// Points between names and values.
 const GAP: f32 = 8.0;
@@ -192,11 +193,15 @@ fn edit(ui: &mut Ui, field: &Field, value: &Value, offers: &Offers<'_>) -> Optio
             .map(|degrees| Value::Number(degrees.to_radians())),
         (FieldKind::Count, Value::Number(v)) => widgets::count(ui, *v).map(Value::Number),
         (kind, Value::Number(v)) => {
-            widgets::number(ui, *v, field.unit, kind == FieldKind::Length).map(Value::Number)
+            let pace = if kind == FieldKind::Length { Pace::Scene } else { Pace::Value };
+            widgets::number(ui, *v, field.unit, pace).map(Value::Number)
         }
-        (_, Value::Vector(v)) => widgets::vector(ui, *v).map(Value::Vector),
+        (_, Value::Vector(v)) => {
+            let pace = if field.unit == "m" { Pace::Scene } else { Pace::Value };
+            widgets::vector(ui, *v, pace).map(Value::Vector)
+        }
         (_, Value::Pair(v)) => widgets::pair(ui, *v).map(Value::Pair),
-        (FieldKind::Color, Value::Color(c)) => widgets::color(ui, *c).map(Value::Color),
+        (FieldKind::Color, Value::Color(c)) => color::edit(ui, *c).map(Value::Color),
         (_, Value::Color(c)) => widgets::quantity(ui, *c).map(Value::Color),
         (_, Value::Flag(on)) => widgets::flag(ui, *on).map(Value::Flag),
         (FieldKind::Choice(words), Value::Word(word)) => {
@@ -241,6 +246,6 @@ fn offer(ui: &mut Ui, field: &Field, value: Value, tip: &str) -> Option<Value> {
         (_, Value::Number(v)) => *v,
         _ => return None,
     };
-    let text = format!("{} {}", widgets::short(size), field.unit);
+    let text = format!("{} {}", super::short(size), field.unit);
     ui.button(text.trim_end()).on_hover_text(tip).clicked().then_some(value)
 }

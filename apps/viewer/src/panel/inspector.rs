@@ -2,13 +2,14 @@
 //! tells, its placement and its material.
 
 use catoptra_core::scene::{Edit, EntityId};
-use catoptra_core::{Camera, Field, InvalidPart, Light, Part as _, Shape};
+use catoptra_core::{Camera, Field, InvalidPart, Light, Part as _, Shape, Value, Values};
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditOutput;
 use egui::{TextEdit, Ui};
 
-use super::fields::{self, Offers, step_key};
+use super::fields::{self, Changed, Offers, step_key};
 use super::{kind, material, placement};
+use crate::fly;
 use crate::naming::Named;
 use crate::viewer::Viewer;
 
@@ -109,7 +110,26 @@ fn light(ui: &mut Ui, viewer: &mut Viewer, id: EntityId) {
     let offers = Offers { equivalent: &equivalent, note: "The light stays as it is.", ..Offers::NONE };
     let (kind, values) = (light.kind(), light.values());
     if let Some(changed) = fields::show(ui, key(""), kind.fields, &values, &offers) {
+        let values = with_room(values, &changed);
         put(viewer, changed.make(kind, values), key(changed.field), |light| Edit::Light(id, light));
+    }
+    let flown = viewer.flown.as_ref().is_some_and(|flown| flown.id == id);
+    if ui.button(if flown { "Leave it here" } else { "Look through" }).clicked() {
+        if flown { fly::end(viewer) } else { fly::begin(viewer, id) }
+    }
+}
+
+/// Values in which the other angle of a cone makes room for the one that is changed.
+fn with_room(values: Values, changed: &Changed) -> Values {
+    let Some(Value::Number(angle)) = changed.value else { return values };
+    let (other, is_passed): (&'static str, fn(f64, f64) -> bool) = match changed.field {
+        "inner" => ("outer", |inner, outer| inner > outer),
+        "outer" => ("inner", |outer, inner| outer < inner),
+        _ => return values,
+    };
+    match values.get(other) {
+        Some(Value::Number(now)) if is_passed(angle, *now) => values.with(other, Value::Number(angle)),
+        _ => values,
     }
 }
 
@@ -125,9 +145,12 @@ fn camera(ui: &mut Ui, viewer: &mut Viewer, id: EntityId) {
         if ui.button("Look through").clicked() {
             viewer.adopt(Some(id));
         }
+        if ui.button("Fly").on_hover_text("Look through it, and take it along.").clicked() {
+            fly::begin(viewer, id);
+        }
         if ui.button("Set to this view").clicked() {
             let outer = viewer.document.scene().world_placement(id).unwrap_or_default();
-            put(viewer, viewer.camera.placed(&outer.inverse()), key("view"), |camera| {
+            put(viewer, fly::tidy_view(viewer, &camera, &outer), key("view"), |camera| {
                 Edit::Camera(id, camera)
             });
             viewer.document.end_step();
@@ -139,8 +162,32 @@ fn placed(ui: &mut Ui, viewer: &mut Viewer, id: EntityId) {
     let Some(now) = viewer.document.scene().placement(id) else { return };
     let key = step_key("placement", id.index(), "");
     egui::CollapsingHeader::new("Placement").default_open(true).show(ui, |ui| {
+        ui.weak("where it goes after its own fields").on_hover_text(
+            "The fields above say where it is by itself. After that it is scaled, then turned, then moved, as the lines \
+             scale, turn and move of the file say.",
+        );
         if let Some(placement) = placement::show(ui, key, &now) {
             viewer.edit_on(Edit::Placement(id, placement), key);
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_angle_of_a_cone_pushes_the_other() {
+        let values = || Values::new().with("inner", Value::Number(0.4)).with("outer", Value::Number(0.8));
+        let pushed = |field, to| {
+            let changed = Changed { field, value: Some(Value::Number(to)) };
+            let values = with_room(values(), &changed);
+            ["inner", "outer"].map(|name| values.get(name).cloned())
+        };
+        let angles = |inner, outer| [Some(Value::Number(inner)), Some(Value::Number(outer))];
+        assert_eq!(pushed("inner", 1.0), angles(0.4, 1.0));
+        assert_eq!(pushed("outer", 0.2), angles(0.2, 0.8));
+        assert_eq!(pushed("inner", 0.5), angles(0.4, 0.8));
+        assert_eq!(pushed("falloff", 9.0), angles(0.4, 0.8));
+    }
 }

@@ -2,19 +2,24 @@
 //! keys, the report of an error, and what is asked before work is lost.
 
 mod add;
+mod banner;
 #[cfg(test)]
 mod clicks;
+mod color;
 mod dialogs;
 mod fields;
 mod files;
 mod help;
 mod inspector;
 mod kind;
+mod looking;
 mod material;
 mod menus;
+mod number;
 mod paint;
 mod placement;
 mod question;
+mod readout;
 mod switches;
 mod textures;
 mod theme;
@@ -25,6 +30,7 @@ use egui::{Frame, Margin, Panel, Rect, Ui};
 
 use crate::viewer::Viewer;
 
+pub(crate) use number::short;
 pub(crate) use theme::set_theme;
 
 /// Width of the panel in points.
@@ -46,7 +52,8 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, status: &str) -> Rect {
             .show_inside(ui, |ui| side(ui, viewer));
     }
     dialogs::status(ui, viewer, status, room);
-    dialogs::turntable(ui, viewer, room);
+    banner::show(ui, viewer, room);
+    readout::show(ui, viewer, room);
     dialogs::error(ui, viewer, room);
     dialogs::failure(ui, viewer, room);
     help::show(ui, viewer, whole);
@@ -69,6 +76,7 @@ fn side(ui: &mut Ui, viewer: &mut Viewer) {
     });
     menus::bar(ui, viewer);
     ui.add_space(4.0);
+    number::set_scene_size(ui, viewer.everything().size().length());
     let third = (0.34 * ui.available_height()).max(80.0);
     tree::show(ui, viewer, third);
     ui.separator();

@@ -2,8 +2,9 @@
 
 use catoptra_core::Placement;
 use catoptra_core::glam::{DQuat, DVec3, EulerRot};
-use egui::{DragValue, Ui};
+use egui::Ui;
 
+use super::number::Pace;
 use super::widgets;
 
 /// The order in which the three angles are applied.
@@ -14,24 +15,17 @@ pub(super) fn show(ui: &mut Ui, salt: u64, placement: &Placement) -> Option<Plac
     let mut changed = None;
     egui::Grid::new(("placement", salt)).num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
         ui.label("move").on_hover_text("metres along x, y and z");
-        if let Some(to) = widgets::vector(ui, placement.translation()) {
+        if let Some(to) = widgets::vector(ui, placement.translation(), Pace::Scene) {
             changed = Placement::new(placement.rotation(), to, placement.scale()).ok();
         }
         ui.end_row();
         ui.label("turn").on_hover_text("degrees about x, y and z");
-        if let Some(degrees) = widgets::vector(ui, degrees(placement.rotation())) {
+        if let Some(degrees) = widgets::vector(ui, degrees(placement.rotation()), Pace::Angle) {
             changed = Placement::new(rotation(degrees), placement.translation(), placement.scale()).ok();
         }
         ui.end_row();
         ui.label("scale").on_hover_text("alike in every direction");
-        let mut scale = placement.scale();
-        let speed = 0.005 * scale;
-        let widget = DragValue::new(&mut scale)
-            .speed(speed)
-            .max_decimals(4)
-            .range(1e-6..=1e9)
-            .clamp_existing_to_range(false);
-        if ui.add(widget).changed() {
+        if let Some(scale) = widgets::number(ui, placement.scale(), "", Pace::Value) {
             changed = Placement::new(placement.rotation(), placement.translation(), scale).ok();
         }
         ui.end_row();

@@ -6,6 +6,7 @@ use catoptra_tracer::{Display, backends};
 use egui::{ComboBox, Slider, Ui};
 
 use super::fields::{self, Offers, step_key};
+use super::looking;
 use crate::input::Mode;
 use crate::viewer::Viewer;
 
@@ -14,8 +15,18 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     egui::CollapsingHeader::new("View").default_open(true).show(ui, |ui| {
         mode(ui, viewer);
         egui::Grid::new("view").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
+            ui.label("show");
+            looking::pass(ui, viewer);
+            ui.end_row();
             ui.label("display");
             display(ui, viewer);
+            ui.end_row();
+            ui.label("exposure");
+            looking::exposure(ui, viewer);
+            ui.end_row();
+            ui.label("sees")
+                .on_hover_text("From the lower to the upper edge of this view; a camera has its own.");
+            looking::extent(ui, viewer);
             ui.end_row();
             ui.label("backend");
             backend(ui, viewer);
@@ -24,8 +35,11 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
             frame_time(ui, viewer);
             ui.end_row();
         });
+        looking::tools(ui, viewer);
+        looking::clipped(ui, viewer);
         overlays(ui, viewer);
     });
+    looking::comparison(ui, viewer);
     egui::CollapsingHeader::new("Scene").default_open(true).show(ui, |ui| settings(ui, viewer));
 }
 

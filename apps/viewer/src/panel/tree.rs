@@ -8,6 +8,7 @@ use catoptra_core::scene::{EntityId, Flags, Role, Scene};
 use egui::{Id, ScrollArea, Sense, TextEdit, Ui};
 
 use super::{menus, theme};
+use crate::lighting;
 use crate::making;
 use crate::selection::Picking;
 use crate::viewer::Viewer;
@@ -150,6 +151,9 @@ fn show_row(ui: &mut Ui, viewer: &mut Viewer, rows: &[Row], row: &Row) {
                 () => viewer.select(if alone { None } else { Some(row.id) }),
             }
         }
+        if lighting::shines(viewer.document.scene(), row.id) {
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| lights(ui, viewer, row.id));
+        }
     });
 }
 
@@ -173,6 +177,23 @@ fn range(viewer: &Viewer, rows: &[Row], to: EntityId) -> Vec<EntityId> {
         ids.reverse();
     }
     ids
+}
+
+/// Buttons that let a light shine alone, or leave it dark.
+fn lights(ui: &mut Ui, viewer: &mut Viewer, id: EntityId) {
+    let lighting = &viewer.lighting;
+    let (muted, solo) = (lighting.is_muted(id), lighting.is_solo(id));
+    let small = |text| egui::RichText::new(text).small();
+    ui.add_space(12.0);
+    let mute = ui.selectable_label(muted, small("M")).on_hover_text("Mute: leave it dark in this window.");
+    if mute.clicked() {
+        viewer.light(|lighting| lighting.toggle_mute(&[id]));
+    }
+    let alone =
+        ui.selectable_label(solo, small("S")).on_hover_text("Solo: let it shine alone in this window.");
+    if alone.clicked() {
+        viewer.light(|lighting| lighting.toggle_solo(&[id]));
+    }
 }
 
 /// The sign of a row's role; a group's is a triangle that opens and closes it.

@@ -1,18 +1,12 @@
-//! By what is one value shown and changed? Sliders, numbers, colours, boxes and lists.
+//! By what is one value shown and changed? Sliders, numbers, amounts of light, boxes and lists.
 
 use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::{Rgb, Rows};
 use egui::{ComboBox, DragValue, Slider, SliderClamping, Ui};
 
-/// The share of a number's size that one pixel of dragging changes.
-const DRAG_SPEED: f64 = 0.005;
-
-/// Four digits of a number, in powers of ten where it is huge or tiny.
-pub(super) fn short(v: f64) -> String {
-    let digits = format!("{v:.3e}");
-    let rounded: f64 = digits.parse().unwrap_or(v);
-    if v != 0.0 && !(1e-3..1e6).contains(&v.abs()) { digits } else { rounded.to_string() }
-}
+use super::color;
+use super::number::{self, Pace};
+use crate::arithmetic;
 
 /// A number within a range.
 pub(super) fn slider(
@@ -24,102 +18,83 @@ pub(super) fn slider(
     let mut v = value;
     let widest = if *range.end() > 1.0 { 1 } else { 3 };
     let clamping = SliderClamping::Edits;
-    ui.add(Slider::new(&mut v, range).suffix(unit).max_decimals(widest).clamping(clamping))
-        .changed()
-        .then_some(v)
+    let slider = Slider::new(&mut v, range)
+        .suffix(unit)
+        .max_decimals(widest)
+        .clamping(clamping)
+        .custom_parser(arithmetic::value)
+        .update_while_editing(false);
+    ui.add(slider).changed().then_some(v)
 }
 
 /// A whole number.
 pub(super) fn count(ui: &mut Ui, value: f64) -> Option<f64> {
     let mut v = value;
-    ui.add(
-        DragValue::new(&mut v)
-            .speed(0.05)
-            .fixed_decimals(0)
-            .range(0.0..=f64::from(u32::MAX))
-            .clamp_existing_to_range(false),
-    )
-    .changed()
-    .then_some(v.round())
+    let widget = DragValue::new(&mut v)
+        .speed(0.05)
+        .fixed_decimals(0)
+        .range(0.0..=f64::from(u32::MAX))
+        .clamp_existing_to_range(false)
+        .custom_parser(arithmetic::value)
+        .update_while_editing(false);
+    ui.add(widget).changed().then_some(v.round())
 }
 
-fn speed(value: f64) -> f64 {
-    (value.abs() * DRAG_SPEED).max(0.01)
-}
-
-/// Any number, or any above 0.
-pub(super) fn number(ui: &mut Ui, value: f64, unit: &str, positive: bool) -> Option<f64> {
-    let mut v = value;
+/// Any number; what the part does not take, it refuses.
+pub(super) fn number(ui: &mut Ui, value: f64, unit: &str, pace: Pace) -> Option<f64> {
     let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    let mut widget = DragValue::new(&mut v).speed(speed(value)).max_decimals(4).suffix(suffix);
-    if positive {
-        widget = widget.range(1e-6..=f64::MAX).clamp_existing_to_range(false);
-    }
-    ui.add(widget).changed().then_some(v)
+    number::edit(ui, value, pace, |ui, widget| ui.add(widget.suffix(suffix)))
 }
 
 /// Three numbers in a row.
-pub(super) fn vector(ui: &mut Ui, value: DVec3) -> Option<DVec3> {
-    numbers(ui, value.to_array()).map(DVec3::from_array)
+pub(super) fn vector(ui: &mut Ui, value: DVec3, pace: Pace) -> Option<DVec3> {
+    numbers(ui, value.to_array(), pace).map(DVec3::from_array)
 }
 
 /// Two numbers in a row.
 pub(super) fn pair(ui: &mut Ui, value: DVec2) -> Option<DVec2> {
-    numbers(ui, value.to_array()).map(DVec2::from_array)
+    numbers(ui, value.to_array(), Pace::Value).map(DVec2::from_array)
 }
 
 /// Rows of numbers, one below the other.
 pub(super) fn rows(ui: &mut Ui, value: &Rows) -> Option<Rows> {
     let mut rows: Vec<Vec<f64>> = value.iter().map(<[f64]>::to_vec).collect();
     let mut changed = false;
-    ui.vertical(|ui| rows.iter_mut().for_each(|row| changed |= drag_all(ui, row)));
+    ui.vertical(|ui| rows.iter_mut().for_each(|row| changed |= drag_all(ui, row, Pace::Scene)));
     changed.then(|| rows.iter().fold(Rows::default(), |all, row| all.with(row)))
 }
 
-fn numbers<const N: usize>(ui: &mut Ui, value: [f64; N]) -> Option<[f64; N]> {
+fn numbers<const N: usize>(ui: &mut Ui, value: [f64; N], pace: Pace) -> Option<[f64; N]> {
     let mut v = value;
-    drag_all(ui, &mut v).then_some(v)
+    drag_all(ui, &mut v, pace).then_some(v)
 }
 
 /// Numbers side by side; whether one was changed.
-fn drag_all(ui: &mut Ui, numbers: &mut [f64]) -> bool {
+fn drag_all(ui: &mut Ui, numbers: &mut [f64], pace: Pace) -> bool {
     let mut changed = false;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
         for part in numbers {
-            let speed = speed(*part);
-            let widget = DragValue::new(part).speed(speed).max_decimals(3);
-            changed |= ui.add_sized([49.0, ui.spacing().interact_size.y], widget).changed();
+            let size = [49.0, ui.spacing().interact_size.y];
+            if let Some(new) = number::edit(ui, *part, pace, |ui, widget| ui.add_sized(size, widget)) {
+                *part = new;
+                changed = true;
+            }
         }
     });
     changed
 }
 
-/// A reflectance.
-pub(super) fn color(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
-    let mut rgb = [value.r as f32, value.g as f32, value.b as f32];
-    let changed = ui.color_edit_button_rgb(&mut rgb).changed();
-    let channel = |v: f32| f64::from(v.clamp(0.0, 1.0));
-    changed.then(|| Rgb::new(channel(rgb[0]), channel(rgb[1]), channel(rgb[2])))
-}
-
 /// An amount of light: its strongest channel as a number, and its colour relative to that.
 pub(super) fn quantity(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
-    let strength = value.r.max(value.g).max(value.b);
-    let tint = if strength > 0.0 { value * (1.0 / strength) } else { Rgb::WHITE };
+    let strength = value.max_channel();
+    let tint = if strength > 0.0 { value * (1.0 / strength) } else { Rgb::BLACK };
     ui.horizontal(|ui| {
-        let tint = color(ui, tint).map(|tint| (tint, strength));
-        let mut s = strength;
-        let widget = DragValue::new(&mut s)
-            .speed(speed(strength))
-            .max_decimals(4)
-            .range(0.0..=f64::MAX)
-            .clamp_existing_to_range(false);
-        let strong = ui.add(widget).changed();
-        tint.map(|(tint, strength)| tint * strength).or_else(|| {
-            let tint = if strength > 0.0 { value * (1.0 / strength) } else { Rgb::WHITE };
-            strong.then(|| tint * s)
-        })
+        // Of no light one picks a colour as strong as it is shown.
+        let picked = color::swatch(ui, tint).map(|tint| tint * if strength > 0.0 { strength } else { 1.0 });
+        let typed = number::edit(ui, strength, Pace::Value, |ui, widget| ui.add(widget));
+        let tint = if strength > 0.0 { tint } else { Rgb::WHITE };
+        typed.filter(|typed| *typed >= 0.0).map(|typed| tint * typed).or(picked)
     })
     .inner
 }
@@ -141,18 +116,4 @@ pub(super) fn choice(ui: &mut Ui, name: &str, words: &[&str], now: &str) -> Opti
         }
     });
     picked.filter(|word| word != now)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        for (v, told) in
-            [(0.0, "0"), (12.566_370_6, "12.57"), (100.0, "100"), (2.5e-7, "2.500e-7"), (1e9, "1.000e9")]
-        {
-            assert_eq!(short(v), told);
-        }
-    }
 }

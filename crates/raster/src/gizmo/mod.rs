@@ -2,6 +2,7 @@
 //!
 //! A new gizmo is one new file here and one line in [`GIZMOS`].
 
+mod aim;
 mod arrow;
 mod axes;
 mod bounds;
@@ -9,6 +10,7 @@ mod directional_light;
 mod frustum;
 mod grid;
 mod light_cone;
+mod manipulator;
 mod mark;
 mod point_light;
 mod surface_light;
@@ -42,6 +44,8 @@ pub(crate) const GIZMOS: &[Gizmo] = &[
     directional_light::GIZMO,
     point_light::GIZMO,
     surface_light::GIZMO,
+    aim::GIZMO,
+    manipulator::GIZMO,
 ];
 
 /// For gizmos that cannot be clicked.
@@ -74,6 +78,7 @@ mod tests {
             OverlayStyle { cones: true, ..none },
             OverlayStyle { selection: true, ..none },
             OverlayStyle { cameras: true, ..none },
+            OverlayStyle { manipulator: Some(sample::manipulator()), ..none },
         ];
         assert_eq!(painted(none), 0);
         for gizmo in GIZMOS {

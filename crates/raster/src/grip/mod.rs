@@ -3,6 +3,9 @@
 mod rectangle;
 mod rim;
 mod ring;
+mod target;
+
+pub(crate) use target::{aimed, line as aim_line};
 
 use crate::projection::Projection;
 use crate::stage::{PlacedLight, Stage};
@@ -47,6 +50,8 @@ pub enum Handle {
     },
     /// The outline of a sphere light.
     Outline,
+    /// What a light aims at: dragged by [`Overlay::aim`](crate::Overlay::aim), as pictures know what stands there.
+    Target,
 }
 
 /// One of the two rings of a spot light's cone.
@@ -94,7 +99,8 @@ pub(crate) fn grip_at(stage: &Stage<'_>, x: f64, y: f64) -> Option<Grip> {
         } else {
             None
         };
-        for (off, handle) in rings.into_iter().chain(sizes) {
+        let target = if stage.style.lights { target::handle(stage, placed, (x, y)) } else { None };
+        for (off, handle) in rings.into_iter().chain(sizes).chain(target) {
             let better = best.is_none_or(|(selected, least, _)| (!placed.selected, off) < (!selected, least));
             if off <= reach && better {
                 best = Some((placed.selected, off, Grip { light: placed.id, handle }));
@@ -116,6 +122,7 @@ pub(crate) fn drag(stage: &Stage<'_>, grip: Grip, x: f64, y: f64) -> Option<Resu
         Handle::Corner(ends) => rectangle::drag_corner(&held, ends),
         Handle::Rim { azimuth } => rim::drag_disk(&held, azimuth),
         Handle::Outline => rim::drag_ball(&held),
+        Handle::Target => None,
     }
 }
 
@@ -138,7 +145,11 @@ impl Held<'_> {
 }
 
 /// Pixels from a pointer to a line through points of the world, its nearest point, and on which piece it lies.
-fn nearest_on(view: &Projection, line: &[DVec3], pointer: (f64, f64)) -> Option<(f64, DVec3, usize)> {
+pub(crate) fn nearest_on(
+    view: &Projection,
+    line: &[DVec3],
+    pointer: (f64, f64),
+) -> Option<(f64, DVec3, usize)> {
     let pieces = line.windows(2).enumerate().filter_map(|(piece, ends)| {
         let [from, to] = view.segment(ends[0], ends[1])?;
         let (along, length2) = ((to.x - from.x, to.y - from.y), from.pixels_to(to).powi(2));
@@ -153,7 +164,11 @@ fn nearest_on(view: &Projection, line: &[DVec3], pointer: (f64, f64)) -> Option<
 
 /// How far along a line, in units of `direction`, it comes nearest to the ray through the pointer; `None` where that is
 /// behind the eye, or the line is seen end-on.
-fn along(view: &Projection, (start, direction): (DVec3, DVec3), (x, y): (f64, f64)) -> Option<f64> {
+pub(crate) fn along(
+    view: &Projection,
+    (start, direction): (DVec3, DVec3),
+    (x, y): (f64, f64),
+) -> Option<f64> {
     let ray = view.direction(x, y);
     let across = direction.cross(ray);
     let from_eye = start - view.eye();

@@ -35,11 +35,16 @@ fn turn(rotation: DQuat) -> Option<String> {
         return None;
     }
     let angle = 2.0 * axis.length().atan2(rotation.w);
-    let axis = (axis / longest).to_array().map(number).join(" ");
+    let axis = axis / longest;
+    let round = axis.map(|part| (part * AXIS_PARTS).round() / AXIS_PARTS);
+    let axis = if reads_back(&tidy(angle), round, rotation) { round } else { axis };
     let (exact, near) = (degrees(angle), tidy(angle));
-    let text = if exact.len() > near.len() + 3 && reads_back(&near, rotation) { near } else { exact };
-    Some(format!("turn {text} {axis}"))
+    let text = if exact.len() > near.len() + 3 && reads_back(&near, axis, rotation) { near } else { exact };
+    Some(format!("turn {text} {}", axis.to_array().map(number).join(" ")))
 }
+
+/// Parts of an axis are written in this many parts of the longest, where that is what they were.
+const AXIS_PARTS: f64 = 1e10;
 
 /// The angle in degrees to 12 digits: what a person has probably written.
 fn tidy(angle: f64) -> String {
@@ -47,10 +52,10 @@ fn tidy(angle: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// Whether turning by `degrees` about the axis of `rotation` is that rotation, to within rounding.
-fn reads_back(degrees: &str, rotation: DQuat) -> bool {
+/// Whether turning by `degrees` about an axis is a rotation, to within rounding.
+fn reads_back(degrees: &str, axis: DVec3, rotation: DQuat) -> bool {
     let angle = degrees.parse::<f64>().map_or(f64::NAN, f64::to_radians);
-    let again = DQuat::from_axis_angle(rotation.xyz().normalize(), angle);
+    let again = DQuat::from_axis_angle(axis.normalize(), angle);
     (again - rotation).length() <= 4.0 * f64::EPSILON
 }
 
@@ -106,4 +111,23 @@ fn move_between(from: &Placement, to: &Placement) -> Option<DVec3> {
     // Subtraction rounds: the move must lead exactly there, or it is spelled anew from the origin.
     let there = from.moved(by).ok()?;
     (there.translation() == to.translation()).then_some(by)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_about_a_round_axis_is_spelled_by_round_numbers() {
+        let axis = DVec3::new(0.1, 1.0, 0.0026);
+        let rotation = DQuat::from_axis_angle(axis.normalize(), 30.15_f64.to_radians());
+        assert_eq!(turn(rotation).unwrap(), "turn 30.15 0.1 1 0.0026");
+        let other =
+            DQuat::from_axis_angle(DVec3::new(0.123_456_789_012_3, 1.0, 0.7).normalize(), 0.777_777_777_7);
+        let text = turn(other).unwrap();
+        let numbers: Vec<f64> = text.split(' ').skip(1).map(|word| word.parse().unwrap()).collect();
+        let axis = DVec3::new(numbers[1], numbers[2], numbers[3]);
+        let again = DQuat::from_axis_angle(axis.normalize(), numbers[0].to_radians());
+        assert!((again - other).length() <= 4.0 * f64::EPSILON, "{text}");
+    }
 }

@@ -233,7 +233,7 @@ impl TorusRow {
 
     /// Points as seen from the middle of the tube beside them.
     #[inline(always)]
-    fn from_tube<S: Simd>(&self, s: S, point: D3<S>) -> D3<S> {
+    fn seen_from_tube<S: Simd>(&self, s: S, point: D3<S>) -> D3<S> {
         let axis = splat_wide(s, self.axis);
         let from = point - splat_wide(s, self.center);
         let height = from.dot(axis);
@@ -260,7 +260,7 @@ impl Kernel for TorusRow {
 
     #[inline(always)]
     fn off<S: Simd>(&self, s: S, hit: &impl NearHit<S>) -> (F<S>, F<S>) {
-        let from_tube = self.from_tube(s, hit.near());
+        let from_tube = self.seen_from_tube(s, hit.near());
         let off = from_tube.dot(from_tube) - D::splat(s, self.radii[1] * self.radii[1]);
         let slope = narrow3(from_tube).dot(hit.direction());
         (off.narrow(), slope + slope)
@@ -268,7 +268,7 @@ impl Kernel for TorusRow {
 
     #[inline(always)]
     fn normal<S: Simd>(&self, s: S, _hit: &impl NearHit<S>, point: D3<S>) -> D3<S> {
-        self.from_tube(s, point).scale(D::splat(s, 1.0 / self.radii[1]))
+        self.seen_from_tube(s, point).scale(D::splat(s, 1.0 / self.radii[1]))
     }
 
     /// Of all that any torus may have.

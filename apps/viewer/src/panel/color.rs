@@ -1,0 +1,116 @@
+//! How is a colour shown and changed? A swatch, and its sRGB digits as other programs give them, or its linear numbers as the
+//! file has them.
+
+use catoptra_core::{Rgb, srgb_decoded, srgb_encoded};
+use egui::{Id, TextEdit, Ui};
+
+use crate::arithmetic;
+
+/// Width of the digits, in points.
+const WIDTH: f32 = 58.0;
+
+/// A reflectance.
+pub(super) fn edit(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
+    ui.horizontal(|ui| {
+        let picked = swatch(ui, value);
+        digits(ui, value).or(picked)
+    })
+    .inner
+}
+
+/// A swatch that opens a palette.
+pub(super) fn swatch(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
+    let mut rgb = [value.r as f32, value.g as f32, value.b as f32];
+    let [r, g, b] = value.to_array().map(super::short);
+    let response = ui.color_edit_button_rgb(&mut rgb).on_hover_text(format!("linear {r} {g} {b}"));
+    let channel = |v: f32| f64::from(v.clamp(0.0, 1.0));
+    response.changed().then(|| Rgb::new(channel(rgb[0]), channel(rgb[1]), channel(rgb[2])))
+}
+
+/// The digits, to be typed.
+fn digits(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
+    let id: Id = ui.make_persistent_id("digits");
+    let now = hex(value);
+    let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| now.clone());
+    let field = TextEdit::singleline(&mut text).id(id).desired_width(WIDTH).font(egui::TextStyle::Small);
+    let tip = "sRGB digits such as #c86432, or three linear numbers as in the file, such as 0.58 0.13 0.03.";
+    let response = ui.add(field).on_hover_text(tip);
+    if response.gained_focus() {
+        // What is typed takes the place of all that stands there.
+        let mut state = egui::text_edit::TextEditState::load(ui.ctx(), id).unwrap_or_default();
+        let all = egui::text::CCursorRange::two(
+            egui::text::CCursor::new(0),
+            egui::text::CCursor::new(text.chars().count()),
+        );
+        state.cursor.set_char_range(Some(all));
+        state.store(ui.ctx(), id);
+    }
+    if response.has_focus() {
+        ui.data_mut(|data| data.insert_temp(id, text));
+        return None;
+    }
+    ui.data_mut(|data| data.remove_temp::<String>(id));
+    let given_up = ui.input(|input| input.key_pressed(egui::Key::Escape));
+    if response.lost_focus() && !given_up && text != now { parsed(&text) } else { None }
+}
+
+/// A colour by its sRGB digits, two for each of red, green and blue.
+fn hex(color: Rgb) -> String {
+    let [r, g, b] = color.to_array().map(|v| (srgb_encoded(v.clamp(0.0, 1.0)) * 255.0).round() as u8);
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// The colour that a text stands for: six or three sRGB digits, or three linear numbers, or one for a grey.
+fn parsed(text: &str) -> Option<Rgb> {
+    let text = text.trim();
+    let digits = text.strip_prefix('#').unwrap_or(text);
+    let is_hex = digits.is_ascii() && digits.chars().all(|c| c.is_ascii_hexdigit());
+    let wide: String = match digits.len() {
+        6 if is_hex => digits.to_owned(),
+        3 if is_hex && text.starts_with('#') => digits.chars().flat_map(|c| [c, c]).collect(),
+        _ => return linear(text),
+    };
+    let channel = |at: usize| {
+        let byte = u8::from_str_radix(wide.get(at..at + 2)?, 16).ok()?;
+        Some(srgb_decoded(f64::from(byte) / 255.0))
+    };
+    Some(Rgb::new(channel(0)?, channel(2)?, channel(4)?))
+}
+
+fn linear(text: &str) -> Option<Rgb> {
+    let numbers: Vec<f64> = text
+        .split(|c: char| c.is_whitespace() || c == ',')
+        .filter(|part| !part.is_empty())
+        .map(|part| arithmetic::value(part).filter(|v| (0.0..=1.0).contains(v)))
+        .collect::<Option<_>>()?;
+    match numbers[..] {
+        [grey] => Some(Rgb::grey(grey)),
+        [r, g, b] => Some(Rgb::new(r, g, b)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_come_back_as_they_were() {
+        for text in ["#c86432", "#000000", "#ffffff", "#010203"] {
+            assert_eq!(hex(parsed(text).unwrap()), text);
+        }
+        assert_eq!(parsed("c86432"), parsed("#c86432"));
+        assert_eq!(parsed("#fff"), Some(Rgb::WHITE));
+    }
+
+    #[test]
+    fn linear_numbers_are_taken_as_the_file_has_them() {
+        assert_eq!(parsed("0.5 0.25 1"), Some(Rgb::new(0.5, 0.25, 1.0)));
+        assert_eq!(parsed("0.5, 1/4, 1"), Some(Rgb::new(0.5, 0.25, 1.0)));
+        assert_eq!(parsed("0.5"), Some(Rgb::grey(0.5)));
+        assert_eq!(parsed("#808080").map(|c| (c.r * 1000.0).round()), Some(216.0));
+        for text in ["", "#12", "#ggg", "red", "1 2 3", "0.1 0.2", "#12345", "0.1 0.2 0.3 0.4"] {
+            assert_eq!(parsed(text), None, "{text}");
+        }
+    }
+}
