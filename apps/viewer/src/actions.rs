@@ -40,14 +40,7 @@ pub(crate) fn run(viewer: &mut Viewer, command: Command) {
             let camera = camera_control::step(&viewer.camera, f64::from(right) * STEP, f64::from(up) * STEP);
             viewer.look(camera);
         }
-        Command::ToggleMode => {
-            viewer.settings.mode = viewer.settings.mode.other();
-            viewer.notify(format!(
-                "{}: drag to {}",
-                viewer.settings.mode.name(),
-                dragging(viewer.settings.mode)
-            ));
-        }
+        Command::ToggleMode => toggle_mode(viewer),
         Command::ToggleOverlays => {
             viewer.shown.overlays = !viewer.shown.overlays;
             viewer.stale.overlay = true;
@@ -117,6 +110,12 @@ fn fly_selected(viewer: &mut Viewer) {
         Some(id) => fly::begin(viewer, id),
         None => viewer.notify("select a light or a camera first"),
     }
+}
+
+fn toggle_mode(viewer: &mut Viewer) {
+    let mode = viewer.settings.mode.other();
+    viewer.settings.mode = mode;
+    viewer.notify(format!("{}: drag to {}", mode.name(), dragging(mode)));
 }
 
 fn dragging(mode: Mode) -> &'static str {
