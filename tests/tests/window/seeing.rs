@@ -10,7 +10,7 @@ const LIGHTS: &str = "camera \"main\" { eye 0 0 12; target 0 0 0; fov 45 }\n\
     matte \"white\" { color 1 }\nsphere \"ball\" material=\"white\" { radius 2 }\n";
 
 /// Where the rows of the tree stand, in pixels.
-const FIRST_ROW: usize = 64;
+const FIRST_ROW: usize = 86;
 const ROW: usize = 22;
 
 /// Clicks a row of the tree.

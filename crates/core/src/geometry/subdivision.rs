@@ -79,15 +79,36 @@ fn cut(mesh: &TriangleMesh, normals: &[[f32; 3]], steps: u32) -> TriangleMesh {
     mesh.remade(cut.positions, triangles, &cut.made_of)
 }
 
+/// A place and a normal as a key: corners in which both are the same are one. Minus zero is zero.
+fn corner_of(position: [f32; 3], normal: [f32; 3]) -> Corner {
+    [position, normal].map(|v| v.map(|v| (v + 0.0).to_bits()))
+}
+
+/// Normals that fit the triangles, so that shade ends where the surface turns from the light: of each corner the sum of those
+/// round it, of one place apart where `normals` tell it apart.
+pub(super) fn fitted(positions: &[[f32; 3]], triangles: &[[u32; 3]], normals: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let key = |i: usize| corner_of(positions[i], normals[i]);
+    let mut sums: HashMap<Corner, DVec3> = HashMap::new();
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|i| widen(positions[i as usize]));
+        let flat = (b - a).cross(c - a);
+        for &corner in triangle {
+            *sums.entry(key(corner as usize)).or_default() += flat;
+        }
+    }
+    let fit = |i: usize| sums.get(&key(i)).and_then(|sum| sum.try_normalize());
+    (0..positions.len())
+        .map(|i| fit(i).map_or(normals[i], |normal| normal.to_array().map(|v| v as f32)))
+        .collect()
+}
+
 fn sides([a, b, c]: &[u32; 3]) -> [[u32; 2]; 3] {
     [[*a, *b], [*b, *c], [*c, *a]]
 }
 
 impl Cut<'_> {
     fn corner(&self, number: u32) -> Corner {
-        // Minus zero is zero.
-        let bits = |v: [f32; 3]| v.map(|v| (v + 0.0).to_bits());
-        [bits(self.mesh.positions()[number as usize]), bits(self.normals[number as usize])]
+        corner_of(self.mesh.positions()[number as usize], self.normals[number as usize])
     }
 
     /// An edge with its ends in an order that does not depend on the triangle.

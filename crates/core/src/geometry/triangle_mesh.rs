@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use super::OpenEdge;
 use super::line_tree::LineTree;
 use super::parametrization::BARYCENTRIC;
-use super::subdivision::Subdivisions;
+use super::subdivision::{Subdivisions, fitted};
 use super::tangents::Tangents;
 use super::watertight::Watertight;
 use crate::{Aabb, InvalidPart, Ray, Rgb};
@@ -161,7 +161,8 @@ impl TriangleMesh {
         triangles: Vec<[u32; 3]>,
         made_of: &[([u32; 3], [f64; 3])],
     ) -> Self {
-        let normals = self.normals.as_deref().map(|rows| blended(rows, made_of));
+        let normals =
+            self.normals.as_deref().map(|rows| fitted(&positions, &triangles, &blended(rows, made_of)));
         Self {
             bounds: Aabb::of(positions.iter().map(|&p| widen(p))),
             positions,
