@@ -3,24 +3,16 @@
 //! A tree of boxes, halved at the middle triangle along the longest side. A whole line passes by a box where some axis across
 //! both the line and a side of the box tells them apart (Gottschalk, Lin and Manocha, "OBBTree", SIGGRAPH 1996).
 
-use std::sync::OnceLock;
-
 use glam::DVec3;
 
 use super::TriangleMesh;
+use super::derived::Derived;
 use crate::numeric::UNIT_ROUNDOFF_F64;
 use crate::{Aabb, Ray};
 
 /// The tree of a mesh, built when first asked for.
-#[derive(Debug, Clone, Default)]
-pub(super) struct LineTree(OnceLock<Nodes>);
-
-/// It follows from the rest of a mesh, whether it was asked for yet or not.
-impl PartialEq for LineTree {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct LineTree(Derived<Nodes>);
 
 #[derive(Debug, Clone, Default)]
 struct Nodes {
@@ -50,7 +42,7 @@ impl LineTree {
         ray: &Ray,
         mut visit: impl FnMut(u32) -> Result<(), E>,
     ) -> Result<(), E> {
-        let tree = self.0.get_or_init(|| Nodes::of(mesh));
+        let tree = self.0.get_or_make(|| Nodes::of(mesh));
         let mut at = 0;
         while let Some(node) = tree.nodes.get(at as usize) {
             if passes_by(&node.bounds, ray) {

@@ -7,6 +7,7 @@ mod cone;
 mod crossings;
 mod cuboid;
 mod cylinder;
+mod derived;
 mod disk;
 mod ears;
 mod faceted;

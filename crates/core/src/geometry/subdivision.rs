@@ -7,11 +7,12 @@
 //! if edges across which normals jump stay straight.
 
 use std::collections::HashMap;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::TriangleMesh;
+use super::derived::Derived;
 use super::triangle_mesh::widen;
 
 /// How often triangles can be cut into four.
@@ -22,22 +23,15 @@ pub(super) const MOST_LEVELS: u32 = 5;
 const SHARE: f64 = 0.5;
 
 /// A mesh cut once, twice and so on; each made when first asked for.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Subdivisions([OnceLock<Arc<TriangleMesh>>; MOST_LEVELS as usize]);
-
-/// They follow from the rest of a mesh, whether they were asked for yet or not.
-impl PartialEq for Subdivisions {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Subdivisions([Derived<Arc<TriangleMesh>>; MOST_LEVELS as usize]);
 
 impl Subdivisions {
     /// The mesh, cut that often; `None` where it is not cut or has no normals to go by.
     pub(super) fn of(&self, mesh: &TriangleMesh, levels: u32) -> Option<Arc<TriangleMesh>> {
         let normals = mesh.normals()?;
         let made = self.0.get(levels.checked_sub(1)? as usize)?;
-        Some(Arc::clone(made.get_or_init(|| Arc::new(cut(mesh, normals, 1 << levels)))))
+        Some(Arc::clone(made.get_or_make(|| Arc::new(cut(mesh, normals, 1 << levels)))))
     }
 }
 

@@ -3,23 +3,15 @@
 //!
 //! By the algorithm that tools agree on: Mikkelsen, "Simulation of wrinkled surfaces revisited", 2008.
 
-use std::sync::OnceLock;
-
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 use glam::DVec3;
 
 use super::TriangleMesh;
+use super::derived::Derived;
 
 /// Tangents of the three corners of each triangle, with the side of the bitangent (1 or −1); made when first asked for.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Tangents(OnceLock<Vec<[[f32; 4]; 3]>>);
-
-/// They follow from the rest of a mesh, whether they were asked for yet or not.
-impl PartialEq for Tangents {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Tangents(Derived<Vec<[[f32; 4]; 3]>>);
 
 impl Tangents {
     /// Those of a triangle of the mesh, which has texture coordinates.
@@ -31,7 +23,7 @@ impl Tangents {
             let _ = generate_tangents(&mut corners);
             corners.tangents
         };
-        self.0.get_or_init(made)[triangle as usize]
+        self.0.get_or_make(made)[triangle as usize]
     }
 }
 

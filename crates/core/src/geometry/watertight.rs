@@ -5,11 +5,11 @@
 
 use std::collections::HashMap;
 use std::fmt;
-use std::sync::OnceLock;
 
 use glam::DVec3;
 
 use super::TriangleMesh;
+use super::derived::Derived;
 
 /// An edge where the surface of a mesh is not closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,20 +48,13 @@ impl fmt::Display for OpenEdge {
 }
 
 /// Whether a mesh is closed, found out when first asked for.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Watertight(OnceLock<Option<OpenEdge>>);
-
-/// It follows from the rest of a mesh, whether it was asked for yet or not.
-impl PartialEq for Watertight {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Watertight(Derived<Option<OpenEdge>>);
 
 impl Watertight {
     /// An edge where the mesh is open; `None` where it is closed.
     pub(super) fn open_edge(&self, mesh: &TriangleMesh) -> Option<OpenEdge> {
-        *self.0.get_or_init(|| open_edge(mesh))
+        *self.0.get_or_make(|| open_edge(mesh))
     }
 }
 
