@@ -115,11 +115,7 @@ impl CuboidRow {
             let facet = U::pick(by_z, z.facet(s, out, 4), facet);
             inside::End { least: at[0] - slack(at[0]), most: at[1] + slack(at[1]), facet, known: !several }
         };
-        let ends = [end(enter, M::splat(s, false)), end(leave, M::splat(s, true))];
-        let held = rays.reach.less(F::splat(s, f32::INFINITY));
-        let misses = ends[1].most.less(ends[0].least) | ends[1].most.less(F::splat(s, 0.0));
-        let crosses = ends[0].most.less(ends[1].least);
-        inside::Stretch { ends, misses: held & misses, crosses: held & crosses }
+        inside::Stretch::between(s, rays, [end(enter, M::splat(s, false)), end(leave, M::splat(s, true))])
     }
 }
 

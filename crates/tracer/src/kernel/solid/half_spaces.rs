@@ -58,10 +58,7 @@ pub(super) fn stretch<S: Simd>(s: S, planes: &[PlaneRow], rays: &Rays<S>) -> Str
     }
     let (enters, leaves) = (enters.end(s), leaves.end(s));
     let leaves = End { least: -leaves.most, most: -leaves.least, ..leaves };
-    // Beyond the numbers of f32 nothing is certain.
-    let held = rays.reach.less(F::splat(s, f32::INFINITY));
-    let misses = leaves.most.less(enters.least) | leaves.most.less(F::splat(s, 0.0));
-    Stretch { ends: [enters, leaves], misses: held & misses, crosses: held & enters.most.less(leaves.least) }
+    Stretch::between(s, rays, [enters, leaves])
 }
 
 /// From where to where lines run behind a plane, at least and at most.

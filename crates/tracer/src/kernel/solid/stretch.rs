@@ -3,6 +3,7 @@
 use catoptra_core::Lane;
 use fearless_simd::Simd;
 
+use super::super::Rays;
 use crate::lanes::{F, M, U};
 
 /// Where lines run inside a convex shape. What lies behind the beginnings of rays is not reckoned with.
@@ -69,6 +70,16 @@ impl<S: Simd> End<S> {
 }
 
 impl<S: Simd> Stretch<S> {
+    /// Between two ends; beyond the numbers of `f32` nothing is certain.
+    #[inline(always)]
+    pub(crate) fn between(s: S, rays: &Rays<S>, ends: [End<S>; 2]) -> Self {
+        let [enters, leaves] = &ends;
+        let held = rays.reach.less(F::splat(s, f32::INFINITY));
+        let misses = leaves.most.less(enters.least) | leaves.most.less(F::splat(s, 0.0));
+        let crosses = enters.most.less(leaves.least);
+        Self { ends, misses: held & misses, crosses: held & crosses }
+    }
+
     /// On which side of the shape rays are at a place.
     #[inline(always)]
     pub(super) fn sides(&self, at: &End<S>) -> Sides {
