@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use catoptra_tracer::Control;
 
-use crate::refine::{Pace, Pass, USUAL_FRAME, reduced};
+use crate::refine::{Batch, Pace, USUAL_FRAME, reduced};
 
 /// How long a first frame may take before a newer request abandons it.
 const OVERDUE: Duration = Duration::from_millis(60);
@@ -51,14 +51,14 @@ pub(crate) trait Tracing: Send + 'static {
         USUAL_FRAME
     }
 
-    /// By which passes a full frame is given more samples; none where it has all at once.
-    fn passes(_: &Self::Job) -> Vec<Pass> {
+    /// By which batches a full frame is given more samples; none where it has all at once.
+    fn batches(_: &Self::Job) -> Vec<Batch> {
         Vec::new()
     }
 
-    /// Traces a pass over the full picture, after all passes before it; `None` when it was cancelled, or where there are no
-    /// passes. What is used up goes to the spares.
-    fn add(&mut self, _: &Self::Job, _: Pass, _: &Control, _: &mut Vec<Self::Spare>) -> Option<Self::Frame> {
+    /// Traces a batch over the full picture, after all batches before it; `None` when it was cancelled, or where there are no
+    /// batches. What is used up goes to the spares.
+    fn add(&mut self, _: &Self::Job, _: Batch, _: &Control, _: &mut Vec<Self::Spare>) -> Option<Self::Frame> {
         None
     }
 }
@@ -72,8 +72,8 @@ pub(crate) struct Finished<F> {
     pub(crate) generation: u64,
     /// How many pixels each way one pixel of it stands for.
     pub(crate) divisor: u32,
-    /// The pass that gave it samples.
-    pub(crate) pass: Option<Pass>,
+    /// The batch that gave it samples.
+    pub(crate) batch: Option<Batch>,
     /// Nothing finer follows.
     pub(crate) is_last: bool,
     /// How long it took.
@@ -191,17 +191,17 @@ fn work<T: Tracing>(shared: &Shared<T>, mut tracing: T, wake: &impl Fn()) {
     while let Some((generation, request)) = next(shared) {
         let job = tracing.prepare(request);
         let (width, height) = T::size(&job);
-        let passes = T::passes(&job);
+        let batches = T::batches(&job);
         let divisors =
             pace.steps((width, height), T::frame_time(&job)).into_iter().map(|divisor| (divisor, None));
-        let steps: Vec<_> = divisors.chain(passes.into_iter().map(|pass| (1, Some(pass)))).collect();
-        for (i, &(divisor, pass)) in steps.iter().enumerate() {
+        let steps: Vec<_> = divisors.chain(batches.into_iter().map(|batch| (1, Some(batch)))).collect();
+        for (i, &(divisor, batch)) in steps.iter().enumerate() {
             let first = i == 0;
             let Some((control, mut spares)) = begin(shared, first) else { break };
             let since = Instant::now();
-            let frame = match pass {
+            let frame = match batch {
                 None => tracing.trace(&job, divisor, &control, &mut spares),
-                Some(pass) => tracing.add(&job, pass, &control, &mut spares),
+                Some(batch) => tracing.add(&job, batch, &control, &mut spares),
             };
             let took = since.elapsed();
             let Some(frame) = frame else {
@@ -211,12 +211,12 @@ fn work<T: Tracing>(shared: &Shared<T>, mut tracing: T, wake: &impl Fn()) {
                 end(shared, spares, None);
                 break;
             };
-            if pass.is_none() {
+            if batch.is_none() {
                 let (w, h) = reduced(width, height, divisor);
                 pace.record(u64::from(w) * u64::from(h), took);
             }
             let is_last = i + 1 == steps.len();
-            end(shared, spares, Some(Finished { frame, generation, divisor, pass, is_last, took }));
+            end(shared, spares, Some(Finished { frame, generation, divisor, batch, is_last, took }));
             wake();
         }
     }

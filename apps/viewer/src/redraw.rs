@@ -104,7 +104,7 @@ impl App {
             rays: finished.frame.rays,
             size: (size.width, size.height),
             divisor: finished.divisor,
-            pass: finished.pass,
+            batch: finished.batch,
             is_last: finished.is_last,
         };
         let settings = self.viewer.document.scene().settings().exposure();

@@ -1,6 +1,6 @@
 //! How coarse must a frame be to keep up with the hand, and by which steps does it become fine? Pure arithmetic:
 //! the seconds that recent pixels took decide the first divisor, and each later step halves it down to 1. A full picture
-//! that is at rest is then given more samples, pass by pass.
+//! that is at rest is then given more samples, batch by batch.
 
 use std::ops::Range;
 use std::time::Duration;
@@ -79,7 +79,7 @@ pub(crate) fn reduced(width: u32, height: u32, divisor: u32) -> (u32, u32) {
 
 /// Some more of the samples of a full picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Pass {
+pub(crate) struct Batch {
     /// Samples that each pixel has before.
     pub(crate) from: u32,
     /// Samples that each pixel has after it.
@@ -88,8 +88,8 @@ pub(crate) struct Pass {
     pub(crate) of: u32,
 }
 
-impl Pass {
-    /// The passes to `of` samples a pixel, with `stride` samples each.
+impl Batch {
+    /// The batches to `of` samples a pixel, with `stride` samples each.
     pub(crate) fn all(of: u32, stride: u32) -> Vec<Self> {
         let starts = (0..of).step_by(stride.max(1) as usize);
         starts.map(|from| Self { from, to: (from + stride.max(1)).min(of), of }).collect()
@@ -173,10 +173,10 @@ mod tests {
     #[test]
     fn passes_follow_each_other_up_to_the_last_sample() {
         for (of, stride) in [(16, 4), (10, 4), (3, 8), (5, 0), (0, 4)] {
-            let passes = Pass::all(of, stride);
-            let ranges: Vec<u32> = passes.iter().flat_map(|pass| pass.range()).collect();
+            let batches = Batch::all(of, stride);
+            let ranges: Vec<u32> = batches.iter().flat_map(|batch| batch.range()).collect();
             assert_eq!(ranges, (0..of).collect::<Vec<u32>>());
-            let last = passes.iter().filter(|pass| pass.is_last()).count();
+            let last = batches.iter().filter(|batch| batch.is_last()).count();
             assert_eq!(last, usize::from(of > 0));
         }
     }

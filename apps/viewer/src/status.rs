@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use catoptra_core::Scene;
 use catoptra_tracer::Snapshot;
 
-use crate::refine::Pass;
+use crate::refine::Batch;
 
 /// How far back frames are counted.
 const WINDOW: Duration = Duration::from_secs(1);
@@ -25,8 +25,8 @@ pub(crate) struct FrameFigures {
     pub(crate) size: (u32, u32),
     /// How many pixels each way one of them stands for.
     pub(crate) divisor: u32,
-    /// The pass that gave it samples.
-    pub(crate) pass: Option<Pass>,
+    /// The batch that gave it samples.
+    pub(crate) batch: Option<Batch>,
     /// Nothing finer follows.
     pub(crate) is_last: bool,
 }
@@ -34,9 +34,9 @@ pub(crate) struct FrameFigures {
 impl FrameFigures {
     /// The line for a log: milliseconds, rays, size, divisor or samples a pixel, and whether it is the last for now.
     pub(crate) fn log_line(&self) -> String {
-        let step = match self.pass {
+        let step = match self.batch {
             None => format!("1/{}", self.divisor),
-            Some(Pass { to, of, .. }) => format!("samples {to}/{of}"),
+            Some(Batch { to, of, .. }) => format!("samples {to}/{of}"),
         };
         format!(
             "frame {:.2} ms {} rays {}x{} {step}{}",
@@ -68,7 +68,7 @@ impl Meter {
     pub(crate) fn asked(&mut self) {
         if let Some(last) = &mut self.last {
             last.is_last = false;
-            last.pass = None;
+            last.batch = None;
         }
     }
 
@@ -91,10 +91,10 @@ impl Meter {
 
     /// Frames per second while it moves, else how far it is refined.
     fn rate(&self, now: Instant) -> String {
-        let last = self.last.map(|last| (last.is_last, last.pass));
+        let last = self.last.map(|last| (last.is_last, last.batch));
         match (last, self.ends.front(), self.ends.back()) {
             (Some((true, _)), ..) => "at rest".to_owned(),
-            (Some((false, Some(pass))), ..) => format!("refining {}/{}", pass.to, pass.of),
+            (Some((false, Some(batch))), ..) => format!("refining {}/{}", batch.to, batch.of),
             (_, Some(first), Some(last)) if now.duration_since(*last) < REST && last > first => {
                 let seconds = last.duration_since(*first).as_secs_f64();
                 format!("{:.0} fps", (self.ends.len() - 1) as f64 / seconds)
@@ -141,7 +141,7 @@ mod tests {
         rays: 500_000,
         size: (640, 360),
         divisor: 2,
-        pass: None,
+        batch: None,
         is_last: false,
     };
 
@@ -160,12 +160,12 @@ mod tests {
     fn it_is_at_rest_only_when_nothing_finer_follows() {
         let mut meter = Meter::default();
         let (start, later) = (Instant::now(), Duration::from_secs(5));
-        let pass = |to| Some(Pass { from: to - 4, to, of: 16 });
+        let batch = |to| Some(Batch { from: to - 4, to, of: 16 });
         for (frame, told) in [
             (FRAME, "refining"),
             (FrameFigures { divisor: 1, ..FRAME }, "refining"),
-            (FrameFigures { divisor: 1, pass: pass(4), ..FRAME }, "refining 4/16"),
-            (FrameFigures { divisor: 1, pass: pass(16), is_last: true, ..FRAME }, "at rest"),
+            (FrameFigures { divisor: 1, batch: batch(4), ..FRAME }, "refining 4/16"),
+            (FrameFigures { divisor: 1, batch: batch(16), is_last: true, ..FRAME }, "at rest"),
         ] {
             meter.record(frame, start);
             assert_eq!(meter.rate(start + later), told);
@@ -197,7 +197,7 @@ mod tests {
     #[test]
     fn a_log_line_is_one_line() {
         assert_eq!(FRAME.log_line(), "frame 10.00 ms 500000 rays 640x360 1/2");
-        let last = FrameFigures { pass: Some(Pass { from: 12, to: 16, of: 16 }), is_last: true, ..FRAME };
+        let last = FrameFigures { batch: Some(Batch { from: 12, to: 16, of: 16 }), is_last: true, ..FRAME };
         assert_eq!(last.log_line(), "frame 10.00 ms 500000 rays 640x360 samples 16/16 at rest");
     }
 }

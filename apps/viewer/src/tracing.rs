@@ -8,8 +8,8 @@ use catoptra_tracer::{Backend, Control, Extraction, Film, Pool, Size, Snapshot, 
 use crate::canvas::{Pixels, resize};
 use crate::frame_worker::Tracing;
 use crate::latest::Latest;
-use crate::pass::{self, Numbers, OwnShapes, Seen};
-use crate::refine::{Pass, reduced};
+use crate::pass::{Numbers, OwnShapes, Pass, Seen};
+use crate::refine::{Batch, reduced};
 
 /// All that a picture depends on.
 #[derive(Clone)]
@@ -29,7 +29,7 @@ pub(crate) struct Request {
     /// How radiance becomes colour.
     pub(crate) tone: Tone,
     /// What is shown of the scene.
-    pub(crate) pass: &'static pass::Pass,
+    pub(crate) pass: &'static Pass,
     /// The shapes of the scene before they are placed, if the pass asks for them.
     pub(crate) own: OwnShapes,
 }
@@ -55,7 +55,7 @@ pub(crate) struct Frame {
     /// How many rays it took.
     pub(crate) rays: u64,
     /// What it shows of the scene.
-    pub(crate) pass: &'static pass::Pass,
+    pub(crate) pass: &'static Pass,
     /// The numbers behind its colours, where they are false ones.
     pub(crate) numbers: Option<Numbers>,
 }
@@ -125,15 +125,15 @@ fn tile_edge(size: Size) -> u32 {
     if size.pixels() < SMALL { Film::TILE / 4 } else { Film::TILE }
 }
 
-/// The passes in which samples are added to a full picture.
-const PASSES: u32 = 16;
+/// The batches in which samples are added to a full picture.
+const BATCHES: u32 = 16;
 
 /// Pixels of the largest picture that samples are added to, a little more than of a display of 4K: a film beside the shown
 /// one is kept for that, of 20 bytes a pixel.
 const LARGEST: usize = 10_000_000;
 
-/// Samples of the smallest pass: so many lie evenly in a pixel.
-const LEAST_PASS: u32 = 4;
+/// Samples of the smallest batch: so many lie evenly in a pixel.
+const LEAST_BATCH: u32 = 4;
 
 /// Traces on a pool of threads.
 pub(crate) struct PoolTracing {
@@ -210,24 +210,24 @@ impl Tracing for PoolTracing {
         request.frame_time
     }
 
-    fn passes(Job { request, .. }: &Job) -> Vec<Pass> {
+    fn batches(Job { request, .. }: &Job) -> Vec<Batch> {
         let refined = request.view.size.pixels() <= LARGEST && request.pass.paint.is_none();
         let of = if refined { request.at_rest } else { 0 };
-        Pass::all(of, of.div_ceil(PASSES).max(LEAST_PASS))
+        Batch::all(of, of.div_ceil(BATCHES).max(LEAST_BATCH))
     }
 
-    fn add(&mut self, job: &Job, pass: Pass, control: &Control, spares: &mut Vec<Spare>) -> Option<Frame> {
+    fn add(&mut self, job: &Job, batch: Batch, control: &Control, spares: &mut Vec<Spare>) -> Option<Frame> {
         let Job { request, snapshot } = job;
-        let growing = self.growing.take().filter(|_| pass.from > 0);
+        let growing = self.growing.take().filter(|_| batch.from > 0);
         let mut film = growing.unwrap_or_else(|| room(request.view.size, spares).film);
-        let view = View { samples: pass.of, range: Some(pass.range()), ..request.view.clone() };
+        let view = View { samples: batch.of, range: Some(batch.range()), ..request.view.clone() };
         let traced = render(request.backend, snapshot, &view, &mut film, &self.pool, control);
         let pixels = spares.pop().map(|spare| spare.pixels).unwrap_or_default();
         let Ok(stats) = traced else {
             spares.push(Spare { film, pixels });
             return None;
         };
-        if !pass.is_last() {
+        if !batch.is_last() {
             self.growing = Some(film.clone());
         }
         self.painted(job, &view, (film, pixels), stats.rays.total(), (control, spares))

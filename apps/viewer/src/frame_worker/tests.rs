@@ -43,19 +43,19 @@ impl Tracing for Steered {
         self.wait((*request, divisor), control)
     }
 
-    fn passes(request: &u32) -> Vec<Pass> {
-        Pass::all(if *request == FINE { 8 } else { 0 }, 4)
+    fn batches(request: &u32) -> Vec<Batch> {
+        Batch::all(if *request == FINE { 8 } else { 0 }, 4)
     }
 
     /// A frame with the number of samples, in hundreds, in the place of the divisor.
     fn add(
         &mut self,
         request: &u32,
-        pass: Pass,
+        batch: Batch,
         control: &Control,
         _: &mut Vec<(u32, u32)>,
     ) -> Option<(u32, u32)> {
-        self.wait((*request, 100 * pass.to), control)
+        self.wait((*request, 100 * batch.to), control)
     }
 }
 
@@ -129,8 +129,8 @@ fn a_full_picture_is_given_its_passes_and_only_then_is_at_rest() {
     let mut steps = Vec::new();
     loop {
         bench.begun();
-        let Finished { frame, divisor, pass, is_last, .. } = bench.finished();
-        assert_eq!(pass.is_some(), frame.1 >= 100);
+        let Finished { frame, divisor, batch, is_last, .. } = bench.finished();
+        assert_eq!(batch.is_some(), frame.1 >= 100);
         steps.push((frame.1, divisor));
         if is_last {
             break;

@@ -1,4 +1,4 @@
-//! Does a request come to its picture, whole, pass by pass, and after it was given up?
+//! Does a request come to its picture, whole, batch by batch, and after it was given up?
 
 use catoptra_core::Edit;
 
@@ -14,14 +14,14 @@ fn viewer_and_tracing() -> (Viewer, PoolTracing) {
 }
 
 #[test]
-fn passes_come_to_the_picture_of_all_samples_at_once() {
+fn batches_come_to_the_picture_of_all_samples_at_once() {
     let (viewer, mut tracing) = viewer_and_tracing();
     let job = tracing.prepare(viewer.request());
     let (control, mut spares) = (Control::default(), Vec::new());
     let mut last = None;
-    for pass in PoolTracing::passes(&job) {
-        let frame = tracing.add(&job, pass, &control, &mut spares).unwrap();
-        assert_eq!(frame.film.samples(5, 5), pass.to);
+    for batch in PoolTracing::batches(&job) {
+        let frame = tracing.add(&job, batch, &control, &mut spares).unwrap();
+        assert_eq!(frame.film.samples(5, 5), batch.to);
         last = Some(frame);
     }
     let samples = job.request.at_rest;
@@ -39,21 +39,21 @@ fn a_picture_larger_than_any_display_is_not_refined() {
     for (size, refined) in [((3840, 2160), true), ((7000, 5000), false)] {
         viewer.size = size;
         let job = tracing.prepare(viewer.request());
-        assert_eq!(!PoolTracing::passes(&job).is_empty(), refined, "{size:?}");
+        assert_eq!(!PoolTracing::batches(&job).is_empty(), refined, "{size:?}");
     }
 }
 
 #[test]
-fn an_abandoned_pass_begins_anew() {
+fn an_abandoned_batch_begins_anew() {
     let (viewer, mut tracing) = viewer_and_tracing();
     let job = tracing.prepare(viewer.request());
     let (control, mut spares) = (Control::default(), Vec::new());
-    let passes = PoolTracing::passes(&job);
-    assert!(tracing.add(&job, passes[0], &control, &mut spares).is_some());
+    let batches = PoolTracing::batches(&job);
+    assert!(tracing.add(&job, batches[0], &control, &mut spares).is_some());
     control.cancel();
-    assert!(tracing.add(&job, passes[1], &control, &mut spares).is_none());
-    let first = tracing.add(&job, passes[0], &Control::default(), &mut spares).unwrap();
-    assert_eq!(first.film.samples(5, 5), passes[0].to);
+    assert!(tracing.add(&job, batches[1], &control, &mut spares).is_none());
+    let first = tracing.add(&job, batches[0], &Control::default(), &mut spares).unwrap();
+    assert_eq!(first.film.samples(5, 5), batches[0].to);
 }
 
 #[test]
