@@ -136,6 +136,7 @@ impl App {
             ended: false,
             options,
         };
+        app.viewer.settings.max_error = app.options.max_error;
         if let Some(file) = app.options.file.clone() {
             app.open(Next::Open(file));
         }

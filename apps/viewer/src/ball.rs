@@ -7,7 +7,7 @@ use catoptra_tracer::{Control, Display, Film, Pool, Size, Snapshot, View, backen
 use egui::ColorImage;
 
 use crate::frame_worker::Tracing;
-use crate::refine::reduced;
+use crate::refine::{Step, reduced};
 
 /// Width and height of the picture, in pixels.
 pub(crate) const SIDE: u32 = 96;
@@ -116,8 +116,8 @@ impl Tracing for BallTracing {
         (job.view.size.width, job.view.size.height)
     }
 
-    fn trace(&mut self, job: &Job, divisor: u32, control: &Control, _: &mut Vec<Ball>) -> Option<Ball> {
-        let (width, height) = reduced(job.view.size.width, job.view.size.height, divisor);
+    fn trace(&mut self, job: &Job, step: Step, control: &Control, _: &mut Vec<Ball>) -> Option<Ball> {
+        let (width, height) = reduced(job.view.size.width, job.view.size.height, step.divisor);
         let view = View { size: Size { width, height }, ..job.view.clone() };
         let mut film = Film::new(view.size);
         render(backends()[0], &job.snapshot, &view, &mut film, &self.pool, control).ok()?;
@@ -136,7 +136,7 @@ mod tests {
     fn traced(scene: &Scene, id: MaterialId) -> Ball {
         let mut tracing = BallTracing::new(Pool::new(1).unwrap()).unwrap();
         let job = tracing.prepare(Sample::of(scene, id).unwrap());
-        tracing.trace(&job, 1, &Control::default(), &mut Vec::new()).unwrap()
+        tracing.trace(&job, Step::FULL, &Control::default(), &mut Vec::new()).unwrap()
     }
 
     /// The value of that colour.

@@ -1,5 +1,5 @@
 //! Who traces while the window stays awake? One thread that takes the newest request, prepares its scene, traces it coarse
-//! to fine, gives it more samples then, and leaves each finished frame where the window picks it up.
+//! to fine, refines it then until it need not be finer, and leaves each finished frame where the window picks it up.
 //!
 //! A newer request takes the place of one that still waits. It abandons refinement under way at once; a first, coarse
 //! frame is let finish (else a fast hand would never see one) unless it has overrun its time, and so is the preparation,
@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use catoptra_tracer::Control;
 
-use crate::refine::{Batch, Pace, USUAL_FRAME, reduced};
+use crate::refine::{Pace, Step, USUAL_FRAME, reduced};
 
 /// How long a first frame may take before a newer request abandons it.
 const OVERDUE: Duration = Duration::from_millis(60);
@@ -36,12 +36,12 @@ pub(crate) trait Tracing: Send + 'static {
     /// Width and height in pixels that a request asks for.
     fn size(job: &Self::Job) -> (u32, u32);
 
-    /// Traces with each pixel standing for `divisor` x `divisor`, into one of `spares` if one fits.
+    /// Traces with each pixel standing for as many as the step says, into one of `spares` if one fits.
     /// `None` when it was cancelled; what it was traced into is then among the spares.
     fn trace(
         &mut self,
         job: &Self::Job,
-        divisor: u32,
+        step: Step,
         control: &Control,
         spares: &mut Vec<Self::Spare>,
     ) -> Option<Self::Frame>;
@@ -51,15 +51,48 @@ pub(crate) trait Tracing: Send + 'static {
         USUAL_FRAME
     }
 
-    /// By which batches a full frame is given more samples; none where it has all at once.
-    fn batches(_: &Self::Job) -> Vec<Batch> {
-        Vec::new()
+    /// Whether a request has drafts.
+    fn has_drafts(_: &Self::Job) -> bool {
+        false
     }
 
-    /// Traces a batch over the full picture, after all batches before it; `None` when it was cancelled, or where there are no
-    /// batches. What is used up goes to the spares.
-    fn add(&mut self, _: &Self::Job, _: Batch, _: &Control, _: &mut Vec<Self::Spare>) -> Option<Self::Frame> {
+    /// Whether a full frame is refined.
+    fn is_refined(_: &Self::Job) -> bool {
+        false
+    }
+
+    /// Refines the full frame that was traced last for a while; `None` when it was cancelled. What is used up goes to the
+    /// spares.
+    fn refine(
+        &mut self,
+        _: &Self::Job,
+        _: &Control,
+        _: &mut Vec<Self::Spare>,
+    ) -> Option<(Self::Frame, Refined)> {
         None
+    }
+}
+
+/// How far a picture is refined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Refined {
+    /// Pixels that are as sure as they have to be.
+    pub(crate) settled: u64,
+    /// Pixels of the picture.
+    pub(crate) pixels: u64,
+    /// The most samples that a pixel has.
+    pub(crate) samples: u32,
+}
+
+impl Refined {
+    /// Whether nothing is left to refine.
+    pub(crate) fn is_done(self) -> bool {
+        self.settled >= self.pixels
+    }
+
+    /// How much is settled, in whole percent: 100 only where all is.
+    pub(crate) fn percent(self) -> u64 {
+        (100 * self.settled).checked_div(self.pixels).unwrap_or(100)
     }
 }
 
@@ -70,10 +103,10 @@ pub(crate) struct Finished<F> {
     pub(crate) frame: F,
     /// Which request it answers: the number that [`FrameWorker::submit`] gave.
     pub(crate) generation: u64,
-    /// How many pixels each way one pixel of it stands for.
-    pub(crate) divisor: u32,
-    /// The batch that gave it samples.
-    pub(crate) batch: Option<Batch>,
+    /// How fine it is.
+    pub(crate) step: Step,
+    /// How far it is refined, once it is.
+    pub(crate) refined: Option<Refined>,
     /// Nothing finer follows.
     pub(crate) is_last: bool,
     /// How long it took.
@@ -190,36 +223,72 @@ fn work<T: Tracing>(shared: &Shared<T>, mut tracing: T, wake: &impl Fn()) {
     let mut pace = Pace::default();
     while let Some((generation, request)) = next(shared) {
         let job = tracing.prepare(request);
-        let (width, height) = T::size(&job);
-        let batches = T::batches(&job);
-        let divisors =
-            pace.steps((width, height), T::frame_time(&job)).into_iter().map(|divisor| (divisor, None));
-        let steps: Vec<_> = divisors.chain(batches.into_iter().map(|batch| (1, Some(batch)))).collect();
-        for (i, &(divisor, batch)) in steps.iter().enumerate() {
-            let first = i == 0;
-            let Some((control, mut spares)) = begin(shared, first) else { break };
-            let since = Instant::now();
-            let frame = match batch {
-                None => tracing.trace(&job, divisor, &control, &mut spares),
-                Some(batch) => tracing.add(&job, batch, &control, &mut spares),
-            };
-            let took = since.elapsed();
-            let Some(frame) = frame else {
-                if first {
-                    pace.overran();
-                }
-                end(shared, spares, None);
-                break;
-            };
-            if batch.is_none() {
-                let (w, h) = reduced(width, height, divisor);
-                pace.record(u64::from(w) * u64::from(h), took);
-            }
-            let is_last = i + 1 == steps.len();
-            end(shared, spares, Some(Finished { frame, generation, divisor, batch, is_last, took }));
-            wake();
+        if trace_steps(shared, &mut tracing, &job, generation, &mut pace, wake) && T::is_refined(&job) {
+            refine(shared, &mut tracing, &job, generation, wake);
         }
     }
+}
+
+/// Traces a picture coarse to fine; `false` when that was abandoned.
+fn trace_steps<T: Tracing>(
+    shared: &Shared<T>,
+    tracing: &mut T,
+    job: &T::Job,
+    generation: u64,
+    pace: &mut Pace,
+    wake: &impl Fn(),
+) -> bool {
+    let (width, height) = T::size(job);
+    let steps = pace.steps((width, height), T::frame_time(job), T::has_drafts(job));
+    for (i, &step) in steps.iter().enumerate() {
+        let is_last = i + 1 == steps.len() && !T::is_refined(job);
+        let took = attempt(shared, i == 0, |control, spares| {
+            let frame = tracing.trace(job, step, control, spares)?;
+            Some(Finished { frame, generation, step, refined: None, is_last, took: Duration::ZERO })
+        });
+        let Some(took) = took else {
+            if i == 0 {
+                pace.overran(step.quality);
+            }
+            return false;
+        };
+        let (w, h) = reduced(width, height, step.divisor);
+        pace.record(step.quality, u64::from(w) * u64::from(h), took);
+        wake();
+    }
+    true
+}
+
+/// Refines a full picture until that is done or abandoned.
+fn refine<T: Tracing>(shared: &Shared<T>, tracing: &mut T, job: &T::Job, generation: u64, wake: &impl Fn()) {
+    let mut is_last = false;
+    while !is_last {
+        let took = attempt(shared, false, |control, spares| {
+            let (frame, refined) = tracing.refine(job, control, spares)?;
+            is_last = refined.is_done();
+            let refined = Some(refined);
+            Some(Finished { frame, generation, step: Step::FULL, refined, is_last, took: Duration::ZERO })
+        });
+        if took.is_none() {
+            return;
+        }
+        wake();
+    }
+}
+
+/// Traces a frame and leaves it to be taken, and tells how long that took; `None` when it was not begun or was cancelled.
+fn attempt<T: Tracing>(
+    shared: &Shared<T>,
+    first: bool,
+    trace: impl FnOnce(&Control, &mut Vec<T::Spare>) -> Option<Finished<T::Frame>>,
+) -> Option<Duration> {
+    let (control, mut spares) = begin(shared, first)?;
+    let since = Instant::now();
+    let finished = trace(&control, &mut spares);
+    let took = since.elapsed();
+    let is_there = finished.is_some();
+    end(shared, spares, finished.map(|finished| Finished { took, ..finished }));
+    is_there.then_some(took)
 }
 
 /// Waits for a request; `None` at the end.

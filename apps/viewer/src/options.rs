@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Parser;
 
+use crate::parts::USUAL_ERROR;
+
 /// The smallest and largest window asked for, in pixels each way.
 const SIZES: std::ops::RangeInclusive<u32> = 1..=16384;
 
@@ -19,6 +21,10 @@ pub(crate) struct Options {
     /// Size of the window's content in logical pixels: on a display of scale 2 each is two pixels wide and high.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub(crate) size: (u32, u32),
+    /// Refine the picture at rest until the standard error of what is displayed of each pixel, 0 to 1, is under E, or samples
+    /// are many; a scene's own setting comes first.
+    #[arg(long, value_name = "E", default_value_t = USUAL_ERROR, value_parser = max_error)]
+    pub(crate) max_error: f64,
     /// Write a line on stderr for each finished frame: milliseconds, rays, size.
     #[arg(long)]
     pub(crate) log_frames: bool,
@@ -32,6 +38,11 @@ fn size(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
+fn max_error(text: &str) -> Result<f64, String> {
+    let error = text.parse().ok().filter(|error: &f64| error.is_finite() && *error > 0.0);
+    error.ok_or_else(|| "an error is a number above 0".to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -41,6 +52,14 @@ mod tests {
         assert_eq!(size("1280x720"), Ok((1280, 720)));
         for wrong in ["", "x", "5", "0x5", "5x", "-3x4", "99999x2", "4x4x4"] {
             assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn an_error_is_above_zero() {
+        assert_eq!(max_error("0.01"), Ok(0.01));
+        for wrong in ["", "0", "-1", "nan", "inf", "x"] {
+            assert!(max_error(wrong).is_err(), "{wrong}");
         }
     }
 

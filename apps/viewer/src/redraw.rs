@@ -8,6 +8,7 @@ use catoptra_tracer::Size;
 use crate::app::App;
 use crate::canvas::{Fit, Pixels, Region};
 use crate::pass::PASSES;
+use crate::refine::Step;
 use crate::screen::{Fitted, Screen};
 use crate::status::{FrameFigures, REST, lamp_notes};
 use crate::tracing::Frame;
@@ -103,8 +104,8 @@ impl App {
             took: finished.took,
             rays: finished.frame.rays,
             size: (size.width, size.height),
-            divisor: finished.divisor,
-            batch: finished.batch,
+            step: finished.step,
+            refined: finished.refined,
             is_last: finished.is_last,
         };
         let settings = self.viewer.document.scene().settings().exposure();
@@ -159,7 +160,7 @@ impl App {
             return;
         }
         if let Some(shown) = &self.shown
-            && shown.divisor == 1
+            && shown.step == Step::FULL
             && shown.generation == self.asked
             && !self.viewer.stale.trace
         {
@@ -181,7 +182,7 @@ impl App {
         let frame = &shown.frame;
         screen.canvas.lay(&frame.pixels, size);
         let picture = screen.canvas.picture_mut();
-        let in_full = (shown.divisor == 1).then_some(&frame.pixels);
+        let in_full = (shown.step == Step::FULL).then_some(&frame.pixels);
         let tone = self.viewer.tone();
         self.viewer.comparison.lay_over(in_full, picture, tone);
         let marks = self.viewer.settings.marks_clipped && frame.pass.paint.is_none();
@@ -197,7 +198,7 @@ impl App {
         }
         let overlay = self.viewer.overlay(&frame.camera);
         if is_any_shown(&self.viewer) {
-            let film = Some(&frame.film).filter(|_| frame.size == size);
+            let film = Some(&*frame.film).filter(|_| frame.size == size);
             self.overlays.lay_over(&mut picture.data, overlay, film, shown.generation);
         }
     }

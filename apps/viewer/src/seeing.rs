@@ -11,6 +11,7 @@ use catoptra_tracer::{Backend, Display, Extraction, backends};
 use crate::exposure::{self, Exposure};
 use crate::input::Mode;
 use crate::lighting::{self, Illumination, Lighting};
+use crate::parts::USUAL_ERROR;
 use crate::pass::{PASSES, Pass};
 use crate::refine::USUAL_FRAME;
 use crate::viewer::{Stale, Viewer};
@@ -57,6 +58,8 @@ pub(crate) struct ViewSettings {
     pub(crate) on_surfaces: bool,
     /// What a frame may take while something moves, in milliseconds.
     pub(crate) frame_time: f64,
+    /// The standard error of displayed values up to which a picture at rest is refined, where the scene says nothing.
+    pub(crate) max_error: f64,
 }
 
 impl ViewSettings {
@@ -83,6 +86,7 @@ impl ViewSettings {
             local_axes: false,
             on_surfaces: false,
             frame_time: USUAL_FRAME,
+            max_error: USUAL_ERROR,
         }
     }
 }

@@ -6,7 +6,9 @@ use std::time::{Duration, Instant};
 use catoptra_core::Scene;
 use catoptra_tracer::Snapshot;
 
-use crate::refine::Batch;
+use crate::draft::Quality;
+use crate::frame_worker::Refined;
+use crate::refine::Step;
 
 /// How far back frames are counted.
 const WINDOW: Duration = Duration::from_secs(1);
@@ -23,20 +25,22 @@ pub(crate) struct FrameFigures {
     pub(crate) rays: u64,
     /// Width and height of the film in pixels.
     pub(crate) size: (u32, u32),
-    /// How many pixels each way one of them stands for.
-    pub(crate) divisor: u32,
-    /// The batch that gave it samples.
-    pub(crate) batch: Option<Batch>,
+    /// How fine it is.
+    pub(crate) step: Step,
+    /// How far it is refined, once it is.
+    pub(crate) refined: Option<Refined>,
     /// Nothing finer follows.
     pub(crate) is_last: bool,
 }
 
 impl FrameFigures {
-    /// The line for a log: milliseconds, rays, size, divisor or samples a pixel, and whether it is the last for now.
+    /// The line for a log: milliseconds, rays, size, divisor or share of the picture that is settled, and whether it is the
+    /// last for now.
     pub(crate) fn log_line(&self) -> String {
-        let step = match self.batch {
-            None => format!("1/{}", self.divisor),
-            Some(Batch { to, of, .. }) => format!("samples {to}/{of}"),
+        let step = match (self.refined, self.step.quality) {
+            (Some(refined), _) => format!("1/1 settled {}% samples {}", refined.percent(), refined.samples),
+            (None, Quality::Full) => format!("1/{}", self.step.divisor),
+            (None, Quality::Draft) => format!("1/{} draft", self.step.divisor),
         };
         format!(
             "frame {:.2} ms {} rays {}x{} {step}{}",
@@ -68,7 +72,7 @@ impl Meter {
     pub(crate) fn asked(&mut self) {
         if let Some(last) = &mut self.last {
             last.is_last = false;
-            last.batch = None;
+            last.refined = None;
         }
     }
 
@@ -84,17 +88,19 @@ impl Meter {
             ray_rate(last.rays as f64 / seconds),
             last.size.0,
             last.size.1,
-            if last.divisor > 1 { format!(" (1/{})", last.divisor) } else { String::new() },
+            if last.step.divisor > 1 { format!(" (1/{})", last.step.divisor) } else { String::new() },
             if threads == 1 { "thread" } else { "threads" },
         )
     }
 
     /// Frames per second while it moves, else how far it is refined.
     fn rate(&self, now: Instant) -> String {
-        let last = self.last.map(|last| (last.is_last, last.batch));
+        let last = self.last.map(|last| (last.is_last, last.refined));
         match (last, self.ends.front(), self.ends.back()) {
             (Some((true, _)), ..) => "at rest".to_owned(),
-            (Some((false, Some(batch))), ..) => format!("refining {}/{}", batch.to, batch.of),
+            (Some((false, Some(refined))), ..) => {
+                format!("refining, {} % settled, {} samples", refined.percent(), refined.samples)
+            }
             (_, Some(first), Some(last)) if now.duration_since(*last) < REST && last > first => {
                 let seconds = last.duration_since(*first).as_secs_f64();
                 format!("{:.0} fps", (self.ends.len() - 1) as f64 / seconds)
@@ -140,8 +146,8 @@ mod tests {
         took: Duration::from_millis(10),
         rays: 500_000,
         size: (640, 360),
-        divisor: 2,
-        batch: None,
+        step: Step { divisor: 2, quality: Quality::Full },
+        refined: None,
         is_last: false,
     };
 
@@ -160,12 +166,13 @@ mod tests {
     fn it_is_at_rest_only_when_nothing_finer_follows() {
         let mut meter = Meter::default();
         let (start, later) = (Instant::now(), Duration::from_secs(5));
-        let batch = |to| Some(Batch { from: to - 4, to, of: 16 });
+        let refined = |settled| Some(Refined { settled, pixels: 1000, samples: 16 });
+        let full = FrameFigures { step: Step::FULL, ..FRAME };
         for (frame, told) in [
             (FRAME, "refining"),
-            (FrameFigures { divisor: 1, ..FRAME }, "refining"),
-            (FrameFigures { divisor: 1, batch: batch(4), ..FRAME }, "refining 4/16"),
-            (FrameFigures { divisor: 1, batch: batch(16), is_last: true, ..FRAME }, "at rest"),
+            (full, "refining"),
+            (FrameFigures { refined: refined(999), ..full }, "refining, 99 % settled, 16 samples"),
+            (FrameFigures { refined: refined(1000), is_last: true, ..full }, "at rest"),
         ] {
             meter.record(frame, start);
             assert_eq!(meter.rate(start + later), told);
@@ -197,7 +204,10 @@ mod tests {
     #[test]
     fn a_log_line_is_one_line() {
         assert_eq!(FRAME.log_line(), "frame 10.00 ms 500000 rays 640x360 1/2");
-        let last = FrameFigures { batch: Some(Batch { from: 12, to: 16, of: 16 }), is_last: true, ..FRAME };
-        assert_eq!(last.log_line(), "frame 10.00 ms 500000 rays 640x360 samples 16/16 at rest");
+        let draft = FrameFigures { step: Step { divisor: 2, quality: Quality::Draft }, ..FRAME };
+        assert_eq!(draft.log_line(), "frame 10.00 ms 500000 rays 640x360 1/2 draft");
+        let refined = Some(Refined { settled: 9, pixels: 9, samples: 64 });
+        let last = FrameFigures { refined, is_last: true, ..FRAME };
+        assert_eq!(last.log_line(), "frame 10.00 ms 500000 rays 640x360 1/1 settled 100% samples 64 at rest");
     }
 }

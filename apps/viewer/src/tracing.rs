@@ -1,4 +1,5 @@
-//! How does a request become a frame? The scene is frozen, the tracer fills a film, the film is encoded for display.
+//! How does a request become a frame? The scene is frozen, the tracer fills a film, the film is encoded for display. A full
+//! film is then refined tile by tile, and stays what tells depths and surfaces.
 
 use std::sync::Arc;
 
@@ -6,10 +7,12 @@ use catoptra_core::Camera;
 use catoptra_tracer::{Backend, Control, Extraction, Film, Pool, Size, Snapshot, Tone, View, render};
 
 use crate::canvas::{Pixels, resize};
-use crate::frame_worker::Tracing;
+use crate::draft::{Quality, draft, has_draft};
+use crate::frame_worker::{Refined, Tracing};
 use crate::latest::Latest;
+use crate::parts::{Goal, Parts, Patches, Tracer};
 use crate::pass::{Numbers, OwnShapes, Pass, Seen};
-use crate::refine::{Batch, reduced};
+use crate::refine::{Step, reduced};
 
 /// All that a picture depends on.
 #[derive(Clone)]
@@ -24,8 +27,8 @@ pub(crate) struct Request {
     pub(crate) view: View,
     /// What a frame may take while something moves, in milliseconds.
     pub(crate) frame_time: f64,
-    /// Samples a pixel that the full picture is to have in the end.
-    pub(crate) at_rest: u32,
+    /// How far the full picture is refined.
+    pub(crate) goal: Goal,
     /// How radiance becomes colour.
     pub(crate) tone: Tone,
     /// What is shown of the scene.
@@ -43,7 +46,9 @@ pub(crate) struct Job {
 /// A traced picture.
 pub(crate) struct Frame {
     /// What was traced.
-    pub(crate) film: Film,
+    pub(crate) film: Arc<Film>,
+    /// The light of tiles that have been refined since.
+    pub(crate) patches: Patches,
     /// The film for display.
     pub(crate) pixels: Pixels,
     /// From where it was seen.
@@ -72,6 +77,7 @@ impl Frame {
         self.pixels.height = height;
         resize(&mut self.pixels.data, width as usize * height as usize, 0);
         tone.encode(&self.film, pool, &mut self.pixels.data);
+        self.patches.encode(tone, pool, &mut self.pixels);
     }
 
     /// Shows what the pass makes of the film; `false` when that was cancelled.
@@ -99,22 +105,23 @@ impl Frame {
 
 /// Room for a picture, to be filled again.
 pub(crate) struct Spare {
-    film: Film,
+    /// Nobody else's.
+    film: Option<Film>,
     pixels: Pixels,
 }
 
 impl From<Frame> for Spare {
     fn from(Frame { film, pixels, .. }: Frame) -> Self {
-        Self { film, pixels }
+        Self { film: Arc::into_inner(film), pixels }
     }
 }
 
 /// One of that size, or a new one.
-fn room(size: Size, spares: &mut Vec<Spare>) -> Spare {
-    let fitting = spares.iter().position(|spare| spare.film.size() == size);
-    fitting
-        .map(|i| spares.swap_remove(i))
-        .unwrap_or_else(|| Spare { film: Film::with_tiles(size, tile_edge(size)), pixels: Pixels::default() })
+fn room(size: Size, spares: &mut Vec<Spare>) -> (Film, Pixels) {
+    let fits = |spare: &Spare| spare.film.as_ref().is_some_and(|film| film.size() == size);
+    let spare = spares.iter().position(fits).map(|i| spares.swap_remove(i));
+    let (film, pixels) = spare.map(|spare| (spare.film, spare.pixels)).unwrap_or_default();
+    (film.unwrap_or_else(|| Film::with_tiles(size, tile_edge(size))), pixels)
 }
 
 /// Below this number of pixels a film has small tiles: else few of them hold all the work, and threads wait.
@@ -125,48 +132,18 @@ fn tile_edge(size: Size) -> u32 {
     if size.pixels() < SMALL { Film::TILE / 4 } else { Film::TILE }
 }
 
-/// The batches in which samples are added to a full picture.
-const BATCHES: u32 = 16;
-
-/// Pixels of the largest picture that samples are added to, a little more than of a display of 4K: a film beside the shown
-/// one is kept for that, of 20 bytes a pixel.
-const LARGEST: usize = 10_000_000;
-
-/// Samples of the smallest batch: so many lie evenly in a pixel.
-const LEAST_BATCH: u32 = 4;
-
 /// Traces on a pool of threads.
 pub(crate) struct PoolTracing {
     /// The threads.
     pool: Arc<Pool>,
-    /// The full picture to which samples are being added.
-    growing: Option<Film>,
+    /// The full picture, and its tiles that are refined.
+    resting: Option<(Arc<Film>, Parts)>,
 }
 
 impl PoolTracing {
     /// On these threads.
     pub(crate) fn new(pool: Arc<Pool>) -> Self {
-        Self { pool, growing: None }
-    }
-
-    /// A frame of a film that was traced; `None` when that was cancelled, and then the room is among the spares.
-    fn painted(
-        &self,
-        job: &Job,
-        view: &View,
-        (film, pixels): (Film, Pixels),
-        rays: u64,
-        (control, spares): (&Control, &mut Vec<Spare>),
-    ) -> Option<Frame> {
-        let request = &job.request;
-        let size = (request.view.size.width, request.view.size.height);
-        let (camera, tone, pass) = (view.camera.clone(), request.tone, request.pass);
-        let mut frame = Frame { film, pixels, camera, size, tone, rays, pass, numbers: None };
-        if frame.paint(job, view, &self.pool, control) {
-            return Some(frame);
-        }
-        spares.push(frame.into());
-        None
+        Self { pool, resting: None }
     }
 }
 
@@ -177,6 +154,7 @@ impl Tracing for PoolTracing {
     type Spare = Spare;
 
     fn prepare(&mut self, request: Request) -> Job {
+        self.resting = None;
         let snapshot = request.latest.follow(&request.extraction, &self.pool);
         Job { request, snapshot }
     }
@@ -185,52 +163,75 @@ impl Tracing for PoolTracing {
         (job.request.view.size.width, job.request.view.size.height)
     }
 
-    fn trace(
-        &mut self,
-        job: &Job,
-        divisor: u32,
-        control: &Control,
-        spares: &mut Vec<Spare>,
-    ) -> Option<Frame> {
+    fn trace(&mut self, job: &Job, step: Step, control: &Control, spares: &mut Vec<Spare>) -> Option<Frame> {
         let Job { request, snapshot } = job;
-        let full = (request.view.size.width, request.view.size.height);
-        let (width, height) = reduced(full.0, full.1, divisor);
+        let full = Self::size(job);
+        let (width, height) = reduced(full.0, full.1, step.divisor);
         let size = Size { width, height };
-        let Spare { mut film, pixels } = room(size, spares);
+        let (mut film, pixels) = room(size, spares);
         let view = View { size, ..request.view.clone() };
+        let view = if step.quality == Quality::Draft { draft(view) } else { view };
         let traced = render(request.backend, snapshot, &view, &mut film, &self.pool, control);
         let Ok(stats) = traced else {
-            spares.push(Spare { film, pixels });
+            spares.push(Spare { film: Some(film), pixels });
             return None;
         };
-        self.painted(job, &view, (film, pixels), stats.rays.total(), (control, spares))
+        let film = Arc::new(film);
+        if step == Step::FULL && Self::is_refined(job) {
+            self.resting = Some((Arc::clone(&film), Parts::new(size)));
+        }
+        let mut frame = Frame {
+            film,
+            patches: Patches::default(),
+            pixels,
+            camera: view.camera.clone(),
+            size: full,
+            tone: request.tone,
+            rays: stats.rays.total(),
+            pass: request.pass,
+            numbers: None,
+        };
+        if frame.paint(job, &view, &self.pool, control) {
+            return Some(frame);
+        }
+        spares.push(frame.into());
+        None
     }
 
     fn frame_time(Job { request, .. }: &Job) -> f64 {
         request.frame_time
     }
 
-    fn batches(Job { request, .. }: &Job) -> Vec<Batch> {
-        let refined = request.view.size.pixels() <= LARGEST && request.pass.paint.is_none();
-        let of = if refined { request.at_rest } else { 0 };
-        Batch::all(of, of.div_ceil(BATCHES).max(LEAST_BATCH))
+    fn has_drafts(Job { request, .. }: &Job) -> bool {
+        request.pass.paint.is_none() && has_draft(&request.view)
     }
 
-    fn add(&mut self, job: &Job, batch: Batch, control: &Control, spares: &mut Vec<Spare>) -> Option<Frame> {
+    fn is_refined(Job { request, .. }: &Job) -> bool {
+        request.pass.paint.is_none()
+    }
+
+    fn refine(&mut self, job: &Job, control: &Control, spares: &mut Vec<Spare>) -> Option<(Frame, Refined)> {
         let Job { request, snapshot } = job;
-        let growing = self.growing.take().filter(|_| batch.from > 0);
-        let mut film = growing.unwrap_or_else(|| room(request.view.size, spares).film);
-        let view = View { samples: batch.of, range: Some(batch.range()), ..request.view.clone() };
-        let traced = render(request.backend, snapshot, &view, &mut film, &self.pool, control);
-        let pixels = spares.pop().map(|spare| spare.pixels).unwrap_or_default();
-        let Ok(stats) = traced else {
-            spares.push(Spare { film, pixels });
-            return None;
+        let (film, parts) = self.resting.as_mut()?;
+        let Request { backend, ref view, goal, tone, pass, .. } = *request;
+        let rays = parts.go_on(&Tracer { backend, snapshot, view, goal, tone }, &self.pool, control)?;
+        let mut frame = Frame {
+            film: Arc::clone(film),
+            patches: parts.patches(),
+            pixels: spares.pop().map(|spare| spare.pixels).unwrap_or_default(),
+            camera: view.camera.clone(),
+            size: Self::size(job),
+            tone,
+            rays,
+            pass,
+            numbers: None,
         };
-        if !batch.is_last() {
-            self.growing = Some(film.clone());
+        frame.encode(tone, &self.pool);
+        let refined = parts.refined();
+        if refined.is_done() {
+            self.resting = None;
         }
-        self.painted(job, &view, (film, pixels), stats.rays.total(), (control, spares))
+        Some((frame, refined))
     }
 }
 

@@ -21,6 +21,7 @@ use crate::lighting::Lighting;
 use crate::loader::Opened;
 use crate::making::add::Adding;
 use crate::naming::Named;
+use crate::parts::Goal;
 use crate::pass;
 use crate::preview::Preview;
 use crate::seeing::{Readout, ViewSettings};
@@ -31,12 +32,6 @@ use crate::viewpoint::usual_camera;
 
 /// Samples a pixel where each is one direction that sees the sky or does not: a quarter of the noise of a single one.
 const OCCLUSION_SAMPLES: u32 = 16;
-
-/// Paths a pixel: a picture that is noisy and soon there.
-const PATH_SAMPLES: u32 = 16;
-
-/// How many times its first samples a full picture is given at rest, unless the scene asks for more.
-const AT_REST: u32 = 16;
 
 /// What has to be done again since something changed.
 #[derive(Debug, Clone, Copy, Default)]
@@ -237,11 +232,10 @@ impl Viewer {
         let pass = self.settings.pass;
         let integrator = pass.integrator.unwrap_or(self.document.scene().settings().integrator());
         let samples = match integrator {
-            Integrator::Whitted => 1,
-            Integrator::Path => PATH_SAMPLES,
+            Integrator::Whitted | Integrator::Path => 1,
             Integrator::Occlusion => OCCLUSION_SAMPLES,
         };
-        let at_rest = self.document.scene().settings().samples().max(AT_REST * samples);
+        let goal = Goal::of(self.document.scene().settings(), integrator, self.settings.max_error);
         let view = View { integrator, ..self.view().with_samples(samples) };
         let own = if pass.paint.is_some() { pass::own_shapes(self.scene_shown()) } else { Arc::default() };
         Request {
@@ -250,7 +244,7 @@ impl Viewer {
             backend: self.settings.backend,
             view,
             frame_time: self.settings.frame_time,
-            at_rest,
+            goal,
             tone: self.tone(),
             pass,
             own,

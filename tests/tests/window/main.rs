@@ -149,8 +149,12 @@ fn the_picture_follows_the_size_of_the_window() {
     for (width, height) in [(1200, 700), (500, 400), (1, 1), (300, 680), (900, 600)] {
         stage.resize(width, height);
         let room = if width > 408 { width - 272 } else { width };
-        let size = format!("{room}x{height} samples 16/16 at rest");
-        stage.wait(&size, |stage| stage.log().trim_end().ends_with(&size));
+        let size = format!("{room}x{height}");
+        stage.wait(&size, |stage| {
+            let log = stage.log();
+            let last = log.lines().next_back().unwrap_or_default();
+            last.contains(&format!(" {size} 1/1 settled 100%")) && last.ends_with("at rest")
+        });
         if room > 1 {
             stage.until(&format!("the ball at {size}"), |picture| is_red(picture.rgb(room / 2, height / 2)));
         }

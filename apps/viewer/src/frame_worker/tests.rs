@@ -9,12 +9,14 @@ struct Steered {
     prepared: Sender<u32>,
     begun: Sender<(u32, u32)>,
     go: Receiver<()>,
+    /// Pixels that are settled.
+    settled: u32,
 }
 
 /// A request whose preparation ends when told.
 const SLOW: u32 = 99;
 
-/// A request that is given more samples.
+/// A request that is refined.
 const FINE: u32 = 50;
 
 impl Tracing for Steered {
@@ -24,6 +26,7 @@ impl Tracing for Steered {
     type Spare = (u32, u32);
 
     fn prepare(&mut self, request: u32) -> u32 {
+        self.settled = 0;
         let _ = self.prepared.send(request);
         while request == SLOW && self.go.recv_timeout(Duration::from_millis(1)).is_err() {}
         request
@@ -36,26 +39,27 @@ impl Tracing for Steered {
     fn trace(
         &mut self,
         request: &u32,
-        divisor: u32,
+        step: Step,
         control: &Control,
         _: &mut Vec<(u32, u32)>,
     ) -> Option<(u32, u32)> {
-        self.wait((*request, divisor), control)
+        self.wait((*request, step.divisor), control)
     }
 
-    fn batches(request: &u32) -> Vec<Batch> {
-        Batch::all(if *request == FINE { 8 } else { 0 }, 4)
+    fn is_refined(request: &u32) -> bool {
+        *request == FINE
     }
 
-    /// A frame with the number of samples, in hundreds, in the place of the divisor.
-    fn add(
+    /// A frame with the number of settled pixels, in hundreds, in the place of the divisor.
+    fn refine(
         &mut self,
         request: &u32,
-        batch: Batch,
         control: &Control,
         _: &mut Vec<(u32, u32)>,
-    ) -> Option<(u32, u32)> {
-        self.wait((*request, 100 * batch.to), control)
+    ) -> Option<((u32, u32), Refined)> {
+        self.settled += 1;
+        let frame = self.wait((*request, 100 * self.settled), control)?;
+        Some((frame, Refined { settled: u64::from(self.settled), pixels: 2, samples: 4 }))
     }
 }
 
@@ -87,10 +91,12 @@ impl Bench {
         let (begun_to, begun) = channel();
         let (go, go_from) = channel();
         let (woken_to, woken) = channel();
-        let worker =
-            FrameWorker::start(Steered { prepared: prepared_to, begun: begun_to, go: go_from }, move || {
+        let worker = FrameWorker::start(
+            Steered { prepared: prepared_to, begun: begun_to, go: go_from, settled: 0 },
+            move || {
                 let _ = woken_to.send(());
-            });
+            },
+        );
         Self { worker, prepared, begun, go, woken }
     }
 
@@ -123,20 +129,20 @@ fn a_request_is_refined_down_to_single_pixels() {
 }
 
 #[test]
-fn a_full_picture_is_given_its_passes_and_only_then_is_at_rest() {
+fn a_full_picture_is_refined_and_only_then_is_at_rest() {
     let bench = Bench::new();
     bench.worker.submit(FINE);
     let mut steps = Vec::new();
     loop {
         bench.begun();
-        let Finished { frame, divisor, batch, is_last, .. } = bench.finished();
-        assert_eq!(batch.is_some(), frame.1 >= 100);
-        steps.push((frame.1, divisor));
+        let Finished { frame, step, refined, is_last, .. } = bench.finished();
+        assert_eq!(refined.is_some(), frame.1 >= 100);
+        steps.push((frame.1, step.divisor));
         if is_last {
             break;
         }
     }
-    assert_eq!(steps, [(8, 8), (4, 4), (2, 2), (1, 1), (400, 1), (800, 1)]);
+    assert_eq!(steps, [(8, 8), (4, 4), (2, 2), (1, 1), (100, 1), (200, 1)]);
     assert!(bench.begun.recv_timeout(Duration::from_millis(30)).is_err(), "nothing more is begun");
 }
 
@@ -161,7 +167,7 @@ fn at_rest_no_room_is_kept() {
 }
 
 #[test]
-fn a_new_request_abandons_a_pass() {
+fn a_new_request_abandons_what_is_being_refined() {
     let bench = Bench::new();
     bench.worker.submit(FINE);
     while bench.begun().1 < 100 {
