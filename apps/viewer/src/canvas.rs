@@ -4,6 +4,9 @@
 /// What surrounds the picture while there is none.
 pub(crate) const BACKDROP: u32 = 0x0014_161a;
 
+/// How many times the memory that it needs what is drawn on may hold before it is made anew.
+pub(crate) const WASTE: usize = 4;
+
 /// A rectangle of pixels, half open; empty where it does not have both sides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Region {

@@ -7,7 +7,8 @@ use egui::epaint::Primitive;
 use egui::{ClippedPrimitive, Pos2, Rect, TexturesDelta, Vec2};
 use egui_software_backend::{BufferMutRef, ColorFieldOrder, EguiSoftwareRender};
 
-use crate::canvas::Region;
+use crate::canvas::{Region, WASTE};
+use crate::egui_textures::Textures;
 
 /// The widest mesh, in pixels, that the rasteriser takes.
 const WIDEST: f32 = 8192.0;
@@ -15,6 +16,9 @@ const WIDEST: f32 = 8192.0;
 /// A layer with what egui shows.
 pub(crate) struct EguiLayer {
     renderer: EguiSoftwareRender,
+    textures: Textures,
+    /// Pixels that the renderer has memory for: it keeps that of its largest picture.
+    room: usize,
     shown: Vec<(u64, Region)>,
     size: (u32, u32),
 }
@@ -22,7 +26,7 @@ pub(crate) struct EguiLayer {
 impl EguiLayer {
     /// An empty layer.
     pub(crate) fn new() -> Self {
-        Self { renderer: EguiSoftwareRender::new(ColorFieldOrder::Bgra), shown: Vec::new(), size: (0, 0) }
+        Self { renderer: renderer(), textures: Textures::default(), room: 0, shown: Vec::new(), size: (0, 0) }
     }
 
     /// Rasterises what egui wants to see at that size in pixels (not empty). Returns the region that differs from
@@ -42,13 +46,16 @@ impl EguiLayer {
         } else {
             Region::whole(size)
         };
-        self.renderer.render_to_canvas(
-            size.0 as usize,
-            size.1 as usize,
-            &primitives,
-            textures,
-            pixels_per_point,
-        );
+        self.textures.take(textures);
+        let (width, height) = (size.0 as usize, size.1 as usize);
+        if self.room > WASTE * width * height {
+            (self.renderer, self.room) = (renderer(), 0);
+            let all = self.textures.all();
+            self.renderer.render_to_canvas(width, height, &primitives, &all, pixels_per_point);
+        } else {
+            self.renderer.render_to_canvas(width, height, &primitives, textures, pixels_per_point);
+        }
+        self.room = self.room.max(width * height);
         self.shown = shown;
         self.size = size;
         changed
@@ -62,6 +69,10 @@ impl EguiLayer {
             self.renderer.blit_canvas_to_buffer(&mut target);
         }
     }
+}
+
+fn renderer() -> EguiSoftwareRender {
+    EguiSoftwareRender::new(ColorFieldOrder::Bgra)
 }
 
 /// The primitive cut to the screen, with a fingerprint and the pixels it may cover; `None` where it covers none,
@@ -153,5 +164,12 @@ mod tests {
         layer.blend_over(&mut frame, (16, 16));
         assert_eq!(frame[8 * 16 + 8] & 0x00ff_ffff, 0x00ff_0000);
         assert_eq!(frame[0], 0x0000_0040);
+        let nothing_new = TexturesDelta::default();
+        layer.paint((64, 64), vec![square(4.0, 4.0, 8.0, SCREEN)], &nothing_new, 1.0);
+        layer.paint((16, 16), vec![square(4.0, 4.0, 8.0, SCREEN)], &nothing_new, 1.0);
+        assert_eq!(layer.room, 256, "the memory of the larger picture is given back");
+        let mut again = vec![0x0000_0040; 256];
+        layer.blend_over(&mut again, (16, 16));
+        assert_eq!(again, frame, "its textures are still known");
     }
 }

@@ -15,6 +15,7 @@ mod document;
 mod draft;
 mod dropped;
 mod egui_paint;
+mod egui_textures;
 mod events;
 mod exposure;
 mod fly;
@@ -61,10 +62,16 @@ use std::sync::Arc;
 
 use catoptra_tracer::Pool;
 use clap::Parser as _;
+use mimalloc::MiMalloc;
 use winit::event_loop::EventLoop;
 
 use app::{App, Wake};
 use options::Options;
+
+/// Films are many small columns that several threads ask for: this allocator gives their memory back to the system after a
+/// large picture, where that of the C library keeps a gigabyte.
+#[global_allocator]
+static ALLOCATOR: MiMalloc = MiMalloc;
 
 /// What is told where there is no display.
 const NO_DISPLAY: &str = "catoptra-viewer needs a display and found none\n\

@@ -10,7 +10,7 @@ use winit::dpi::{LogicalSize, PhysicalSize};
 use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
 use winit::window::{Window, WindowAttributes};
 
-use crate::canvas::{Canvas, Region};
+use crate::canvas::{self, Canvas, Region};
 use crate::egui_paint::EguiLayer;
 use crate::icon;
 use crate::panel;
@@ -44,7 +44,10 @@ pub(crate) struct Fitted {
 /// The window and what is drawn in it.
 pub(crate) struct Screen {
     pub(crate) window: Rc<Window>,
+    context: softbuffer::Context<OwnedDisplayHandle>,
     surface: Surface<OwnedDisplayHandle, Rc<Window>>,
+    /// Pixels that the surface has memory for: it keeps that of its largest size.
+    room: usize,
     pub(crate) egui: Context,
     pub(crate) input: egui_winit::State,
     layer: EguiLayer,
@@ -76,7 +79,9 @@ impl Screen {
         let input = egui_winit::State::new(egui.clone(), ViewportId::ROOT, &window, Some(scale), None, None);
         Ok(Self {
             window,
+            context,
             surface,
+            room: 0,
             egui,
             input,
             layer: EguiLayer::new(),
@@ -103,6 +108,13 @@ impl Screen {
         };
         let new = self.size != (width, height);
         if new {
+            let pixels = width as usize * height as usize;
+            if self.room > canvas::WASTE * pixels {
+                self.surface =
+                    Surface::new(&self.context, Rc::clone(&self.window)).map_err(|e| e.to_string())?;
+                self.room = 0;
+            }
+            self.room = self.room.max(pixels);
             self.surface.resize(w, h).map_err(|e| e.to_string())?;
             self.size = (width, height);
         }
