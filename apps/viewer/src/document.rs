@@ -11,6 +11,7 @@ use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 
 use crate::deeds::{Before, Deed, Direction};
 use crate::difference::{self, Line};
+use crate::keeping::Unsaved;
 use crate::recovery::{Kept, Origin};
 
 /// The scene shown when none is named.
@@ -79,14 +80,14 @@ impl Document {
         Ok(document)
     }
 
-    /// Whose edits it holds, and the text with them, to be kept where they are not saved.
-    pub(crate) fn text_to_keep(&mut self) -> (Origin, String) {
-        self.file.update(&self.scene);
+    /// It with its edits, to be kept where they are not saved.
+    pub(crate) fn unsaved(&self) -> Unsaved {
         let origin = match &self.path {
             Some(path) => Origin::File(path.clone()),
             None => Origin::Folder(self.folder()),
         };
-        (origin, self.file.text())
+        let (scene, file, holds) = (self.scene.clone(), self.file.clone(), self.recovered.clone());
+        Unsaved { scene, file, origin, holds }
     }
 
     /// A scene to begin with.
@@ -179,9 +180,9 @@ impl Document {
         self.path.clone().unwrap_or_else(|| free_name(folder, &self.name(), "kdl"))
     }
 
-    /// The folder that the paths in the scene start from.
+    /// The folder that the paths in the scene start from: it stays, wherever the scene is saved to.
     pub(crate) fn folder(&self) -> PathBuf {
-        self.place().parent().map_or_else(PathBuf::new, Path::to_owned)
+        self.file.folder().to_owned()
     }
 
     /// The edit that puts a model into the scene, and the group that it becomes; see [`SceneFile::model_edit`].
@@ -231,7 +232,7 @@ impl Document {
     pub(crate) fn difference(&mut self) -> Vec<Line> {
         self.file.update(&self.scene);
         let on_disk = std::fs::read(self.place()).unwrap_or_default();
-        difference::between(&String::from_utf8_lossy(&on_disk), &self.file.text())
+        difference::between(&String::from_utf8_lossy(&on_disk), &self.file.text_for(&self.place()))
     }
 
     /// Writes the scene to its [place](Self::place), whatever stands there. Returns where.

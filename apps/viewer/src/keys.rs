@@ -74,8 +74,10 @@ pub(crate) enum Command {
     Open,
     /// Read the open file again.
     Reload,
-    /// Write the picture.
+    /// Ask for a picture in a file.
     Picture,
+    /// Write one more picture like the last.
+    PictureAgain,
     /// Look at the scene otherwise.
     See(See),
     /// Move, turn or scale what is selected with the pointer.
@@ -192,7 +194,8 @@ pub(crate) const BINDINGS: &[Binding] = &[
     ),
     letter(NONE, "l", "L", Command::See(See::Solo), "let the selected lights shine alone; without any, all"),
     letter(NONE, "b", "B (held)", Command::See(See::Before), "see the scene before the last edit"),
-    letter(NONE, "p", "P", Command::Picture, "write the picture as PNG"),
+    letter(NONE, "p", "P", Command::Picture, "write a picture; asks for its size, samples and place"),
+    letter(SHIFT, "p", "Shift+P", Command::PictureAgain, "write one more picture like the last"),
     named(NamedKey::Delete, "Delete", Command::Delete, "delete what is selected"),
     letter(SHIFT, "a", "Shift+A", Command::Add, "add something, where the pointer is"),
     letter(CTRL, "d", "Ctrl+D", Command::Duplicate, "duplicate what is selected"),

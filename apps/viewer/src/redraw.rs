@@ -12,7 +12,7 @@ use crate::screen::{Fitted, Screen};
 use crate::status::{FrameFigures, REST, lamp_notes};
 use crate::tracing::Frame;
 use crate::viewer::Viewer;
-use crate::{actions, clipped, outline, panel};
+use crate::{clipped, outline, panel};
 
 /// The status line is written anew this often while frames come in.
 const STATUS_EVERY: Duration = Duration::from_millis(200);
@@ -123,7 +123,6 @@ impl App {
         if let Some(old) = self.shown.replace(finished) {
             self.worker.give_back(old.frame);
         }
-        self.write_picture_if_wanted();
         self.read_off(self.viewer.pointer.at);
         true
     }
@@ -151,20 +150,6 @@ impl App {
             format!("{} {}", panel::short(f64::from(value)), numbers.unit)
         });
         Some(number.map_or_else(|| name.clone(), |number| format!("{number}  ·  {name}")))
-    }
-
-    /// Writes the picture once it is the one that was asked for, in full.
-    pub(crate) fn write_picture_if_wanted(&mut self) {
-        if !self.viewer.picture_wanted {
-            return;
-        }
-        if let Some(shown) = &self.shown
-            && shown.divisor == 1
-            && shown.generation == self.asked
-            && !self.viewer.stale.trace
-        {
-            actions::write_picture(&mut self.viewer, &shown.frame);
-        }
     }
 
     /// Lays out the newest frame and draws outline and overlays over it.

@@ -37,7 +37,7 @@ pub(crate) struct Request {
 /// A request with its scene frozen.
 pub(crate) struct Job {
     request: Request,
-    snapshot: Arc<Snapshot>,
+    pub(crate) snapshot: Arc<Snapshot>,
 }
 
 /// A traced picture.
@@ -150,7 +150,7 @@ impl PoolTracing {
     }
 
     /// A frame of a film that was traced; `None` when that was cancelled, and then the room is among the spares.
-    fn painted(
+    pub(crate) fn painted(
         &self,
         job: &Job,
         view: &View,

@@ -22,6 +22,7 @@ use crate::loader::Opened;
 use crate::making::add::Adding;
 use crate::naming::Named;
 use crate::pass;
+use crate::pictures::Pictures;
 use crate::preview::Preview;
 use crate::seeing::{Readout, ViewSettings};
 use crate::selection::{Picking, Selection};
@@ -136,8 +137,8 @@ pub(crate) struct Viewer {
     pub(crate) browser: Option<Browser>,
     /// What is asked before work is lost.
     pub(crate) guard: Guard,
-    /// A picture is to be written as soon as it is finished.
-    pub(crate) picture_wanted: bool,
+    /// The pictures that are wanted in files.
+    pub(crate) pictures: Pictures,
     pub(crate) stale: Stale,
     /// The revision of the scene that has been looked at for changes.
     seen: u64,
@@ -177,7 +178,7 @@ impl Viewer {
             adding: None,
             names_next: false,
             guard: Guard::default(),
-            picture_wanted: false,
+            pictures: Pictures::default(),
             stale: Stale { scene: false, trace: true, overlay: true, panel: true },
             seen,
         };
@@ -214,7 +215,10 @@ impl Viewer {
                 self.selection = selected.iter().filter_map(|name| scene.entity_named(name)).collect();
                 self.through = through.and_then(|name| scene.entity_named(&name));
             }
-            None => self.adopt(self.document.scene().main_camera()),
+            None => {
+                self.pictures.forget();
+                self.adopt(self.document.scene().main_camera());
+            }
         }
         self.stale = Stale { scene: self.is_lit_otherwise(), trace: true, overlay: true, panel: true };
     }
