@@ -163,6 +163,18 @@ impl Document {
         self.history.redo(&mut self.scene).then(|| before.deed(&self.scene, Direction::Again))
     }
 
+    /// The steps so far, to come [back to](Self::come_back_to).
+    pub(crate) fn steps(&self) -> History {
+        self.history.clone()
+    }
+
+    /// Takes back the only step since then as if it had never been made: what could be done again then, still can.
+    pub(crate) fn come_back_to(&mut self, steps: History) {
+        if self.history.undo(&mut self.scene) {
+            self.history = steps;
+        }
+    }
+
     /// Whether it has a file that it is saved to.
     pub(crate) fn has_place(&self) -> bool {
         self.path.is_some()

@@ -239,6 +239,7 @@ pub(crate) const OTHERS: &[(&str, &str)] = &[
     ("Ctrl wheel", "the other of the two"),
     ("Drop a scene", "open it; asks about unsaved edits"),
     ("Drop a picture", "make it the texture of the selected shape"),
+    ("Drag in the tree", "put rows elsewhere: between others, into a group, out of it"),
     ("Right click in the tree", "what can be done with what is selected"),
     ("Ctrl and +, -, 0", "panel and text larger, smaller, as usual"),
     ("Tab, Enter", "go through a question's buttons, press one"),

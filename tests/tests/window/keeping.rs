@@ -1,5 +1,6 @@
 //! What is left of edits that were not saved when the window is killed? All but those of the last seconds.
 
+use crate::guards::asks;
 use crate::stage::{PICTURE, Stage};
 use crate::{MIDDLE, SCENE, UPPER, is_accent, is_green, is_red, stage};
 
@@ -27,7 +28,7 @@ fn edits_of_a_window_that_was_killed_are_brought_back() {
     stage.kill();
     assert_eq!(std::fs::read_to_string(&file).expect("the scene"), SCENE, "it is not saved unasked");
     stage.restart(None);
-    stage.settle();
+    stage.until("a question", asks);
     stage.key("Return");
     stage.until("the green ball alone", |picture| {
         picture.count(PICTURE, is_red) == 0 && picture.count(PICTURE, is_green) > 300
@@ -50,7 +51,7 @@ fn what_is_discarded_or_taken_back_is_not_offered_again() {
     stage.key("ctrl+y");
     stage.wait("the edit to be kept again", |stage| kept(stage) == 1);
     stage.key("ctrl+q");
-    stage.settle();
+    stage.until("a question", asks);
     stage.key("Tab");
     stage.key("Return");
     assert_eq!(stage.exit_code(), Some(0));

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::stage::{PICTURE, Stage};
-use crate::{same, stage};
+use crate::{UPPER, is_accent, same, stage};
 
 /// Width and height of a PNG, once it is whole.
 fn size(file: &Path) -> Option<(u32, u32)> {
@@ -22,7 +22,7 @@ fn written(stage: &Stage, name: &str) -> (u32, u32) {
 fn ask(stage: &Stage) {
     let before = stage.settle();
     stage.key("p");
-    stage.until("a box", |picture| !same(&before, picture, PICTURE));
+    stage.until("a box", |picture| !same(&before, picture, UPPER));
     stage.settle();
 }
 
@@ -58,8 +58,9 @@ fn what_is_there_is_replaced_only_on_demand() {
     ask(&stage);
     stage.key("ctrl+a");
     stage.xdotool(&["type", "there.png"]);
+    let told = stage.settle().count(UPPER, is_accent);
     stage.key("Return");
-    stage.settle();
+    stage.until("that it is there", |picture| picture.count(UPPER, is_accent) > told + 20);
     assert_eq!(std::fs::read(&file).expect("the file"), b"something");
     stage.key("Return");
     stage.wait("the picture", |_| size(&file).is_some());
@@ -71,7 +72,7 @@ fn a_picture_can_be_left_and_cancelled() {
     let before = stage.settle();
     ask(&stage);
     stage.key("Escape");
-    stage.until("the picture as it was", |picture| same(&before, picture, PICTURE));
+    stage.until("the picture as it was", |picture| same(&before, picture, UPPER));
     ask(&stage);
     // Of so many samples that it is not there before the button is.
     for number in ["3000", "2000", "4096"] {

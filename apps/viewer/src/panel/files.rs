@@ -80,10 +80,12 @@ fn contents(ui: &mut Ui, browser: &mut Browser, height: f32) -> Step {
     ui.horizontal(|ui| {
         let word = if browser.replaces.is_some() { "Replace" } else { word };
         let button = |word| egui::Button::new(word).min_size(egui::vec2(72.0, 24.0));
-        if (ui.add(button(word)).clicked() || entered)
-            && let Some(path) = browser.choose()
-        {
-            step = Step::Chosen(path);
+        if ui.add(button(word)).clicked() || entered {
+            match browser.choose() {
+                Some(path) => step = Step::Chosen(path),
+                // The next Enter chooses again.
+                None => field.request_focus(),
+            }
         }
         if ui.add(button("Cancel")).clicked() {
             step = Step::Cancel;

@@ -25,6 +25,7 @@ mod switches;
 mod textures;
 mod theme;
 mod tree;
+mod tree_drag;
 mod widgets;
 
 use egui::{Frame, Margin, Panel, Rect, Ui};
