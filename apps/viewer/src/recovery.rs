@@ -6,7 +6,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use crate::document::free_name;
+use crate::free_name::free_name;
 
 /// How the first line begins where the edits are those of a file.
 const OF_FILE: &str = "// unsaved edits of the file ";

@@ -145,11 +145,8 @@ impl App {
         let Size { width, height } = frame.film.size();
         let (x, y) = Fit::new((width, height), frame.size).pixel(at)?;
         let name = frame.film.surface(x, y).and_then(|id| self.viewer.document.scene().name(id))?;
-        let number = frame.numbers.as_ref().map(|numbers| {
-            let value = numbers.values[y as usize * width as usize + x as usize];
-            format!("{} {}", panel::short(f64::from(value)), numbers.unit)
-        });
-        Some(number.map_or_else(|| name.clone(), |number| format!("{number}  ·  {name}")))
+        let pixel = y as usize * width as usize + x as usize;
+        Some(frame.numbers.as_ref().map_or_else(|| name.clone(), |numbers| numbers.words(pixel, &name)))
     }
 
     /// Lays out the newest frame and draws outline and overlays over it.

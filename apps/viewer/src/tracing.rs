@@ -8,6 +8,7 @@ use catoptra_tracer::{Backend, Control, Extraction, Film, Pool, Size, Snapshot, 
 use crate::canvas::{Pixels, resize};
 use crate::frame_worker::Tracing;
 use crate::latest::Latest;
+use crate::light_parts::LightParts;
 use crate::pass::{Numbers, OwnShapes, Pass, Seen};
 use crate::refine::{Batch, reduced};
 
@@ -32,6 +33,8 @@ pub(crate) struct Request {
     pub(crate) pass: &'static Pass,
     /// The shapes of the scene before they are placed, if the pass asks for them.
     pub(crate) own: OwnShapes,
+    /// The scene by each of its lights, if the pass asks for that.
+    pub(crate) lights: Arc<LightParts>,
 }
 
 /// A request with its scene frozen.
@@ -86,8 +89,8 @@ impl Frame {
             self.encode(request.tone, pool);
             return true;
         };
-        let (film, backend, own) = (&self.film, request.backend, &request.own);
-        let Some(painted) = paint(&Seen { film, snapshot, view, backend, own, pool, control }) else {
+        let (film, backend, own, lights) = (&self.film, request.backend, &request.own, &*request.lights);
+        let Some(painted) = paint(&Seen { film, snapshot, view, backend, own, lights, pool, control }) else {
             return false;
         };
         let Size { width, height } = self.film.size();

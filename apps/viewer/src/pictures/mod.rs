@@ -12,7 +12,7 @@ use std::sync::Arc;
 use catoptra_tracer::{Control, Size, View};
 
 use crate::browse::Purpose;
-use crate::document::free_name;
+use crate::free_name::free_name;
 use crate::viewer::Viewer;
 
 pub(crate) use make::{Order, Outcome, Unfinished};
