@@ -1,5 +1,6 @@
-//! How much memory is there for a picture, and how much has this process needed at the most?
+//! Is there memory for a picture?
 
+use catoptra_scene::memory::free_bytes;
 use catoptra_tracer::{Film, Region, Size};
 use miette::{Report, Result, miette};
 
@@ -43,47 +44,9 @@ fn too_large(size: Size, needed: u64, why: &str) -> Report {
     )
 }
 
-/// Bytes that programs can still get, from `/proc/meminfo`; `None` on systems without it.
-fn free_bytes() -> Option<u64> {
-    free_of(&std::fs::read_to_string("/proc/meminfo").ok()?)
-}
-
-fn free_of(info: &str) -> Option<u64> {
-    kibibytes(info, "MemAvailable:")?.checked_add(kibibytes(info, "SwapFree:").unwrap_or(0))
-}
-
-/// Peak resident memory in bytes, from `VmHWM` of `/proc/self/status`; `None` on systems without it.
-pub(crate) fn peak_bytes() -> Option<u64> {
-    kibibytes(&std::fs::read_to_string("/proc/self/status").ok()?, "VmHWM:")
-}
-
-/// The bytes of a line of `/proc`, which counts in kibibytes.
-fn kibibytes(text: &str, name: &str) -> Option<u64> {
-    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
-    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    kibibytes.checked_mul(1024)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_line_of_the_peak_is_read() {
-        assert_eq!(kibibytes("Name:\tx\nVmPeak:\t  9 kB\nVmHWM:\t  1234 kB\n", "VmHWM:"), Some(1234 * 1024));
-    }
-
-    #[test]
-    fn a_status_without_it_has_none() {
-        assert_eq!(kibibytes("Name:\tx\n", "VmHWM:"), None);
-    }
-
-    #[test]
-    fn free_is_what_is_available_and_swap() {
-        assert_eq!(free_of("MemFree: 1 kB\nMemAvailable:  20 kB\nSwapFree: 5 kB\n"), Some(25 * 1024));
-        assert_eq!(free_of("MemAvailable:  20 kB\n"), Some(20 * 1024));
-        assert_eq!(free_of("MemFree: 1 kB\n"), None);
-    }
 
     #[test]
     fn more_than_there_is_is_told_with_what_it_needs() {

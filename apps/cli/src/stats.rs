@@ -7,8 +7,8 @@ use miette::{IntoDiagnostic, Result};
 use serde_json::{Value, json};
 
 use crate::job::{Frame, Job};
-use crate::memory::peak_bytes;
 use crate::output::write_file;
+use catoptra_scene::memory::peak_bytes;
 
 /// Milliseconds of the timed frames.
 pub(crate) struct FrameTimes {

@@ -15,7 +15,6 @@ use crate::input::Mode;
 use crate::keys::Command;
 use crate::making;
 use crate::seeing;
-use crate::tracing::Frame;
 use crate::transform::{self, Ends};
 use crate::viewer::Viewer;
 use crate::views;
@@ -71,7 +70,8 @@ pub(crate) fn run(viewer: &mut Viewer, command: Command) {
         Command::New => viewer.leave(Next::New),
         Command::Open => open(viewer),
         Command::Reload => reload(viewer),
-        Command::Picture => viewer.picture_wanted = true,
+        Command::Picture => viewer.ask_for_picture(),
+        Command::PictureAgain => viewer.picture_again(),
         Command::See(see) => seeing::run(viewer, see),
         Command::Transform(tool) => {
             transform::begin(viewer, tool, Constraint::Free, Ends::ByClick, viewer.pointer.at);
@@ -178,22 +178,6 @@ fn tell(viewer: &mut Viewer, deed: Option<Deed>, way: &str) {
         viewer.select_all(deed.brought.into_iter().collect());
     }
     viewer.notify(format!("{way}: {}", deed.words));
-}
-
-/// Writes the picture as it was traced, without overlays, under a free name in the current folder.
-pub(crate) fn write_picture(viewer: &mut Viewer, frame: &Frame) {
-    viewer.picture_wanted = false;
-    let path = crate::document::free_name(Path::new(""), &viewer.document.name(), "png");
-    let rgb: Vec<u8> =
-        frame.pixels.data.iter().flat_map(|p| [(p >> 16) as u8, (p >> 8) as u8, *p as u8]).collect();
-    let written = catoptra_scene::image::write_png(&path, frame.pixels.width, frame.pixels.height, &rgb);
-    match written {
-        Ok(()) => {
-            viewer.notify(format!("wrote {}", path.display()));
-            viewer.comparison.typed = path.display().to_string();
-        }
-        Err(problem) => viewer.notify(format!("{} was not written: {problem}", path.display())),
-    }
 }
 
 #[cfg(test)]

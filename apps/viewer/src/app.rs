@@ -17,9 +17,11 @@ use crate::comparison;
 use crate::dropped;
 use crate::frame_worker::{Finished, FrameWorker};
 use crate::guard::Next;
+use crate::keeping::Keeper;
 use crate::loader::{Opened, Outcome};
 use crate::options::Options;
 use crate::overlays::Overlays;
+use crate::pictures;
 use crate::recovery::{self, Kept};
 use crate::screen::Screen;
 use crate::status::Meter;
@@ -41,8 +43,12 @@ pub(crate) enum Wake {
     Comparison(comparison::Outcome),
     /// A picture of a material was finished.
     Ball,
+    /// A picture went into its file, or did not.
+    Made(pictures::Outcome),
     /// Files of the scene were changed.
     Changed(Vec<PathBuf>),
+    /// Unsaved edits could not be kept.
+    NotKept(String),
     /// The viewer is told to end.
     Ended,
 }
@@ -84,6 +90,8 @@ pub(crate) struct App {
     pub(crate) watch: Watch,
     /// Unsaved edits of earlier runs, to be offered.
     pub(crate) kept: Vec<Kept>,
+    /// Keeps unsaved edits, until the end.
+    pub(crate) keeper: Option<Keeper>,
     /// Whether the viewer was told to end.
     pub(crate) ended: bool,
 }
@@ -109,6 +117,12 @@ impl App {
         });
         let wake = proxy.clone();
         let watch = Watch::start(move |changed| wake.send_event(Wake::Changed(changed)).is_ok());
+        let (wake, folder) = (proxy.clone(), recovery::folder());
+        let kept = folder.as_deref().map(recovery::all).unwrap_or_default();
+        let keeper = Keeper::start(folder, move |why| {
+            // As above.
+            let _ = wake.send_event(Wake::NotKept(why));
+        });
         let mut app = Self {
             viewer: Viewer::new(opened),
             pool,
@@ -132,7 +146,8 @@ impl App {
             ticket: 0,
             wished_at: 0,
             watch,
-            kept: recovery::folder().map(|folder| recovery::all(&folder)).unwrap_or_default(),
+            kept,
+            keeper: Some(keeper),
             ended: false,
             options,
         };
@@ -164,7 +179,8 @@ impl App {
     /// When the loop has to wake without an event.
     fn next_due(&self) -> Option<Instant> {
         let egui = self.screen.as_ref().and_then(|screen| screen.due);
-        [egui, self.status_due].into_iter().flatten().min()
+        let keeping = self.keeper.as_ref().and_then(|keeper| keeper.due(Instant::now()));
+        [egui, self.status_due, keeping].into_iter().flatten().min()
     }
 
     fn request_redraw(&self) {
@@ -207,7 +223,12 @@ impl ApplicationHandler<Wake> for App {
                 self.viewer.stale.overlay = true;
             }
             Wake::Ball => self.take_ball(),
+            Wake::Made(outcome) => self.viewer.picture_made(outcome),
             Wake::Changed(files) => self.files_changed(&files),
+            Wake::NotKept(why) => {
+                self.viewer.failure = Some(format!("unsaved edits cannot be kept: {why}"));
+                self.viewer.stale.panel = true;
+            }
             Wake::Ended => {
                 self.ended = true;
                 match self.keep_edits() {
@@ -234,18 +255,21 @@ impl ApplicationHandler<Wake> for App {
         match self.viewer.take_next() {
             Some(Next::Close) => {
                 self.viewer.document.settle();
+                // There are no edits to be kept any more.
+                let _ = self.end_keeping(None);
                 return event_loop.exit();
             }
             Some(next) => self.open(next),
             None => {}
         }
         self.offer_kept();
+        self.keep_edits_if_due();
         self.do_wanted();
         self.request_if_stale();
         if let Some(sample) = self.viewer.preview.take_due() {
             self.balls.submit(sample);
         }
-        self.write_picture_if_wanted();
+        self.make_picture_if_wanted();
         if let Some(file) = self.viewer.comparison.take_wanted() {
             let proxy = self.proxy.clone();
             comparison::read(file, move |outcome| {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::guard::Next;
+use crate::pictures::{Format, Spec};
 
 /// What a file is wanted for.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -13,6 +14,19 @@ pub(crate) enum Purpose {
     Save(Option<Next>),
     /// To be put into the scene, as a model.
     Model,
+    /// To hold a picture like that.
+    Picture(Spec),
+}
+
+impl Purpose {
+    /// The ending that a name gets which has none, where the file is to be written.
+    fn ending(&self) -> Option<&'static str> {
+        match self {
+            Self::Save(_) => Some("kdl"),
+            Self::Picture(_) => Some("png"),
+            Self::Open | Self::Model => None,
+        }
+    }
 }
 
 /// One line of a folder.
@@ -80,15 +94,21 @@ impl Browser {
             self.go(&path);
             return None;
         }
-        if !matches!(self.purpose, Purpose::Save(_)) {
+        let Some(ending) = self.purpose.ending() else {
             if path.is_file() {
                 return Some(path);
             }
             self.problem = Some(format!("there is no file “{typed}”"));
             return None;
-        }
+        };
         if path.extension().is_none() {
-            path.set_extension("kdl");
+            path.set_extension(ending);
+        }
+        if let Purpose::Picture(spec) = &self.purpose
+            && let Some(problem) = spec.problem(&path)
+        {
+            self.problem = Some(problem);
+            return None;
         }
         if path.exists() && self.replaces.as_ref() != Some(&path) {
             self.problem = Some(format!("{} is there already", path.display()));
@@ -120,6 +140,7 @@ fn fits(name: &str, purpose: &Purpose) -> bool {
         Purpose::Open => is_scene || is_model,
         Purpose::Save(_) => is_scene,
         Purpose::Model => is_model,
+        Purpose::Picture(_) => Format::of(path).is_some(),
     }
 }
 

@@ -168,8 +168,10 @@ impl App {
         if key.state == ElementState::Pressed && self.key_to_transform(key) {
             return;
         }
-        if command == Some(Command::Escape) && egui::Popup::is_any_open(&screen.egui) {
-            // It closes the menu and nothing more.
+        let in_panel =
+            || egui::Popup::is_any_open(&screen.egui) || egui::DragAndDrop::has_any_payload(&screen.egui);
+        if command == Some(Command::Escape) && in_panel() {
+            // It closes the menu, or gives up the drag, and nothing more.
             return self.forward(screen, event);
         }
         if command == Some(Command::See(See::Before)) && !typing {

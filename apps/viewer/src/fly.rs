@@ -2,11 +2,11 @@
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::scene::{Edit, EntityId, Scene};
-use catoptra_core::{Camera, InvalidPart, Light, Part as _, Placement, Value};
+use catoptra_core::{Camera, InvalidPart, Light, Placement, Value};
 use catoptra_raster::Projection;
 
 use crate::camera_control;
-use crate::transform::{rounded, step};
+use crate::transform::{step_within, tidy_camera, tidy_light};
 use crate::viewer::Viewer;
 
 /// The key of the steps that this makes.
@@ -78,10 +78,7 @@ fn edit(viewer: &Viewer, id: EntityId) -> Option<Result<Edit, InvalidPart>> {
         return Some(tidy_view(viewer, &own, &outer).map(|camera| Edit::Camera(id, camera)));
     }
     let own = scene.light(id)?;
-    let tidy = |now: Light| {
-        let values = rounded(own.kind().fields, &own.values(), &now.values(), step_of_view(viewer, &outer));
-        Ok(Edit::Light(id, (own.kind().make)(&values)?))
-    };
+    let tidy = |now: Light| Ok(Edit::Light(id, tidy_light(&own, &now, step_of_view(viewer, &outer))?));
     Some(moved_to(&own, &outer, &viewer.camera).and_then(tidy))
 }
 
@@ -90,7 +87,7 @@ fn edit(viewer: &Viewer, id: EntityId) -> Option<Result<Edit, InvalidPart>> {
 fn step_of_view(viewer: &Viewer, outer: &Placement) -> f64 {
     let view = Projection::new(&viewer.camera, viewer.size.0, viewer.size.1);
     let far = viewer.camera.eye() + viewer.camera.forward() * camera_control::focus(&viewer.camera);
-    step(view.metres_per_pixel(far).unwrap_or(0.0) / outer.scale())
+    step_within(view.metres_per_pixel(far).unwrap_or(0.0), outer)
 }
 
 /// The camera that sees the view, in the space of one that is placed so, with round numbers where they differ from its own.
@@ -99,9 +96,7 @@ fn step_of_view(viewer: &Viewer, outer: &Placement) -> f64 {
 /// A view that has no place there.
 pub(crate) fn tidy_view(viewer: &Viewer, own: &Camera, outer: &Placement) -> Result<Camera, InvalidPart> {
     let now = viewer.camera.placed(&outer.inverse())?;
-    let step = step_of_view(viewer, outer);
-    let values = rounded(Camera::FIELDS, &own.values(), &now.values(), step);
-    (Camera::KIND.make)(&values)
+    tidy_camera(own, &now, step_of_view(viewer, outer))
 }
 
 /// A light, in its own space, that shines from where a camera looks.

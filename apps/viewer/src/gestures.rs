@@ -121,15 +121,11 @@ fn gripped(viewer: &Viewer, grip: Grip, to: (f64, f64)) -> Option<Result<Light, 
     let [from, target] = overlay.aim_line(grip.light)?;
     let distance = target.distance(viewer.camera.eye());
     let at = transform::aimed_at(viewer, grip.light, to, distance);
-    let step = transform::step(
-        Projection::new(&viewer.camera, viewer.size.0, viewer.size.1).metres_per_pixel(from)?,
-    );
-    let before = viewer.document.scene().light(grip.light)?;
-    let tidy = |light: Light| {
-        let values = transform::rounded(light.kind().fields, &before.values(), &light.values(), step);
-        (light.kind().make)(&values)
-    };
-    Some(overlay.aim(grip.light, at)?.and_then(tidy))
+    let pixel = Projection::new(&viewer.camera, viewer.size.0, viewer.size.1).metres_per_pixel(from)?;
+    let scene = viewer.document.scene();
+    let step = transform::step_within(pixel, &scene.world_placement(grip.light)?);
+    let before = scene.light(grip.light)?;
+    Some(overlay.aim(grip.light, at)?.and_then(|aimed| transform::tidy_light(&before, &aimed, step)))
 }
 
 fn drag_grip(viewer: &mut Viewer, grip: Grip, to: (f64, f64)) {

@@ -17,6 +17,8 @@ pub(crate) enum Illumination {
     /// That of the scene.
     #[default]
     Scene,
+    /// That of the scene, of which each light is also looked at by itself.
+    EachLight,
     /// The same from everywhere, and none else: surfaces show their own colours.
     Even,
 }
@@ -91,9 +93,11 @@ impl Lighting {
     pub(crate) fn lit(&self, scene: &Scene, camera: &Camera, illumination: Illumination) -> Option<Scene> {
         let outcome = match illumination {
             Illumination::Even => evenly_lit(scene),
-            Illumination::Scene if !has_lights(scene) => with_headlight(scene, camera),
-            Illumination::Scene if self.is_plain() => return None,
-            Illumination::Scene => darkened(scene, |id| self.is_dark(id)),
+            Illumination::Scene | Illumination::EachLight if !has_lights(scene) => {
+                with_headlight(scene, camera)
+            }
+            Illumination::Scene | Illumination::EachLight if self.is_plain() => return None,
+            Illumination::Scene | Illumination::EachLight => darkened(scene, |id| self.is_dark(id)),
         };
         // A scene that refuses is shown as it is.
         outcome.ok()
@@ -165,6 +169,14 @@ fn darkened(scene: &Scene, is_dark: impl Fn(EntityId) -> bool) -> Result<Scene, 
         }
     }
     Ok(lit)
+}
+
+/// The scene with one of its lights alone.
+///
+/// # Errors
+/// What a scene refuses.
+pub(crate) fn with_one_light(scene: &Scene, light: EntityId) -> Result<Scene, SceneError> {
+    darkened(scene, |id| id != light)
 }
 
 fn with_headlight(scene: &Scene, camera: &Camera) -> Result<Scene, SceneError> {

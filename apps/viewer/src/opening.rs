@@ -1,11 +1,13 @@
 //! How do files come into the window, and what becomes of edits when it ends? Scenes are opened and opened again when
-//! their files change; what is not saved when the viewer is told to end is kept, and offered at the next start.
+//! their files change; what is not saved is kept by itself and when the viewer is told to end, and offered at the next start.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Instant;
 
 use crate::app::{App, Wake};
 use crate::guard::Next;
+use crate::keeping::{Keeper, Unsaved};
 use crate::loader::{self, Outcome};
 use crate::viewer::{Broken, Wanted};
 use crate::{dropped, making, recent, recovery};
@@ -35,6 +37,7 @@ impl App {
             Ok(opened) => {
                 if self.viewer.lets_in(&outcome.next, self.wished_at) {
                     self.viewer.show(*opened);
+                    self.keeper.iter_mut().for_each(Keeper::forget);
                     self.welcome(&outcome.next);
                 }
             }
@@ -107,16 +110,29 @@ impl App {
     /// Why they could not be kept, for people.
     pub(crate) fn keep_edits(&mut self) -> Result<(), String> {
         self.viewer.finish_name();
-        if self.viewer.document.is_saved() {
-            return Ok(());
+        let document = &self.viewer.document;
+        let unsaved = (!document.is_saved()).then(|| document.unsaved());
+        let kept = self.end_keeping(unsaved).map_err(|why| format!("unsaved edits are lost: {why}"))?;
+        if let Some(place) = kept {
+            eprintln!("unsaved edits are kept in {}", place.display());
         }
-        let (origin, text) = self.viewer.document.text_to_keep();
-        let folder = recovery::folder().ok_or("there is no folder to keep unsaved edits in")?;
-        let place =
-            recovery::keep(&folder, &origin, &text).map_err(|e| format!("unsaved edits are lost: {e}"))?;
-        self.viewer.document.settle();
-        eprintln!("unsaved edits are kept in {}", place.display());
         Ok(())
+    }
+
+    /// Ends the keeping of edits with those that are to be kept at the end, if any.
+    ///
+    /// # Errors
+    /// Why they could not be kept, for people.
+    pub(crate) fn end_keeping(&mut self, unsaved: Option<Unsaved>) -> Result<Option<PathBuf>, String> {
+        self.keeper.take().map_or(Ok(None), |keeper| keeper.end(unsaved))
+    }
+
+    /// Keeps edits by themselves, where that is due.
+    pub(crate) fn keep_edits_if_due(&mut self) {
+        let drags = self.viewer.pointer.is_pressed() || self.viewer.transform.is_some();
+        if let Some(keeper) = &mut self.keeper {
+            keeper.follow(&self.viewer.document, drags, Instant::now());
+        }
     }
 
     /// Does what the viewer cannot do by itself.

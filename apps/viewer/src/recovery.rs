@@ -1,8 +1,12 @@
-//! What is kept of edits that were not saved when the viewer was told to end, and how does the next start find it? Scene
-//! text in a folder of the person's, with a first line that says whose edits they are.
+//! What is kept of edits that are not saved, and how does the next start find it? Scene text in a folder of the person's, with
+//! a first line that says whose edits they are.
 
+use std::fs::{File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crate::free_name::free_name;
 
 /// How the first line begins where the edits are those of a file.
 const OF_FILE: &str = "// unsaved edits of the file ";
@@ -43,8 +47,7 @@ impl Kept {
 
     /// Forgets them.
     pub(crate) fn forget(&self) {
-        // If it cannot be removed it is offered again; nothing is lost.
-        let _ = std::fs::remove_file(&self.place);
+        remove(&self.place);
     }
 
     /// What a person calls the scene.
@@ -76,30 +79,83 @@ pub(crate) fn folder() -> Option<PathBuf> {
     Some(state_folder()?.join("recovery"))
 }
 
-/// Keeps a text in that folder.
-///
-/// # Errors
-/// What the disk refuses, and paths that text cannot spell.
-pub(crate) fn keep(folder: &Path, origin: &Origin, text: &str) -> io::Result<PathBuf> {
-    let (begins, path) = match origin {
-        Origin::File(path) => (OF_FILE, path),
-        Origin::Folder(path) => (IN_FOLDER, path),
-    };
-    let path = std::path::absolute(path)?;
-    let spelled =
-        path.to_str().filter(|path| !path.contains(['\n', '\r'])).ok_or(io::ErrorKind::InvalidInput)?;
-    std::fs::create_dir_all(folder)?;
-    let place = crate::document::free_name(folder, &format!("{}", std::process::id()), ENDING);
-    let whole = format!("{begins}{spelled}\n{text}");
-    catoptra_scene::atomic::write(&place, |out| io::Write::write_all(out, whole.as_bytes()))?;
-    Ok(place)
+/// A place for the edits of this window, which no other window offers as long as this one lives.
+pub(crate) struct Own {
+    place: PathBuf,
+    /// Locked; the system unlocks it when the window ends, however that is.
+    _lock: File,
 }
 
-/// All edits that are kept in that folder, the latest last.
+impl Own {
+    /// A free place in that folder.
+    ///
+    /// # Errors
+    /// What the disk refuses.
+    pub(crate) fn claim(folder: &Path) -> io::Result<Self> {
+        std::fs::create_dir_all(folder)?;
+        loop {
+            let place = free_name(folder, &format!("{}", std::process::id()), ENDING);
+            let lock = File::options().create(true).truncate(false).write(true).open(lock_of(&place))?;
+            match lock.try_lock() {
+                // Another window had the same number, elsewhere, and was faster.
+                Err(TryLockError::WouldBlock) => std::thread::sleep(Duration::from_millis(10)),
+                // Where files cannot be locked, kept edits are offered while they are still edited: nothing is lost.
+                Ok(()) | Err(TryLockError::Error(_)) => return Ok(Self { place, _lock: lock }),
+            }
+        }
+    }
+
+    /// Where the edits are kept.
+    pub(crate) fn place(&self) -> &Path {
+        &self.place
+    }
+
+    /// Keeps a text there.
+    ///
+    /// # Errors
+    /// What the disk refuses, and paths that text cannot spell.
+    pub(crate) fn keep(&self, origin: &Origin, text: &str) -> io::Result<()> {
+        let (begins, path) = match origin {
+            Origin::File(path) => (OF_FILE, path),
+            Origin::Folder(path) => (IN_FOLDER, path),
+        };
+        let path = std::path::absolute(Path::new(".").join(path))?;
+        let spelled =
+            path.to_str().filter(|path| !path.contains(['\n', '\r'])).ok_or(io::ErrorKind::InvalidInput)?;
+        let whole = format!("{begins}{spelled}\n{text}");
+        catoptra_scene::atomic::write(&self.place, |out| io::Write::write_all(out, whole.as_bytes()))
+    }
+
+    /// Keeps nothing any longer.
+    pub(crate) fn forget(self) {
+        remove(&self.place);
+    }
+}
+
+/// Takes away what is kept at a place.
+fn remove(place: &Path) {
+    // If it cannot be removed it is offered again; nothing is lost.
+    let _ = std::fs::remove_file(place);
+    let _ = std::fs::remove_file(lock_of(place));
+}
+
+/// The file that is locked while a window keeps its edits at a place.
+fn lock_of(place: &Path) -> PathBuf {
+    place.with_extension("lock")
+}
+
+/// Whether the window that keeps its edits at a place still lives.
+fn is_alive(place: &Path) -> bool {
+    let lock = File::options().write(true).open(lock_of(place));
+    lock.is_ok_and(|lock| matches!(lock.try_lock(), Err(TryLockError::WouldBlock)))
+}
+
+/// All edits that are kept in that folder and not of windows that still live, the latest last.
 pub(crate) fn all(folder: &Path) -> Vec<Kept> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let files = entries.filter_map(Result::ok).map(|entry| entry.path());
-    let ours = files.filter(|path| path.extension().is_some_and(|ending| ending == ENDING));
+    let ours =
+        files.filter(|path| path.extension().is_some_and(|ending| ending == ENDING) && !is_alive(path));
     let mut kept: Vec<Kept> =
         ours.filter_map(|place| Some(Kept { origin: origin(&place)?, place })).collect();
     kept.sort_by_key(|kept| std::fs::metadata(&kept.place).and_then(|found| found.modified()).ok());
@@ -120,6 +176,32 @@ fn origin(place: &Path) -> Option<Origin> {
 mod tests {
     use super::*;
 
+    /// Keeps a text as a window does that ends then.
+    fn keep(folder: &Path, origin: &Origin, text: &str) -> PathBuf {
+        let own = Own::claim(folder).unwrap();
+        own.keep(origin, text).unwrap();
+        own.place().to_owned()
+    }
+
+    #[test]
+    fn what_a_living_window_keeps_is_not_offered() {
+        let folder = tempfile::tempdir().unwrap();
+        let own = Own::claim(folder.path()).unwrap();
+        own.keep(&Origin::Folder("/b".into()), "one").unwrap();
+        own.keep(&Origin::Folder("/b".into()), "two").unwrap();
+        assert!(all(folder.path()).is_empty());
+        let place = own.place().to_owned();
+        drop(own);
+        let kept = all(folder.path());
+        assert_eq!((kept.len(), kept[0].text().unwrap().as_str()), (1, "two"));
+        assert_eq!(kept[0].place, place);
+        let other = Own::claim(folder.path()).unwrap();
+        assert_ne!(other.place(), place, "what is there is not written over");
+        other.forget();
+        kept[0].forget();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
     #[test]
     fn what_is_kept_is_found_and_forgotten() {
         let folder = tempfile::tempdir().unwrap();
@@ -127,7 +209,7 @@ mod tests {
         assert!(all(&inner).is_empty());
         let origins = [Origin::File("/a/room.kdl".into()), Origin::Folder("/b".into())];
         for (origin, text) in origins.iter().zip(["one\ntwo\n", ""]) {
-            keep(&inner, origin, text).unwrap();
+            keep(&inner, origin, text);
         }
         std::fs::write(inner.join("other.kdl"), "// something else\n").unwrap();
         let kept = all(&inner);
@@ -144,7 +226,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("room.kdl");
         let state = folder.path().join("state");
-        let place = keep(&state, &Origin::File(file.clone()), "").unwrap();
+        let place = keep(&state, &Origin::File(file.clone()), "");
         let kept = &all(&state)[0];
         assert!(!kept.is_older_than_its_file(), "there is none");
         std::fs::write(&file, "").unwrap();

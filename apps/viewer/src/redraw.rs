@@ -13,7 +13,7 @@ use crate::screen::{Fitted, Screen};
 use crate::status::{FrameFigures, REST, lamp_notes};
 use crate::tracing::Frame;
 use crate::viewer::Viewer;
-use crate::{actions, clipped, outline, panel};
+use crate::{clipped, outline, panel};
 
 /// The status line is written anew this often while frames come in.
 const STATUS_EVERY: Duration = Duration::from_millis(200);
@@ -124,7 +124,6 @@ impl App {
         if let Some(old) = self.shown.replace(finished) {
             self.worker.give_back(old.frame);
         }
-        self.write_picture_if_wanted();
         self.read_off(self.viewer.pointer.at);
         true
     }
@@ -147,25 +146,8 @@ impl App {
         let Size { width, height } = frame.film.size();
         let (x, y) = Fit::new((width, height), frame.size).pixel(at)?;
         let name = frame.film.surface(x, y).and_then(|id| self.viewer.document.scene().name(id))?;
-        let number = frame.numbers.as_ref().map(|numbers| {
-            let value = numbers.values[y as usize * width as usize + x as usize];
-            format!("{} {}", panel::short(f64::from(value)), numbers.unit)
-        });
-        Some(number.map_or_else(|| name.clone(), |number| format!("{number}  ·  {name}")))
-    }
-
-    /// Writes the picture once it is the one that was asked for, in full.
-    pub(crate) fn write_picture_if_wanted(&mut self) {
-        if !self.viewer.picture_wanted {
-            return;
-        }
-        if let Some(shown) = &self.shown
-            && shown.step == Step::FULL
-            && shown.generation == self.asked
-            && !self.viewer.stale.trace
-        {
-            actions::write_picture(&mut self.viewer, &shown.frame);
-        }
+        let pixel = y as usize * width as usize + x as usize;
+        Some(frame.numbers.as_ref().map_or_else(|| name.clone(), |numbers| numbers.words(pixel, &name)))
     }
 
     /// Lays out the newest frame and draws outline and overlays over it.

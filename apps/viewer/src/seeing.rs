@@ -10,6 +10,7 @@ use catoptra_tracer::{Backend, Display, Extraction, backends};
 
 use crate::exposure::{self, Exposure};
 use crate::input::Mode;
+use crate::light_parts::LightParts;
 use crate::lighting::{self, Illumination, Lighting};
 use crate::parts::USUAL_ERROR;
 use crate::pass::{PASSES, Pass};
@@ -48,6 +49,8 @@ pub(crate) struct ViewSettings {
     pub(crate) marks_clipped: bool,
     /// What is shown of the scene.
     pub(crate) pass: &'static Pass,
+    /// Whether light is shown of the selected lights alone, by passes that look at each light.
+    pub(crate) lights_alone: bool,
     /// Which overlays are drawn.
     pub(crate) style: OverlayStyle,
     /// Which handles stand about what is selected.
@@ -81,6 +84,7 @@ impl ViewSettings {
             exposure: Exposure::default(),
             marks_clipped: false,
             pass: &PASSES[0],
+            lights_alone: false,
             style,
             tool: Some(Tool::Move),
             local_axes: false,
@@ -195,10 +199,21 @@ impl Viewer {
             Stale { scene: copied_anew || self.stale.scene, trace: true, overlay: true, panel: true };
     }
 
+    /// Looks at the light of the selected lights alone, or of all.
+    pub(crate) fn show_lights_alone(&mut self, alone: bool) {
+        self.settings.lights_alone = alone;
+        self.stale.scene = true;
+    }
+
+    /// Whether each light is looked at by itself.
+    pub(crate) fn tells_lights_apart(&self) -> bool {
+        self.settings.pass.illumination == Illumination::EachLight
+    }
+
     /// Whether the scene is shown in another light than its own.
     pub(crate) fn is_lit_otherwise(&self) -> bool {
-        let even = self.settings.pass.illumination == Illumination::Even;
-        even || !self.lighting.is_plain() || !lighting::has_lights(self.document.scene())
+        let is_other = self.settings.pass.illumination != Illumination::Scene;
+        is_other || !self.lighting.is_plain() || !lighting::has_lights(self.document.scene())
     }
 
     /// Copies the scene for the worker, in the light that it is shown in.
@@ -206,7 +221,14 @@ impl Viewer {
         let scene = self.scene_shown();
         let lit = self.lighting.lit(scene, &self.camera, self.settings.pass.illumination);
         let extraction = Extraction::of(lit.as_ref().unwrap_or(scene));
-        self.headlight = !lighting::has_lights(scene);
+        let headlight = !lighting::has_lights(scene);
+        self.light_parts = match self.settings.pass.illumination {
+            Illumination::EachLight => {
+                LightParts::of(scene, &self.lighting, &self.selected_lights(), self.settings.lights_alone)
+            }
+            Illumination::Scene | Illumination::Even => Arc::default(),
+        };
+        self.headlight = headlight;
         self.extraction = Arc::new(extraction);
         self.stale.trace = true;
     }

@@ -10,6 +10,7 @@ use crate::canvas::{Pixels, resize};
 use crate::draft::{Quality, draft, has_draft};
 use crate::frame_worker::{Refined, Tracing};
 use crate::latest::Latest;
+use crate::light_parts::LightParts;
 use crate::parts::{Goal, Parts, Patches, Tracer};
 use crate::pass::{Numbers, OwnShapes, Pass, Seen};
 use crate::refine::{Step, reduced};
@@ -35,12 +36,14 @@ pub(crate) struct Request {
     pub(crate) pass: &'static Pass,
     /// The shapes of the scene before they are placed, if the pass asks for them.
     pub(crate) own: OwnShapes,
+    /// The scene by each of its lights, if the pass asks for that.
+    pub(crate) lights: Arc<LightParts>,
 }
 
 /// A request with its scene frozen.
 pub(crate) struct Job {
     request: Request,
-    snapshot: Arc<Snapshot>,
+    pub(crate) snapshot: Arc<Snapshot>,
 }
 
 /// A traced picture.
@@ -92,8 +95,8 @@ impl Frame {
             self.encode(request.tone, pool);
             return true;
         };
-        let (film, backend, own) = (&self.film, request.backend, &request.own);
-        let Some(painted) = paint(&Seen { film, snapshot, view, backend, own, pool, control }) else {
+        let (film, backend, own, lights) = (&self.film, request.backend, &request.own, &*request.lights);
+        let Some(painted) = paint(&Seen { film, snapshot, view, backend, own, lights, pool, control }) else {
             return false;
         };
         let Size { width, height } = self.film.size();
@@ -145,6 +148,34 @@ impl PoolTracing {
     pub(crate) fn new(pool: Arc<Pool>) -> Self {
         Self { pool, resting: None }
     }
+
+    /// A frame of a film that was traced; `None` when that was cancelled, and then the room is among the spares.
+    pub(crate) fn painted(
+        &self,
+        job: &Job,
+        view: &View,
+        (film, pixels): (Arc<Film>, Pixels),
+        rays: u64,
+        (control, spares): (&Control, &mut Vec<Spare>),
+    ) -> Option<Frame> {
+        let Request { tone, pass, .. } = job.request;
+        let mut frame = Frame {
+            film,
+            patches: Patches::default(),
+            pixels,
+            camera: view.camera.clone(),
+            size: Self::size(job),
+            tone,
+            rays,
+            pass,
+            numbers: None,
+        };
+        if frame.paint(job, view, &self.pool, control) {
+            return Some(frame);
+        }
+        spares.push(frame.into());
+        None
+    }
 }
 
 impl Tracing for PoolTracing {
@@ -180,22 +211,7 @@ impl Tracing for PoolTracing {
         if step == Step::FULL && Self::is_refined(job) {
             self.resting = Some((Arc::clone(&film), Parts::new(size)));
         }
-        let mut frame = Frame {
-            film,
-            patches: Patches::default(),
-            pixels,
-            camera: view.camera.clone(),
-            size: full,
-            tone: request.tone,
-            rays: stats.rays.total(),
-            pass: request.pass,
-            numbers: None,
-        };
-        if frame.paint(job, &view, &self.pool, control) {
-            return Some(frame);
-        }
-        spares.push(frame.into());
-        None
+        self.painted(job, &view, (film, pixels), stats.rays.total(), (control, spares))
     }
 
     fn frame_time(Job { request, .. }: &Job) -> f64 {

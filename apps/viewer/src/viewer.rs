@@ -5,10 +5,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-use catoptra_core::scene::{Edit, EntityId, Scene, SceneError, Subject, TextureId};
-use catoptra_core::{Camera, Integrator};
-use catoptra_raster::{Manipulator, Overlay, OverlayStyle};
-use catoptra_tracer::{Extraction, Tone, View};
+use catoptra_core::Camera;
+use catoptra_core::scene::{EntityId, Scene, TextureId};
+use catoptra_tracer::Extraction;
 
 use crate::browse::Browser;
 use crate::comparison::Comparison;
@@ -17,21 +16,17 @@ use crate::fly::Flown;
 use crate::guard::{Guard, Next};
 use crate::input::Pointer;
 use crate::latest::Latest;
+use crate::light_parts::LightParts;
 use crate::lighting::Lighting;
 use crate::loader::Opened;
 use crate::making::add::Adding;
 use crate::naming::Named;
-use crate::parts::Goal;
-use crate::pass;
+use crate::pictures::Pictures;
 use crate::preview::Preview;
 use crate::seeing::{Readout, ViewSettings};
 use crate::selection::{Picking, Selection};
-use crate::tracing::Request;
-use crate::transform::{self, Ends, Transform};
+use crate::transform::Transform;
 use crate::viewpoint::usual_camera;
-
-/// Samples a pixel where each is one direction that sees the sky or does not: a quarter of the noise of a single one.
-const OCCLUSION_SAMPLES: u32 = 16;
 
 /// What has to be done again since something changed.
 #[derive(Debug, Clone, Copy, Default)]
@@ -100,6 +95,8 @@ pub(crate) struct Viewer {
     pub(crate) shown: Shown,
     /// Which lights are left dark.
     pub(crate) lighting: Lighting,
+    /// The scene by each of its lights, where these are told apart.
+    pub(crate) light_parts: Arc<LightParts>,
     /// Whether the scene lacks lights and is lit from the camera.
     pub(crate) headlight: bool,
     /// The scene before the last edit, while that is shown.
@@ -131,11 +128,11 @@ pub(crate) struct Viewer {
     pub(crate) browser: Option<Browser>,
     /// What is asked before work is lost.
     pub(crate) guard: Guard,
-    /// A picture is to be written as soon as it is finished.
-    pub(crate) picture_wanted: bool,
+    /// The pictures that are wanted in files.
+    pub(crate) pictures: Pictures,
     pub(crate) stale: Stale,
     /// The revision of the scene that has been looked at for changes.
-    seen: u64,
+    pub(crate) seen: u64,
 }
 
 impl Viewer {
@@ -156,6 +153,7 @@ impl Viewer {
             typed_name: None,
             shown: Shown { panel: true, help: false, overlays: true },
             lighting: Lighting::default(),
+            light_parts: Arc::default(),
             headlight: false,
             before: None,
             comparison: Comparison::default(),
@@ -172,7 +170,7 @@ impl Viewer {
             adding: None,
             names_next: false,
             guard: Guard::default(),
-            picture_wanted: false,
+            pictures: Pictures::default(),
             stale: Stale { scene: false, trace: true, overlay: true, panel: true },
             seen,
         };
@@ -209,7 +207,10 @@ impl Viewer {
                 self.selection = selected.iter().filter_map(|name| scene.entity_named(name)).collect();
                 self.through = through.and_then(|name| scene.entity_named(&name));
             }
-            None => self.adopt(self.document.scene().main_camera()),
+            None => {
+                self.pictures.forget();
+                self.adopt(self.document.scene().main_camera());
+            }
         }
         self.stale = Stale { scene: self.is_lit_otherwise(), trace: true, overlay: true, panel: true };
     }
@@ -225,54 +226,6 @@ impl Viewer {
     pub(crate) fn notify(&mut self, text: impl Into<String>) {
         self.notice = Some((text.into(), Instant::now()));
         self.stale.panel = true;
-    }
-
-    /// What the worker is to trace now.
-    pub(crate) fn request(&self) -> Request {
-        let pass = self.settings.pass;
-        let integrator = pass.integrator.unwrap_or(self.document.scene().settings().integrator());
-        let samples = match integrator {
-            Integrator::Whitted | Integrator::Path => 1,
-            Integrator::Occlusion => OCCLUSION_SAMPLES,
-        };
-        let goal = Goal::of(self.document.scene().settings(), integrator, self.settings.max_error);
-        let view = View { integrator, ..self.view().with_samples(samples) };
-        let own = if pass.paint.is_some() { pass::own_shapes(self.scene_shown()) } else { Arc::default() };
-        Request {
-            extraction: Arc::clone(&self.extraction),
-            latest: Arc::clone(&self.latest),
-            backend: self.settings.backend,
-            view,
-            frame_time: self.settings.frame_time,
-            goal,
-            tone: self.tone(),
-            pass,
-            own,
-        }
-    }
-
-    /// How radiance becomes colour: as the panel and the scene say.
-    pub(crate) fn tone(&self) -> Tone {
-        let scene = self.document.scene().settings().exposure();
-        self.settings.display.exposed(scene + self.settings.exposure.stops)
-    }
-
-    /// The handles about what is selected; none while keys move it.
-    fn manipulator(&self) -> Option<Manipulator> {
-        let by_keys = self.transform.as_ref().is_some_and(|transform| transform.ends == Ends::ByClick);
-        self.settings.tool.filter(|_| !by_keys).and_then(|tool| transform::manipulator(self, tool))
-    }
-
-    /// The overlays as seen by `camera` on a picture of that size.
-    pub(crate) fn overlay<'a>(&'a self, camera: &'a Camera) -> Overlay<'a> {
-        let style = if self.shown.overlays {
-            OverlayStyle { manipulator: self.manipulator(), ..self.settings.style }
-        } else {
-            OverlayStyle { scale: self.settings.style.scale, ..OverlayStyle::NONE }
-        };
-        let (width, height) = self.size;
-        let (scene, selection) = (self.document.scene(), self.selection.ids());
-        Overlay { scene, camera, width, height, depth: None, selection, style }
     }
 
     /// Selects one thing alone, or nothing.
@@ -294,64 +247,9 @@ impl Viewer {
         if self.selection != selection {
             self.finish_name();
             self.selection = selection;
+            self.stale.scene |= self.tells_lights_apart();
             self.stale.overlay = true;
             self.stale.panel = true;
         }
-    }
-
-    /// Gives the name that is being typed, if any, to whose it is to be.
-    pub(crate) fn finish_name(&mut self) {
-        let Some((owner, typed)) = self.typed_name.take() else { return };
-        if let Some(edit) = owner.renamed(self.document.scene(), typed) {
-            self.edit(edit);
-        }
-    }
-
-    /// Changes the scene as one step to undo; `false` for a refusal, which is told.
-    pub(crate) fn edit(&mut self, edit: Edit) -> bool {
-        let outcome = self.document.edit(edit);
-        let done = outcome.is_ok();
-        self.after_edit(outcome);
-        done
-    }
-
-    /// Changes the scene as a part of the step with that key; a refusal is told.
-    pub(crate) fn edit_on(&mut self, edit: Edit, key: u64) {
-        let outcome = self.document.edit_on(edit, key);
-        self.after_edit(outcome);
-    }
-
-    fn after_edit(&mut self, outcome: Result<(), SceneError>) {
-        match outcome {
-            Ok(()) => self.notice = None,
-            Err(refusal) => self.notify(refusal.to_string()),
-        }
-    }
-
-    /// Brings everything up to what the scene has become; once for all that happened since the last time. The worker
-    /// makes the snapshot.
-    pub(crate) fn follow_scene(&mut self) {
-        if self.document.scene().revision() != self.seen {
-            self.follow_edits();
-        }
-        if std::mem::take(&mut self.stale.scene) {
-            self.copy_scene();
-        }
-    }
-
-    fn follow_edits(&mut self) {
-        let scene = self.document.scene();
-        let changes = scene.changes_since(self.seen);
-        let moved = self.through.filter(|id| changes.iter().any(|c| c.subject == Subject::Entity(*id)));
-        self.seen = scene.revision();
-        self.selection = self.selection.without(|id| !scene.contains(id));
-        self.lighting.keep_lights_of(scene);
-        self.before = None;
-        self.texture = self.texture.filter(|id| scene.find_texture(*id).is_some());
-        let flown = self.flown.as_ref().map(|flown| flown.id);
-        if moved.is_some() && moved != flown {
-            self.follow_camera(moved);
-        }
-        self.stale = Stale { scene: true, trace: true, overlay: true, panel: true };
     }
 }

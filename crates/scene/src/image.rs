@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 
 use crate::{atomic, printable};
 pub use load::{load, load_bytes};
+pub use openexr::write_exr;
 
 /// A picture of 8-bit red, green, blue: row-major from the top left, `3 * width * height` bytes.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -5,7 +5,8 @@
 //!   only what has changed. The grammar follows the lists of kinds in the core: a new shape, light or material is
 //!   read and written without a change here.
 //! * [`fragment`] makes text of parts of a scene, and adds such text to another.
-//! * [`model`] reads models and meshes, [`ies`] how luminaires shine, [`image`] reads and writes PNG pictures.
+//! * [`model`] reads models and meshes, [`ies`] how luminaires shine, [`image`] reads pictures, and writes PNG and OpenEXR.
+//! * [`memory`] tells how much there is for a picture.
 //! * [`atomic`] writes any file whole or not at all, and says beforehand whether it can, and [`words`] finds the word that a misspelt one was meant to be.
 //!
 //! Whatever a file holds, reading it ends in a value or in an error that says what, where and what to do: never in a
@@ -24,6 +25,7 @@ pub mod fragment;
 pub mod ies;
 pub mod image;
 mod instance;
+pub mod memory;
 pub mod model;
 mod outline;
 mod printable;

@@ -274,6 +274,8 @@ pub(crate) struct Item {
     pub(crate) parent: Option<usize>,
     /// The file of a model, if it could be read.
     pub(crate) model: Option<ModelSource>,
+    /// Where the path of that file is written.
+    pub(crate) model_path: Option<Span>,
     /// Whether a part of a model is left out.
     pub(crate) removed: bool,
     /// Where that is said: the child node, or the property.
@@ -306,6 +308,7 @@ impl Item {
             part: None,
             parent,
             model: None,
+            model_path: None,
             removed: false,
             remove: None,
             count: None,

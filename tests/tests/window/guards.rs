@@ -17,7 +17,7 @@ sphere \"ball\" material=\"blue\" { center 0 0 0; radius 2 }
 /// The box of a question stands in the middle of the window: a place left of all that is written in it.
 const BOX: (usize, usize) = (SIZE.0 / 2 - 196, SIZE.1 / 2);
 
-fn asks(picture: &Picture) -> bool {
+pub(crate) fn asks(picture: &Picture) -> bool {
     picture.rgb(BOX.0, BOX.1) == [0x16, 0x18, 0x1d]
 }
 

@@ -5,6 +5,7 @@ mod clipboard;
 mod desktop;
 mod files;
 mod guards;
+mod keeping;
 mod making;
 mod manners;
 mod moving;
@@ -13,6 +14,7 @@ mod programs;
 mod seeing;
 mod selecting;
 mod stage;
+mod writing;
 
 use std::time::{Duration, Instant};
 
@@ -196,17 +198,6 @@ fn at_rest_nothing_is_traced_and_no_time_is_used() {
     std::thread::sleep(Duration::from_secs(2));
     assert_eq!(stage.frames(), frames, "frames traced at rest");
     assert!(stage.ticks() - ticks <= 1, "{} ticks of processor time used at rest", stage.ticks() - ticks);
-}
-
-#[test]
-fn p_writes_the_picture() {
-    let Some(stage) = stage() else { return };
-    for name in ["scene.png", "scene-2.png"] {
-        stage.key("p");
-        let file = stage.folder.path().join(name);
-        stage.wait(name, |_| file.exists());
-        assert!(std::fs::read(&file).expect("a picture").starts_with(b"\x89PNG\r\n"), "{name}");
-    }
 }
 
 #[test]

@@ -161,6 +161,12 @@ impl Stage {
         assert!(told.is_ok_and(|status| status.success()), "the viewer is told");
     }
 
+    /// Ends the viewer as a system does that is out of memory: it cannot do anything any more.
+    pub(crate) fn kill(&mut self) {
+        self.viewer.kill().expect("the viewer can be killed");
+        self.viewer.wait().expect("it ends");
+    }
+
     /// The text on the clipboard.
     pub(crate) fn clipboard(&self) -> String {
         clipboard::read(&self.display).expect("the clipboard can be read")

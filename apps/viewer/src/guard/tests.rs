@@ -5,6 +5,7 @@ use std::path::Path;
 use catoptra_core::scene::Edit;
 
 use super::*;
+use crate::keeping::Keeper;
 
 const TEXT: &str = "matte \"grey\" { color 0.5 0.5 0.5 }\nsphere \"ball\" material=\"grey\" { radius 1 }\n";
 
@@ -214,9 +215,11 @@ fn kept_edits_are_brought_back_unsaved_or_forgotten() {
         [(Answer::Write, true, true), (Answer::GiveUp, false, false), (Answer::Cancel, true, false)]
     {
         let folder = tempfile::tempdir().unwrap();
-        let (path, mut document) = edited(folder.path());
-        let (origin, kept) = document.text_to_keep();
-        let place = crate::recovery::keep(folder.path(), &origin, &kept).unwrap();
+        let (path, document) = edited(folder.path());
+        let unsaved = document.unsaved();
+        let origin = unsaved.origin.clone();
+        let keeper = Keeper::start(Some(folder.path().join("state")), |why| panic!("{why}"));
+        let place = keeper.end(Some(unsaved)).unwrap().unwrap();
         let kept = Kept { place, origin };
         let mut guard = Guard::default();
         guard.offer(kept.clone());

@@ -56,7 +56,7 @@ pub(crate) fn ungroup(viewer: &mut Viewer) {
 }
 
 /// The edit that lets a thing stand where it stands, in a group of that placement in the world.
-fn kept_in_place(scene: &Scene, id: EntityId, group: &Placement) -> Option<Edit> {
+pub(super) fn kept_in_place(scene: &Scene, id: EntityId, group: &Placement) -> Option<Edit> {
     let now = scene.parent(id).and_then(|parent| scene.world_placement(parent)).unwrap_or_default();
     let own = scene.placement(id)?;
     (now != *group).then(|| Edit::Placement(id, own.then(&now).then(&group.inverse())))
@@ -68,6 +68,6 @@ fn place_of(scene: &Scene, id: EntityId) -> Option<usize> {
 }
 
 /// In the order of the tree.
-fn in_order(scene: &Scene, ids: &[EntityId]) -> Vec<EntityId> {
+pub(super) fn in_order(scene: &Scene, ids: &[EntityId]) -> Vec<EntityId> {
     scene.walk().into_iter().filter(|id| ids.contains(id)).collect()
 }

@@ -4,6 +4,7 @@ pub(crate) mod add;
 mod copying;
 mod grouping;
 mod place;
+mod reordering;
 pub(crate) mod sizing;
 pub(crate) mod starters;
 #[cfg(test)]
@@ -16,6 +17,7 @@ use crate::viewer::{Viewer, Wanted};
 
 pub(crate) use copying::{copy, duplicate, paste};
 pub(crate) use grouping::ungroup;
+pub(crate) use reordering::{Slot, put};
 
 /// Makes a group of what is selected.
 pub(crate) fn group(viewer: &mut Viewer) {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Frame, Id, Key, Modal, Rect, RichText, ScrollArea, TextEdit, Ui};
 
-use super::theme;
+use super::{pictures, theme};
 use crate::browse::{Browser, Purpose};
 use crate::guard::Next;
 use crate::viewer::{Viewer, Wanted};
@@ -35,6 +35,7 @@ pub(super) fn show(ui: &Ui, viewer: &mut Viewer, window: Rect) {
             Purpose::Open => viewer.leave(Next::Open(path)),
             Purpose::Save(next) => viewer.save_to(path, next),
             Purpose::Model => viewer.wanted = Some(Wanted::Model(path)),
+            Purpose::Picture(spec) => viewer.want_picture(path, spec),
         },
     }
 }
@@ -44,6 +45,7 @@ fn contents(ui: &mut Ui, browser: &mut Browser, height: f32) -> Step {
         Purpose::Open => ("Open a scene or a model", "Open"),
         Purpose::Save(_) => ("Save the scene as", "Save"),
         Purpose::Model => ("Put a model into the scene", "Put in"),
+        Purpose::Picture(_) => ("Write the picture", "Write"),
     };
     ui.label(RichText::new(title).strong().size(15.0));
     ui.add_space(4.0);
@@ -63,10 +65,14 @@ fn contents(ui: &mut Ui, browser: &mut Browser, height: f32) -> Step {
     if field.changed() {
         (browser.problem, browser.replaces) = (None, None);
     }
-    let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     if ui.memory(|memory| memory.focused().is_none()) {
         field.request_focus();
     }
+    let left = match &mut browser.purpose {
+        Purpose::Picture(spec) => pictures::spec(ui, spec),
+        _ => false,
+    };
+    let entered = (left || field.lost_focus()) && ui.input(|input| input.key_pressed(Key::Enter));
     if let Some(problem) = &browser.problem {
         ui.label(RichText::new(problem).color(theme::ACCENT));
     }
@@ -74,10 +80,12 @@ fn contents(ui: &mut Ui, browser: &mut Browser, height: f32) -> Step {
     ui.horizontal(|ui| {
         let word = if browser.replaces.is_some() { "Replace" } else { word };
         let button = |word| egui::Button::new(word).min_size(egui::vec2(72.0, 24.0));
-        if (ui.add(button(word)).clicked() || entered)
-            && let Some(path) = browser.choose()
-        {
-            step = Step::Chosen(path);
+        if ui.add(button(word)).clicked() || entered {
+            match browser.choose() {
+                Some(path) => step = Step::Chosen(path),
+                // The next Enter chooses again.
+                None => field.request_focus(),
+            }
         }
         if ui.add(button("Cancel")).clicked() {
             step = Step::Cancel;

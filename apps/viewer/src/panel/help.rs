@@ -2,7 +2,7 @@
 
 use egui::{Align2, Id, Label, Margin, Rect, RichText, ScrollArea, TextEdit, Ui, Window, vec2};
 
-use crate::keys::{BINDINGS, OTHERS};
+use crate::keys::{OTHERS, bindings};
 use crate::viewer::Viewer;
 
 /// The most points that the list takes.
@@ -58,7 +58,7 @@ fn search(ui: &mut Ui) -> String {
 
 /// All lines: what is done, and what follows.
 fn lines() -> impl Iterator<Item = (&'static str, &'static str)> {
-    OTHERS.iter().copied().chain(BINDINGS.iter().map(|binding| (binding.label, binding.doc)))
+    OTHERS.iter().copied().chain(bindings().map(|binding| (binding.label, binding.doc)))
 }
 
 fn list(ui: &mut Ui, search: &str) {

@@ -29,6 +29,17 @@ pub(super) fn pass(ui: &mut Ui, viewer: &mut Viewer) {
     });
 }
 
+/// Whether the light of the selected lights is shown alone, where lights are told apart.
+pub(super) fn lights_alone(ui: &mut Ui, viewer: &mut Viewer) {
+    let mut alone = viewer.settings.lights_alone;
+    let tip = "False colours of what the selected lights give, without the others.";
+    if viewer.tells_lights_apart()
+        && ui.checkbox(&mut alone, "selected lights alone").on_hover_text(tip).changed()
+    {
+        viewer.show_lights_alone(alone);
+    }
+}
+
 /// Stops, and whether they follow the picture.
 pub(super) fn exposure(ui: &mut Ui, viewer: &mut Viewer) {
     let mut new = viewer.settings.exposure;

@@ -18,6 +18,7 @@ const FILE: &[Command] = &[
     Command::SaveAs,
     Command::Reload,
     Command::Picture,
+    Command::PictureAgain,
     Command::Quit,
 ];
 

@@ -17,6 +17,7 @@ mod material;
 mod menus;
 mod number;
 mod paint;
+mod pictures;
 mod placement;
 mod question;
 mod readout;
@@ -24,6 +25,7 @@ mod switches;
 mod textures;
 mod theme;
 mod tree;
+mod tree_drag;
 mod widgets;
 
 use egui::{Frame, Margin, Panel, Rect, Ui};
@@ -54,6 +56,7 @@ pub(crate) fn show(ui: &mut Ui, viewer: &mut Viewer, status: &str) -> Rect {
     dialogs::status(ui, viewer, status, room);
     banner::show(ui, viewer, room);
     readout::show(ui, viewer, room);
+    pictures::progress(ui, viewer, room);
     dialogs::error(ui, viewer, room);
     dialogs::failure(ui, viewer, room);
     help::show(ui, viewer, whole);

@@ -35,6 +35,7 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
             frame_time(ui, viewer);
             ui.end_row();
         });
+        looking::lights_alone(ui, viewer);
         looking::tools(ui, viewer);
         looking::clipped(ui, viewer);
         overlays(ui, viewer);

@@ -1,13 +1,13 @@
 //! What is in the scene? A tree of groups, shapes, lights and cameras; a click selects, with Shift all up to there, with Ctrl
-//! one more. A field above it leaves those that are searched; what is picked elsewhere comes in sight.
+//! one more; a drag puts rows elsewhere. A field above it leaves those that are searched; what is picked elsewhere comes in sight.
 
 use std::collections::HashSet;
 use std::ops::Range;
 
 use catoptra_core::scene::{EntityId, Flags, Role, Scene};
-use egui::{Id, ScrollArea, Sense, TextEdit, Ui};
+use egui::{Button, Id, Rect, ScrollArea, Sense, TextEdit, Ui};
 
-use super::{menus, theme};
+use super::{menus, theme, tree_drag};
 use crate::lighting;
 use crate::making;
 use crate::selection::Picking;
@@ -50,10 +50,16 @@ fn show_rows(ui: &mut Ui, viewer: &mut Viewer, height: f32) {
     }
     area.show_rows(ui, row_height, rows.len(), |ui, seen| {
         ui.data_mut(|data| data.insert_temp(seen_id, seen.clone()));
-        for row in &rows[seen] {
+        for row in &rows[seen.clone()] {
             show_row(ui, viewer, &rows, row);
         }
+        if seen.end == rows.len() {
+            let rest = Rect::from_min_max(ui.cursor().min, ui.clip_rect().max);
+            tree_drag::below(ui, viewer, rest);
+        }
+        tree_drag::scroll(ui);
     });
+    tree_drag::ghost(ui, viewer);
 }
 
 /// The field for the words of a name or a kind; what stands in it.
@@ -123,7 +129,7 @@ fn is_open(ui: &Ui, id: EntityId) -> bool {
 }
 
 fn show_row(ui: &mut Ui, viewer: &mut Viewer, rows: &[Row], row: &Row) {
-    ui.horizontal(|ui| {
+    let shown = ui.horizontal(|ui| {
         ui.add_space(INDENT * row.level as f32);
         mark(ui, row);
         let name = viewer.document.scene().name(row.id).unwrap_or_default();
@@ -134,7 +140,9 @@ fn show_row(ui: &mut Ui, viewer: &mut Viewer, rows: &[Row], row: &Row) {
         if hidden {
             text = text.weak().italics();
         }
-        let label = ui.selectable_label(selected, text).on_hover_text(kind);
+        let label = Button::selectable(selected, text).sense(Sense::click_and_drag());
+        let label = ui.add(label).on_hover_text(kind);
+        tree_drag::begin(viewer, row.id, &label);
         flags(ui, viewer.document.scene().flags(row.id));
         if label.secondary_clicked() && !selected {
             viewer.select(Some(row.id));
@@ -155,6 +163,9 @@ fn show_row(ui: &mut Ui, viewer: &mut Viewer, rows: &[Row], row: &Row) {
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| lights(ui, viewer, row.id));
         }
     });
+    let gap = 0.5 * ui.spacing().item_spacing.y;
+    let whole = Rect::from_x_y_ranges(ui.max_rect().x_range(), shown.response.rect.y_range());
+    tree_drag::over(ui, viewer, (row.id, row.role), whole.expand2(egui::vec2(0.0, gap)));
 }
 
 /// What is set aside about a thing.

@@ -31,7 +31,7 @@ pub(super) fn plain(values: Vec<f32>, unit: &'static str) -> Painted {
         r << 16 | g << 8 | b
     };
     let colors = values.iter().map(colored).collect();
-    Painted { colors, numbers: Some(Numbers { values, scale, unit }) }
+    Painted { colors, numbers: Some(Numbers { values, scale, unit, shares: Vec::new() }) }
 }
 
 fn draw_lines(colors: &mut [u32], Numbers { values, scale, .. }: &Numbers, width: usize) {

@@ -20,6 +20,7 @@ use catoptra_core::{Integrator, Placement, Shape};
 use catoptra_scene::image::false_color::Scale;
 use catoptra_tracer::{Backend, Control, Film, Hit, Pool, Snapshot, View};
 
+use crate::light_parts::LightParts;
 use crate::lighting::Illumination;
 
 /// One way to show a scene.
@@ -62,6 +63,8 @@ pub(crate) struct Seen<'a> {
     pub(crate) backend: &'static dyn Backend,
     /// All shapes as they are before they are placed.
     pub(crate) own: &'a OwnShapes,
+    /// The scene by each of its lights, where the pass looks at these.
+    pub(crate) lights: &'a LightParts,
     /// The threads to work on.
     pub(crate) pool: &'a Pool,
     /// Says when nobody wants the answer any more; a pass then answers `None`.
@@ -84,6 +87,29 @@ pub(crate) struct Numbers {
     pub(crate) scale: Scale,
     /// What they are given in.
     pub(crate) unit: &'static str,
+    /// The share of each light, by its name: as many numbers as the film has pixels.
+    pub(crate) shares: Vec<(String, Vec<f32>)>,
+}
+
+/// The shares of so many lights are told at the most.
+const TOLD: usize = 8;
+
+impl Numbers {
+    /// What is told of a pixel of a thing of that name: its number, and of single lights what each gives, most first.
+    pub(crate) fn words(&self, pixel: usize, name: &str) -> String {
+        let number = |value: f32| crate::panel::short(f64::from(value));
+        let told = format!("{} {}  ·  {name}", number(self.values[pixel]), self.unit);
+        let mut shares: Vec<(&str, f32)> =
+            self.shares.iter().map(|(light, values)| (light.as_str(), values[pixel])).collect();
+        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let sum: f32 = shares.iter().map(|(_, value)| value).sum();
+        let line = |(light, value): &(&str, f32)| {
+            let percent = if sum > 0.0 { 100.0 * value / sum } else { 0.0 };
+            format!("{light}: {} ({percent:.0} %)", number(*value))
+        };
+        let lines = shares.iter().take(TOLD).map(line);
+        std::iter::once(told).chain(lines).collect::<Vec<_>>().join("\n")
+    }
 }
 
 /// Shapes in their own spaces, and the ways there out of the world.

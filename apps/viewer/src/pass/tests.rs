@@ -1,8 +1,11 @@
 use std::sync::Arc;
 
+use catoptra_core::scene::{Content, Edit};
+use catoptra_core::{Rgb, Value};
 use catoptra_tracer::{Backend, Control, Pool, Size, Snapshot, View, backends, render};
 
 use super::*;
+use crate::lighting::Lighting;
 
 /// A floor under a point light two metres above its middle, seen from above, and a ball beside it.
 const TEXT: &str = "camera \"c\" { eye 0 4 0.001; target 0 0 0 }\nmatte \"grey\" { color 0.5 }\n\
@@ -15,6 +18,11 @@ const MIDDLE: usize = 24 * 65 + 32;
 
 /// What a pass paints of the scene.
 fn painted(pass: &Pass) -> Painted {
+    painted_by(pass, |_| LightParts::default())
+}
+
+/// The same, with these lights told apart.
+fn painted_by(pass: &Pass, lights: impl Fn(&Scene) -> LightParts) -> Painted {
     let (scene, _) = catoptra_scene::parse(TEXT, "text", None).unwrap();
     let pool = Pool::new(2).unwrap();
     let snapshot = Snapshot::extract(&scene, &pool);
@@ -23,13 +31,14 @@ fn painted(pass: &Pass) -> Painted {
     let (mut film, control) = (Film::new(SIZE), Control::default());
     let backend: &'static dyn Backend = backends()[0];
     render(backend, &snapshot, &view, &mut film, &pool, &control).unwrap();
-    let own = own_shapes(&scene);
+    let (own, lights) = (own_shapes(&scene), lights(&scene));
     let seen = Seen {
         film: &film,
         snapshot: &snapshot,
         view: &view,
         backend,
         own: &own,
+        lights: &lights,
         pool: &pool,
         control: &control,
     };
@@ -56,6 +65,31 @@ fn irradiance_under_a_point_light_is_intensity_over_the_square_of_the_distance()
     let values = numbers(&irradiance::PASS);
     assert!((values[MIDDLE] - 20.0).abs() < 0.1, "{}", values[MIDDLE]);
     assert!(values[MIDDLE + 65 * 12] < 19.0);
+}
+
+#[test]
+fn the_share_of_each_light_is_told_and_can_be_shown_alone() {
+    let parts = |scene: &Scene, alone: bool| {
+        let mut two = scene.clone();
+        let lamp = two.entity_named("lamp").unwrap();
+        let mut second = two.node(lamp).unwrap();
+        second.name = "second".to_owned();
+        let dim = two.light(lamp).unwrap().with("intensity", Value::Color(Rgb::grey(20.0))).unwrap();
+        second.content = Content::Light(dim);
+        second.id = None;
+        two.apply(Edit::insert(second)).unwrap();
+        let second = two.entity_named("second").unwrap();
+        Arc::into_inner(LightParts::of(&two, &Lighting::default(), &[second], alone)).unwrap()
+    };
+    let both = painted_by(&irradiance::PASS, |scene| parts(scene, false)).numbers.unwrap();
+    assert!((both.values[MIDDLE] - 25.0).abs() < 0.15, "{}", both.values[MIDDLE]);
+    let words = both.words(MIDDLE, "floor");
+    let lines: Vec<&str> = words.lines().collect();
+    assert!(lines[0].ends_with("floor") && lines[1].starts_with("lamp: ") && lines[1].ends_with("(80 %)"));
+    assert!(lines[2].starts_with("second: ") && lines[2].ends_with("(20 %)"), "{words}");
+    let alone = painted_by(&irradiance::PASS, |scene| parts(scene, true)).numbers.unwrap();
+    assert!((alone.values[MIDDLE] - 5.0).abs() < 0.05, "{}", alone.values[MIDDLE]);
+    assert_eq!(alone.shares.len(), 2);
 }
 
 #[test]
@@ -91,12 +125,14 @@ fn a_pass_that_nobody_waits_for_gives_up() {
     let (film, control) = (Film::new(SIZE), Control::default());
     control.cancel();
     let (backend, own): (&'static dyn Backend, OwnShapes) = (backends()[0], Arc::default());
+    let lights = LightParts::default();
     let seen = Seen {
         film: &film,
         snapshot: &snapshot,
         view: &view,
         backend,
         own: &own,
+        lights: &lights,
         pool: &pool,
         control: &control,
     };

@@ -9,7 +9,7 @@ mod tidy;
 
 use catoptra_core::Edit;
 use catoptra_core::glam::DVec3;
-use catoptra_core::scene::EntityId;
+use catoptra_core::scene::{EntityId, History};
 use catoptra_raster::{Axis, Constraint, Manipulator, Motion, Projection, Tool};
 
 use crate::arithmetic;
@@ -18,7 +18,7 @@ use crate::viewer::Viewer;
 pub(crate) use keys::key;
 pub(crate) use pivot::manipulator;
 pub(crate) use surface::aimed_at;
-pub(crate) use tidy::{rounded, step};
+pub(crate) use tidy::{camera as tidy_camera, light as tidy_light, step_within};
 
 use thing::Thing;
 
@@ -55,6 +55,8 @@ pub(crate) struct Transform {
     /// A number that is typed.
     typed: String,
     things: Vec<Thing>,
+    /// The steps before it.
+    steps: History,
     /// Whether the scene was changed.
     applied: bool,
     /// What is done now.
@@ -83,6 +85,7 @@ pub(crate) fn begin(viewer: &mut Viewer, tool: Tool, constraint: Constraint, end
         in_steps: false,
         typed: String::new(),
         things,
+        steps: viewer.document.steps(),
         applied: false,
         motion: None,
     });
@@ -110,7 +113,7 @@ pub(crate) fn keep(viewer: &mut Viewer) {
 pub(crate) fn take_back(viewer: &mut Viewer) {
     if let Some(transform) = viewer.transform.take() {
         if transform.applied {
-            viewer.document.undo();
+            viewer.document.come_back_to(transform.steps);
         }
         viewer.stale.panel = true;
         viewer.stale.overlay = true;
@@ -124,7 +127,7 @@ fn apply(viewer: &mut Viewer) {
     let Some(motion) = transform.asked(viewer, &view) else { return };
     let Some(pixel) = view.metres_per_pixel(transform.manipulator.pivot) else { return };
     let scene = viewer.document.scene();
-    let edit = |thing: &Thing| thing.edit(scene, &transform.manipulator, motion, step(pixel));
+    let edit = |thing: &Thing| thing.edit(scene, &transform.manipulator, motion, pixel);
     let edits: Result<Vec<Edit>, _> = transform.things.iter().map(edit).collect();
     match edits {
         Ok(edits) => {

@@ -104,6 +104,26 @@ fn taking_back_leaves_everything_as_it_was() {
 }
 
 #[test]
+fn what_could_be_done_again_still_can_when_a_drag_is_taken_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut viewer = viewer(folder.path());
+    let ball = viewer.document.scene().entity_named("ball").unwrap();
+    let drag = |viewer: &mut Viewer| {
+        select(viewer, &["ball"]);
+        begin(viewer, Tool::Move, Constraint::Free, Ends::ByClick, (400.0, 180.0));
+        pull(viewer, (460.0, 120.0), false);
+        take_back(viewer);
+    };
+    drag(&mut viewer);
+    assert!(viewer.document.redo().is_none(), "what was taken back is gone");
+    viewer.edit(Edit::Name(ball, "globe".to_owned()));
+    assert!(viewer.document.undo().is_some());
+    drag(&mut viewer);
+    assert!(viewer.document.is_saved() && viewer.document.redo().is_some());
+    assert_eq!(viewer.document.scene().name(ball).as_deref(), Some("globe"));
+}
+
+#[test]
 fn ctrl_goes_by_round_steps() {
     let folder = tempfile::tempdir().unwrap();
     let mut viewer = viewer(folder.path());

@@ -2,7 +2,7 @@
 //! fields, as one would write them; all else its placement.
 
 use catoptra_core::scene::{Edit, EntityId, Role, Scene};
-use catoptra_core::{Camera, FieldKind, InvalidPart, Light, Part as _, Placement, Shape, Value, Values};
+use catoptra_core::{Camera, FieldKind, InvalidPart, Light, Placement, Shape, Value, Values};
 use catoptra_raster::{Manipulator, Motion};
 
 use super::tidy;
@@ -40,7 +40,7 @@ impl Thing {
         self.id
     }
 
-    /// The edit that does a motion to it as it was, with numbers of metres rounded to a step.
+    /// The edit that does a motion to it as it was, with numbers rounded to what a pixel of so many metres can tell.
     ///
     /// # Errors
     /// What the thing refuses.
@@ -49,39 +49,33 @@ impl Thing {
         scene: &Scene,
         manipulator: &Manipulator,
         motion: Motion,
-        step: f64,
+        pixel: f64,
     ) -> Result<Edit, InvalidPart> {
         let world = self.placement.then(&self.group);
         let own = motion.within(manipulator, &world)?;
-        let own_step = tidy::step(step / world.scale());
+        let step = tidy::step_within(pixel, &world);
         match &self.before {
-            Before::Light(light) => {
-                let (kind, before, after) = (light.kind(), light.values(), light.placed(&own).values());
-                let values = tidy::rounded(kind.fields, &before, &after, own_step);
-                Ok(Edit::Light(self.id, (kind.make)(&values).or_else(|_| (kind.make)(&after))?))
-            }
+            Before::Light(light) => Ok(Edit::Light(self.id, tidy::light(light, &light.placed(&own), step)?)),
             Before::Camera(camera) => {
-                let (before, after) = (camera.values(), camera.placed(&own)?.values());
-                let values = tidy::rounded(Camera::FIELDS, &before, &after, own_step);
-                Ok(Edit::Camera(self.id, (Camera::KIND.make)(&values)?))
+                Ok(Edit::Camera(self.id, tidy::camera(camera, &camera.placed(&own)?, step)?))
             }
             Before::Shape(shape) if scene.operation(self.id).is_none() => {
                 match moved_by_fields(shape, motion, &own) {
                     Some(after) => {
                         let kind = shape.kind();
-                        let values = tidy::rounded(kind.fields, &shape.values(), &after, own_step);
+                        let values = tidy::rounded(kind.fields, &shape.values(), &after, step);
                         Ok(Edit::Shape(self.id, (kind.make)(&values)?))
                     }
-                    None => self.placed(manipulator, motion, step),
+                    None => self.placed(manipulator, motion, pixel),
                 }
             }
-            Before::Shape(_) | Before::Group => self.placed(manipulator, motion, step),
+            Before::Shape(_) | Before::Group => self.placed(manipulator, motion, pixel),
         }
     }
 
-    fn placed(&self, manipulator: &Manipulator, motion: Motion, step: f64) -> Result<Edit, InvalidPart> {
+    fn placed(&self, manipulator: &Manipulator, motion: Motion, pixel: f64) -> Result<Edit, InvalidPart> {
         let after = self.placement.then(&motion.within(manipulator, &self.group)?);
-        let step = tidy::step(step / self.group.scale());
+        let step = tidy::step_within(pixel, &self.group);
         Ok(Edit::Placement(self.id, tidy::placement(&self.placement, &after, step)?))
     }
 }

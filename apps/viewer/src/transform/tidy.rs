@@ -2,7 +2,7 @@
 //! `46.517315624356776`; numbers that did not change stay to the bit.
 
 use catoptra_core::glam::{DQuat, DVec3};
-use catoptra_core::{Field, FieldKind, InvalidPart, Placement, Value, Values};
+use catoptra_core::{Camera, Field, FieldKind, InvalidPart, Light, Part as _, Placement, Value, Values};
 
 /// Digits of numbers that have no size in the picture: of directions, lengths and factors.
 const DIGITS: i32 = 5;
@@ -12,8 +12,32 @@ const DEGREES: f64 = 0.01;
 const AXIS: f64 = 1e-4;
 
 /// The power of ten at or below a number of metres, such as those that a pixel spans; 0, which rounds nothing, for none.
-pub(crate) fn step(pixel: f64) -> f64 {
+fn step(pixel: f64) -> f64 {
     if pixel > 0.0 && pixel.is_finite() { 10_f64.powi(pixel.log10().floor() as i32) } else { 0.0 }
+}
+
+/// The same for numbers in the space of something that is placed so in the world.
+pub(crate) fn step_within(pixel: f64, outer: &Placement) -> f64 {
+    step(pixel / outer.scale())
+}
+
+/// A light that was changed by hand, with what differs from before rounded to a step in metres; one that refuses round numbers
+/// keeps its own.
+///
+/// # Errors
+/// What the light refuses.
+pub(crate) fn light(before: &Light, after: &Light, step: f64) -> Result<Light, InvalidPart> {
+    let (kind, values) = (after.kind(), after.values());
+    let round = rounded(kind.fields, &before.values(), &values, step);
+    (kind.make)(&round).or_else(|_| (kind.make)(&values))
+}
+
+/// The same of a camera.
+///
+/// # Errors
+/// What the camera refuses.
+pub(crate) fn camera(before: &Camera, after: &Camera, step: f64) -> Result<Camera, InvalidPart> {
+    (Camera::KIND.make)(&rounded(Camera::FIELDS, &before.values(), &after.values(), step))
 }
 
 /// The nearest of 1, 2 and 5 times a power of ten below a number of metres: a step that people like.
@@ -53,7 +77,7 @@ fn whole_parts(before: Option<DVec3>, after: DVec3, step: f64) -> DVec3 {
 }
 
 /// Values of a part with those that changed rounded: points to a step in metres, others to a few digits.
-pub(crate) fn rounded(fields: &[Field], before: &Values, after: &Values, step: f64) -> Values {
+pub(super) fn rounded(fields: &[Field], before: &Values, after: &Values, step: f64) -> Values {
     let mut values = after.clone();
     for field in fields {
         let (old, Some(new)) = (before.get(field.name), after.get(field.name)) else { continue };

@@ -1,8 +1,10 @@
-//! How a scene and its text are held together: loading (`load`), following edits (`follow`), saving.
+//! How a scene and its text are held together: loading (`load`), following edits (`follow`), saving, also into other folders
+//! (`relocated`).
 
 mod follow;
 mod load;
 mod models;
+mod relocated;
 
 use std::path::{Path, PathBuf};
 
@@ -128,6 +130,20 @@ impl SceneFile {
         self.files.image_paths()
     }
 
+    /// The folder at which the relative paths of the scene start, wherever it is saved to; empty for the current one.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        self.files.base()
+    }
+
+    /// The text, as of the last [`Self::update`], as it is to stand in a file at `path`: where that lies in another
+    /// [folder](Self::folder), the paths of meshes, models, profiles and pictures lead from there to the same files.
+    #[must_use]
+    pub fn text_for(&self, path: &Path) -> String {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        relocated::text(&self.text, &self.outline, self.folder(), folder)
+    }
+
     /// The text, as of the last [`Self::update`].
     #[must_use]
     pub fn text(&self) -> String {
@@ -153,17 +169,17 @@ impl SceneFile {
 
     /// Updates the text and writes it to `path`, whole or not at all.
     ///
-    /// Paths of meshes and profiles are written as they are in the scene: saved to another folder, the scene needs them
-    /// there.
+    /// Saved to another folder, the paths in the file lead from there, as [`Self::text_for`] says; in the scene they stay.
     ///
     /// # Errors
     /// A file that cannot be written.
     pub fn save(&mut self, scene: &Scene, path: &Path) -> Result<(), SaveError> {
         self.update(scene);
-        atomic::write(path, |out| std::io::Write::write_all(out, self.text.as_bytes()))
+        let text = self.text_for(path);
+        atomic::write(path, |out| std::io::Write::write_all(out, text.as_bytes()))
             .map_err(|cause| SaveError { path: path.to_owned(), cause })?;
         self.path = Some(path.to_owned());
-        self.stored.clone_from(&self.text);
+        self.stored = text;
         Ok(())
     }
 }

@@ -1,15 +1,57 @@
-//! What does an OpenEXR file hold? Its first layer with red, green and blue, or with luminance alone; linear.
+//! What does an OpenEXR file hold? Its first layer with red, green and blue, or with luminance alone; linear. And how is one
+//! written?
+
+use std::io::{self, Cursor, Seek, Write};
+use std::path::Path;
 
 use catoptra_core::Image;
 use catoptra_core::texture::Encoding;
 use exr::meta::MetaData;
 use exr::meta::header::Header;
-use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, Vec2};
+use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, Vec2, WritableImage};
 
 use super::load::{Fault, Input, check_size, room, unreadable};
+use crate::atomic;
 
 /// Deflate makes at most 1,032 bytes of one; of the wavelets with their runs of 255 less.
 const MOST: u64 = 1032;
+
+/// Writes linear light as an OpenEXR of 32-bit floating point, `size` pixels across and down. The file appears whole or not at
+/// all. `pixel` is asked for red, green and blue by column and row from the top left.
+///
+/// # Errors
+/// A file that cannot be written; a size without pixels.
+pub fn write_exr(path: &Path, size: [u32; 2], pixel: impl Fn(u32, u32) -> [f32; 3] + Sync) -> io::Result<()> {
+    // It is written with jumps back to its start. Where bytes go straight out, it is made in memory first.
+    if !atomic::is_straight(path) {
+        return atomic::write(path, |out| encode(size, pixel, out));
+    }
+    let mut bytes = Vec::new();
+    bytes.try_reserve(LARGEST_PIXEL * size[0] as usize * size[1] as usize)?;
+    let mut out = Cursor::new(bytes);
+    encode(size, pixel, &mut out)?;
+    atomic::write(path, |file| file.write_all(out.get_ref()))
+}
+
+/// Bytes of a pixel that nothing can be saved of, and its share of what stands between rows.
+const LARGEST_PIXEL: usize = 13;
+
+fn encode(
+    [width, height]: [u32; 2],
+    pixel: impl Fn(u32, u32) -> [f32; 3] + Sync,
+    out: impl Write + Seek,
+) -> io::Result<()> {
+    let colors = |place: Vec2<usize>| {
+        let [r, g, b] = pixel(place.x() as u32, place.y() as u32);
+        (r, g, b)
+    };
+    let channels = exr::image::SpecificChannels::rgb(colors);
+    let image = exr::image::Image::from_channels((width as usize, height as usize), channels);
+    image.write().non_parallel().to_buffered(out).map_err(|error| match error {
+        exr::error::Error::Io(error) => error,
+        other => io::Error::other(other.to_string()),
+    })
+}
 
 pub(super) fn read(mut input: impl Input, length: u64) -> Result<Image, Fault> {
     let meta = MetaData::read_from_buffered(&mut input, false).map_err(|e| unreadable(&e))?;

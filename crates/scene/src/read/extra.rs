@@ -117,7 +117,7 @@ impl Reader<'_> {
             return self.complaints.add(value_span(entry), "file needs the path of a model in quotes");
         };
         match self.files.model(path) {
-            Ok(model) => item.model = Some(model),
+            Ok(model) => (item.model, item.model_path) = (Some(model), Some(value_span(entry))),
             Err(message) => {
                 let help = "the path of a model is relative to the folder of the scene file";
                 self.complaints.add_with(value_span(entry), message, help);

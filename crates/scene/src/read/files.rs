@@ -30,6 +30,11 @@ impl Files {
         Self { base: base.map(Path::to_owned), ..Self::default() }
     }
 
+    /// The folder at which relative paths start.
+    pub(crate) fn base(&self) -> &Path {
+        self.base.as_deref().unwrap_or(Path::new(""))
+    }
+
     /// The mesh at `path`, read now or before.
     pub(crate) fn mesh(&mut self, path: &str) -> Result<MeshSource, String> {
         if !self.meshes.contains_key(path)

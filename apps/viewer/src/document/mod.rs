@@ -1,20 +1,23 @@
 //! Which scene is open, where is it kept, and how is it changed? Every change goes through the history.
 
+mod steps;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use catoptra_core::Placement;
-use catoptra_core::scene::{Edit, EntityId, History, Scene, SceneError};
+use catoptra_core::scene::{Edit, EntityId, History, Scene};
 use catoptra_scene::model::Model;
 use catoptra_scene::{OnDisk, SceneFile};
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 
-use crate::deeds::{Before, Deed, Direction};
 use crate::difference::{self, Line};
+use crate::free_name::free_name;
+use crate::keeping::Unsaved;
 use crate::recovery::{Kept, Origin};
 
 /// The scene shown when none is named.
-const WELCOME: &str = include_str!("../../../scenes/gallery/welcome.kdl");
+const WELCOME: &str = include_str!("../../../../scenes/gallery/welcome.kdl");
 
 /// What a new scene begins with: something to stand on, light and a view.
 const EMPTY: &str = "camera \"main\" { eye 3 2.5 6; target 0 0.5 0; fov 40 }
@@ -79,14 +82,14 @@ impl Document {
         Ok(document)
     }
 
-    /// Whose edits it holds, and the text with them, to be kept where they are not saved.
-    pub(crate) fn text_to_keep(&mut self) -> (Origin, String) {
-        self.file.update(&self.scene);
+    /// It with its edits, to be kept where they are not saved.
+    pub(crate) fn unsaved(&self) -> Unsaved {
         let origin = match &self.path {
             Some(path) => Origin::File(path.clone()),
             None => Origin::Folder(self.folder()),
         };
-        (origin, self.file.text())
+        let (scene, file, holds) = (self.scene.clone(), self.file.clone(), self.recovered.clone());
+        Unsaved { scene, file, origin, holds }
     }
 
     /// A scene to begin with.
@@ -129,48 +132,9 @@ impl Document {
         self.history.is_saved() && self.recovered.is_none()
     }
 
-    /// Changes the scene, as one step to undo.
-    ///
-    /// # Errors
-    /// As for [`Scene::apply`].
-    pub(crate) fn edit(&mut self, edit: Edit) -> Result<(), SceneError> {
-        self.history.apply(&mut self.scene, edit)
-    }
-
-    /// Changes the scene as a part of the step with that key.
-    ///
-    /// # Errors
-    /// As for [`Scene::apply`].
-    pub(crate) fn edit_on(&mut self, edit: Edit, key: u64) -> Result<(), SceneError> {
-        self.history.apply_continuing(&mut self.scene, edit, key)
-    }
-
-    /// Whatever comes next is a step of its own.
-    pub(crate) fn end_step(&mut self) {
-        self.history.end_step();
-    }
-
-    /// Takes the last step back, and tells what it did; `None` if there is none.
-    pub(crate) fn undo(&mut self) -> Option<Deed> {
-        let before = Before::of(&self.scene);
-        self.history.undo(&mut self.scene).then(|| before.deed(&self.scene, Direction::Back))
-    }
-
-    /// Makes the last undone step again, and tells what it does; `None` if there is none.
-    pub(crate) fn redo(&mut self) -> Option<Deed> {
-        let before = Before::of(&self.scene);
-        self.history.redo(&mut self.scene).then(|| before.deed(&self.scene, Direction::Again))
-    }
-
     /// Whether it has a file that it is saved to.
     pub(crate) fn has_place(&self) -> bool {
         self.path.is_some()
-    }
-
-    /// The scene as it was before the last step; `None` before the first.
-    pub(crate) fn before_last_edit(&self) -> Option<Scene> {
-        let (mut scene, mut history) = (self.scene.clone(), self.history.clone());
-        history.undo(&mut scene).then_some(scene)
     }
 
     /// Where the scene is written: to where it is kept, or under a new name in the folder of its model or the current one.
@@ -179,9 +143,9 @@ impl Document {
         self.path.clone().unwrap_or_else(|| free_name(folder, &self.name(), "kdl"))
     }
 
-    /// The folder that the paths in the scene start from.
+    /// The folder that the paths in the scene start from: it stays, wherever the scene is saved to.
     pub(crate) fn folder(&self) -> PathBuf {
-        self.place().parent().map_or_else(PathBuf::new, Path::to_owned)
+        self.file.folder().to_owned()
     }
 
     /// The edit that puts a model into the scene, and the group that it becomes; see [`SceneFile::model_edit`].
@@ -231,7 +195,7 @@ impl Document {
     pub(crate) fn difference(&mut self) -> Vec<Line> {
         self.file.update(&self.scene);
         let on_disk = std::fs::read(self.place()).unwrap_or_default();
-        difference::between(&String::from_utf8_lossy(&on_disk), &self.file.text())
+        difference::between(&String::from_utf8_lossy(&on_disk), &self.file.text_for(&self.place()))
     }
 
     /// Writes the scene to its [place](Self::place), whatever stands there. Returns where.
@@ -253,17 +217,6 @@ impl Document {
         self.path = Some(path.clone());
         Ok(path)
     }
-}
-
-/// The first of `name.ext`, `name-2.ext`, `name-3.ext`... that `folder` does not hold yet.
-pub(crate) fn free_name(folder: &Path, name: &str, extension: &str) -> PathBuf {
-    let mut path = folder.join(format!("{name}.{extension}"));
-    let mut number = 2_u32;
-    while path.exists() && number < u32::MAX {
-        path = folder.join(format!("{name}-{number}.{extension}"));
-        number += 1;
-    }
-    path
 }
 
 /// An error with its place in the source, as plain text.
@@ -291,14 +244,5 @@ mod tests {
     fn a_missing_file_is_named_in_the_report() {
         let report = Document::open(Path::new("no-such-scene.kdl")).err().unwrap();
         assert!(report.contains("no-such-scene.kdl"), "{report}");
-    }
-
-    #[test]
-    fn a_free_name_is_numbered_past_the_taken_ones() {
-        let folder = tempfile::tempdir().unwrap();
-        assert!(free_name(folder.path(), "a", "png").ends_with("a.png"));
-        std::fs::write(folder.path().join("a.png"), "").unwrap();
-        std::fs::write(folder.path().join("a-2.png"), "").unwrap();
-        assert!(free_name(folder.path(), "a", "png").ends_with("a-3.png"));
     }
 }
