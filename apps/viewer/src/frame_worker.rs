@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 
 use catoptra_tracer::Control;
 
+use crate::draft::Quality;
 use crate::refine::{Pace, Step, USUAL_FRAME, reduced};
 
 /// How long a first frame may take before a newer request abandons it.
@@ -51,17 +52,17 @@ pub(crate) trait Tracing: Send + 'static {
         USUAL_FRAME
     }
 
-    /// Whether a request has drafts.
+    /// Whether a request has drafts; what they show is then refined.
     fn has_drafts(_: &Self::Job) -> bool {
         false
     }
 
-    /// Whether a full frame is refined.
+    /// Whether the last frame is refined.
     fn is_refined(_: &Self::Job) -> bool {
         false
     }
 
-    /// Refines the full frame that was traced last for a while; `None` when it was cancelled. What is used up goes to the
+    /// Refines the frame that was traced last for a while; `None` when it was cancelled. What is used up goes to the
     /// spares.
     fn refine(
         &mut self,
@@ -82,6 +83,10 @@ pub(crate) struct Refined {
     pub(crate) pixels: u64,
     /// The most samples that a pixel has.
     pub(crate) samples: u32,
+    /// Samples of pixels that were traced for this frame.
+    pub(crate) traced: u64,
+    /// How well the pixels are traced that are so worst.
+    pub(crate) quality: Quality,
 }
 
 impl Refined {
@@ -224,7 +229,7 @@ fn work<T: Tracing>(shared: &Shared<T>, mut tracing: T, wake: &impl Fn()) {
     while let Some((generation, request)) = next(shared) {
         let job = tracing.prepare(request);
         if trace_steps(shared, &mut tracing, &job, generation, &mut pace, wake) && T::is_refined(&job) {
-            refine(shared, &mut tracing, &job, generation, wake);
+            refine(shared, &mut tracing, &job, generation, &mut pace, wake);
         }
     }
 }
@@ -259,19 +264,26 @@ fn trace_steps<T: Tracing>(
     true
 }
 
-/// Refines a full picture until that is done or abandoned.
-fn refine<T: Tracing>(shared: &Shared<T>, tracing: &mut T, job: &T::Job, generation: u64, wake: &impl Fn()) {
-    let mut is_last = false;
+/// Refines a picture until that is done or abandoned.
+fn refine<T: Tracing>(
+    shared: &Shared<T>,
+    tracing: &mut T,
+    job: &T::Job,
+    generation: u64,
+    pace: &mut Pace,
+    wake: &impl Fn(),
+) {
+    let (mut is_last, mut traced) = (false, 0);
     while !is_last {
         let took = attempt(shared, false, |control, spares| {
             let (frame, refined) = tracing.refine(job, control, spares)?;
-            is_last = refined.is_done();
+            (is_last, traced) = (refined.is_done(), refined.traced);
+            let step = Step { divisor: 1, quality: refined.quality };
             let refined = Some(refined);
-            Some(Finished { frame, generation, step: Step::FULL, refined, is_last, took: Duration::ZERO })
+            Some(Finished { frame, generation, step, refined, is_last, took: Duration::ZERO })
         });
-        if took.is_none() {
-            return;
-        }
+        let Some(took) = took else { return };
+        pace.record(Quality::Full, traced, took);
         wake();
     }
 }

@@ -12,13 +12,14 @@ use catoptra_tracer::{Backend, Control, Film, Pool, Region, Size, Snapshot, Tone
 use rayon::prelude::*;
 
 use crate::canvas::Pixels;
+use crate::draft::Quality;
 use crate::frame_worker::Refined;
 
 /// Edge of a tile in pixels.
 const EDGE: u32 = 16;
 
-/// Samples after which a tile is first judged: so many lie evenly in a pixel.
-const FIRST: u32 = 4;
+/// Samples after which a tile is judged: so many lie evenly in a pixel.
+const EVEN: u32 = 4;
 
 /// Pixels of the tiles that grow at a time: each takes some 52 bytes of memory until it is settled. More than a display of 4K
 /// has, so that what is usual gets better as a whole.
@@ -131,55 +132,65 @@ pub(crate) struct Tracer<'a> {
 /// All tiles of a picture.
 pub(crate) struct Parts {
     across: usize,
+    /// What stands where nothing is refined yet.
+    before: Quality,
     parts: Vec<Part>,
 }
 
 impl Parts {
-    /// Of a picture of that size, without samples.
-    pub(crate) fn new(size: Size) -> Self {
+    /// Of a picture of that size that has been traced so well. A draft first has a sample of each pixel in its place, soon.
+    pub(crate) fn new(size: Size, before: Quality) -> Self {
         let starts = |length: u32| (0..length).step_by(EDGE as usize);
         let places = starts(size.height).flat_map(|y| starts(size.width).map(move |x| (x, y)));
         let parts = places.map(|(x, y)| {
             let region = Region::new(x, y, Size::new(EDGE, EDGE)).within(size);
             Part { region, film: None, samples: 0, settled: false, patch: None }
         });
-        Self { across: starts(size.width).len(), parts: parts.collect() }
+        Self { across: starts(size.width).len(), before, parts: parts.collect() }
     }
 
-    /// Refines for a while. Returns how many rays that took; `None` when it was cancelled.
-    pub(crate) fn go_on(&mut self, tracer: &Tracer<'_>, pool: &Pool, control: &Control) -> Option<u64> {
+    /// Refines for a while. Returns how far it is, and how many rays that took; `None` when it was cancelled.
+    pub(crate) fn go_on(
+        &mut self,
+        tracer: &Tracer<'_>,
+        pool: &Pool,
+        control: &Control,
+    ) -> Option<(Refined, u64)> {
         let pixels = tracer.view.size.pixels();
         let slice = SLICE + SLICE_PER_PIXEL * u32::try_from(pixels).unwrap_or(u32::MAX);
+        let first = if self.before == Quality::Draft { 1 } else { EVEN };
         let since = Instant::now();
         let mut rays = 0;
+        let before = self.samples();
         while since.elapsed() < slice {
-            let mut growing: Vec<&mut Part> = self
-                .parts
-                .iter_mut()
-                .filter(|part| !part.settled)
-                .take(GROWING / (EDGE * EDGE) as usize)
-                .collect();
+            let mut growing: Vec<&mut Part> = self.parts.iter_mut().filter(|part| !part.settled).collect();
+            growing.truncate(GROWING / (EDGE * EDGE) as usize);
             let Some(least) = growing.iter().map(|part| part.samples).min() else { break };
             growing.retain(|part| part.samples == least);
+            let end = if least == 0 { first } else { (2 * least).max(EVEN) };
             let traced = pool.run(|| {
-                let turns = growing.into_par_iter().with_max_len(1);
-                turns
-                    .filter(|_| since.elapsed() < slice)
-                    .map(|part| tracer.grow(part, pool, control))
-                    .sum::<Option<u64>>()
+                let turns = growing.into_par_iter().with_max_len(1).filter(|_| since.elapsed() < slice);
+                turns.map(|part| tracer.grow(part, end, pool, control)).sum::<Option<u64>>()
             });
             rays += traced?;
         }
-        Some(rays)
+        Some((self.refined(self.samples() - before), rays))
     }
 
-    /// How far it is.
-    pub(crate) fn refined(&self) -> Refined {
+    /// Samples of all pixels.
+    fn samples(&self) -> u64 {
+        self.parts.iter().map(|part| part.pixels() * u64::from(part.samples)).sum()
+    }
+
+    fn refined(&self, traced: u64) -> Refined {
         let settled = self.parts.iter().filter(|part| part.settled);
+        let begun = self.parts.iter().all(|part| part.samples > 0);
         Refined {
             settled: settled.map(Part::pixels).sum(),
             pixels: self.parts.iter().map(Part::pixels).sum(),
             samples: self.parts.iter().map(|part| part.samples).max().unwrap_or(0),
+            traced,
+            quality: if begun { Quality::Full } else { self.before },
         }
     }
 
@@ -190,9 +201,9 @@ impl Parts {
 }
 
 impl Tracer<'_> {
-    /// Gives a tile as many samples again as it has; `None` when that was cancelled.
-    fn grow(&self, part: &mut Part, pool: &Pool, control: &Control) -> Option<u64> {
-        let end = (2 * part.samples).max(FIRST).min(self.goal.most);
+    /// Traces the samples of a tile up to so many; `None` when that was cancelled.
+    fn grow(&self, part: &mut Part, end: u32, pool: &Pool, control: &Control) -> Option<u64> {
+        let end = end.min(self.goal.most);
         let film = part.film.get_or_insert_with(|| Film::of_region(part.region, EDGE));
         let view = View {
             crop: Some(part.region),

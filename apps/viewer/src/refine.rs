@@ -1,6 +1,6 @@
 //! How coarse must a frame be to keep up with the hand, and by which steps does it become fine? Pure arithmetic:
-//! the seconds that recent pixels took decide the first divisor, and each later step halves it down to 1. While drafts are
-//! cheaper than what stays they are traced first, and the last step alone is in full.
+//! the seconds that recent pixels took decide the first divisor, and each later step halves it down to 1. Where drafts are
+//! cheaper than what stays, all steps are drafts, and tiles take the place of the last one as they are refined.
 
 use std::time::Duration;
 
@@ -41,7 +41,7 @@ pub(crate) struct Step {
 }
 
 impl Step {
-    /// The last one: every pixel in full.
+    /// Every pixel in full.
     pub(crate) const FULL: Self = Self { divisor: 1, quality: Quality::Full };
 }
 
@@ -73,21 +73,16 @@ impl Pace {
     }
 
     /// The steps to a picture of `width` x `height` of which the first is to take `frame` milliseconds, coarsest first, always
-    /// ending in full. `drafts` are made if there are any and they are cheaper, as far as is known.
+    /// ending with every pixel: `drafts` if there are any and they are cheaper, as far as is known.
     pub(crate) fn steps(&mut self, (width, height): (u32, u32), frame: f64, drafts: bool) -> Vec<Step> {
         let quality = if drafts && self.drafts_pay() { Quality::Draft } else { Quality::Full };
         let mut divisor = self.first(quality, (width, height), 1e-3 * TRACED_SHARE * frame);
         self.last_first = divisor;
-        let mut steps = Vec::new();
+        let mut steps = vec![Step { divisor, quality }];
         while divisor > 1 {
-            steps.push(Step { divisor, quality });
             divisor /= 2;
+            steps.push(Step { divisor, quality });
         }
-        // A draft that is as fine as the picture is shown only where the hand may move on before that is there.
-        if steps.is_empty() && quality == Quality::Draft {
-            steps.push(Step { divisor: 1, quality });
-        }
-        steps.push(Step::FULL);
         steps
     }
 
@@ -189,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn drafts_come_first_while_they_are_cheap_and_the_last_step_is_in_full() {
+    fn steps_are_drafts_while_these_are_cheap() {
         let mut pace = paced(1280 * 720, 0.4);
         let mut steps = |draft: Option<f64>| {
             pace.draft = draft.map(|seconds| seconds / (1280.0 * 720.0));
@@ -197,9 +192,9 @@ mod tests {
             steps.into_iter().map(|step| (step.divisor, step.quality)).collect::<Vec<_>>()
         };
         let (draft, full) = (Quality::Draft, Quality::Full);
-        assert_eq!(steps(None), [(6, draft), (3, draft), (1, full)], "it may be cheaper");
-        assert_eq!(steps(Some(0.03)), [(2, draft), (1, full)]);
-        assert_eq!(steps(Some(0.004)), [(1, draft), (1, full)]);
+        assert_eq!(steps(None), [(6, draft), (3, draft), (1, draft)], "it may be cheaper");
+        assert_eq!(steps(Some(0.03)), [(2, draft), (1, draft)]);
+        assert_eq!(steps(Some(0.004)), [(1, draft)]);
         assert_eq!(steps(Some(0.38)), [(6, full), (3, full), (1, full)], "it is not cheaper");
     }
 

@@ -166,7 +166,8 @@ mod tests {
     fn it_is_at_rest_only_when_nothing_finer_follows() {
         let mut meter = Meter::default();
         let (start, later) = (Instant::now(), Duration::from_secs(5));
-        let refined = |settled| Some(Refined { settled, pixels: 1000, samples: 16 });
+        let refined =
+            |settled| Some(Refined { settled, pixels: 1000, samples: 16, traced: 0, quality: Quality::Full });
         let full = FrameFigures { step: Step::FULL, ..FRAME };
         for (frame, told) in [
             (FRAME, "refining"),
@@ -206,7 +207,7 @@ mod tests {
         assert_eq!(FRAME.log_line(), "frame 10.00 ms 500000 rays 640x360 1/2");
         let draft = FrameFigures { step: Step { divisor: 2, quality: Quality::Draft }, ..FRAME };
         assert_eq!(draft.log_line(), "frame 10.00 ms 500000 rays 640x360 1/2 draft");
-        let refined = Some(Refined { settled: 9, pixels: 9, samples: 64 });
+        let refined = Some(Refined { settled: 9, pixels: 9, samples: 64, traced: 0, quality: Quality::Full });
         let last = FrameFigures { refined, is_last: true, ..FRAME };
         assert_eq!(last.log_line(), "frame 10.00 ms 500000 rays 640x360 1/1 settled 100% samples 64 at rest");
     }

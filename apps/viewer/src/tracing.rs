@@ -208,8 +208,8 @@ impl Tracing for PoolTracing {
             return None;
         };
         let film = Arc::new(film);
-        if step == Step::FULL && Self::is_refined(job) {
-            self.resting = Some((Arc::clone(&film), Parts::new(size)));
+        if step.divisor == 1 && Self::is_refined(job) {
+            self.resting = Some((Arc::clone(&film), Parts::new(size, step.quality)));
         }
         self.painted(job, &view, (film, pixels), stats.rays.total(), (control, spares))
     }
@@ -230,7 +230,8 @@ impl Tracing for PoolTracing {
         let Job { request, snapshot } = job;
         let (film, parts) = self.resting.as_mut()?;
         let Request { backend, ref view, goal, tone, pass, .. } = *request;
-        let rays = parts.go_on(&Tracer { backend, snapshot, view, goal, tone }, &self.pool, control)?;
+        let tracer = Tracer { backend, snapshot, view, goal, tone };
+        let (refined, rays) = parts.go_on(&tracer, &self.pool, control)?;
         let mut frame = Frame {
             film: Arc::clone(film),
             patches: parts.patches(),
@@ -243,7 +244,6 @@ impl Tracing for PoolTracing {
             numbers: None,
         };
         frame.encode(tone, &self.pool);
-        let refined = parts.refined();
         if refined.is_done() {
             self.resting = None;
         }

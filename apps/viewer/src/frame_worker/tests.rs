@@ -59,7 +59,8 @@ impl Tracing for Steered {
     ) -> Option<((u32, u32), Refined)> {
         self.settled += 1;
         let frame = self.wait((*request, 100 * self.settled), control)?;
-        Some((frame, Refined { settled: u64::from(self.settled), pixels: 2, samples: 4 }))
+        let settled = u64::from(self.settled);
+        Some((frame, Refined { settled, pixels: 2, samples: 4, traced: 0, quality: Quality::Full }))
     }
 }
 

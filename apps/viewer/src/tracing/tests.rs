@@ -61,6 +61,24 @@ fn what_is_refined_is_the_same_by_any_threads_and_after_it_was_abandoned() {
 }
 
 #[test]
+fn tiles_in_full_take_the_place_of_a_draft() {
+    let (viewer, mut tracing) = viewer_and_tracing();
+    let job = tracing.prepare(viewer.request());
+    let (control, mut spares) = (Control::default(), Vec::new());
+    let step = Step { divisor: 1, quality: Quality::Draft };
+    tracing.trace(&job, step, &control, &mut spares).unwrap();
+    let mut last = None;
+    while last.as_ref().is_none_or(|(_, refined): &(Frame, Refined)| !refined.is_done()) {
+        last = tracing.refine(&job, &control, &mut spares);
+    }
+    let (last, told) = last.unwrap();
+    assert_eq!(told.quality, Quality::Full);
+    // The first sample alone was traced by itself, which changes no bit of what comes after it.
+    let (in_full, _) = refined(&mut tracing, &job).pop().unwrap();
+    assert!(last.pixels == in_full.pixels);
+}
+
+#[test]
 fn a_refined_picture_takes_on_another_tone() {
     let (mut viewer, mut tracing) = viewer_and_tracing();
     let job = tracing.prepare(viewer.request());
