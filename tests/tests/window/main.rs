@@ -10,6 +10,7 @@ mod manners;
 mod moving;
 mod picture;
 mod programs;
+mod random;
 mod seeing;
 mod selecting;
 mod stage;
