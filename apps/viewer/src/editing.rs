@@ -55,8 +55,8 @@ impl Viewer {
         self.lighting.keep_lights_of(scene);
         self.before = None;
         self.texture = self.texture.filter(|id| scene.find_texture(*id).is_some());
-        let flown = self.flown.as_ref().map(|flown| flown.id);
-        if moved.is_some() && moved != flown {
+        // What is flown would go along.
+        if moved.is_some() && self.flown.is_none() {
             self.follow_camera(moved);
         }
         self.stale = Stale { scene: true, trace: true, overlay: true, panel: true };

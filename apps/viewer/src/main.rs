@@ -1,6 +1,8 @@
 //! The viewer: a window that shows a ray-traced scene, to be turned, lit and changed.
 
 mod actions;
+#[cfg(test)]
+mod any_order;
 mod app;
 mod arithmetic;
 mod ball;

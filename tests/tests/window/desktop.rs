@@ -3,6 +3,8 @@
 
 use std::error::Error;
 use std::path::Path;
+use std::thread::sleep;
+use std::time::Instant;
 
 use x11rb::connection::Connection as _;
 use x11rb::protocol::Event;
@@ -11,6 +13,9 @@ use x11rb::protocol::xproto::{
     SelectionNotifyEvent, SelectionRequestEvent, WindowClass,
 };
 use x11rb::rust_connection::RustConnection;
+
+use crate::programs::LOOK;
+use crate::stage::PATIENCE;
 use x11rb::wrapper::ConnectionExt as _;
 
 /// A desktop's own connection to the screen.
@@ -42,8 +47,13 @@ pub(crate) fn drop_file(display: &str, window: u32, file: &Path) -> Result<(), B
     let copy = desktop.atom("XdndActionCopy")?;
     desktop.tell(desktop.atom("XdndPosition")?, [source, 0, 100 << 16 | 100, 0, copy])?;
     let finished = desktop.atom("XdndFinished")?;
-    loop {
-        match desktop.connection.wait_for_event()? {
+    let begin = Instant::now();
+    while begin.elapsed() < PATIENCE {
+        let Some(event) = desktop.connection.poll_for_event()? else {
+            sleep(LOOK);
+            continue;
+        };
+        match event {
             Event::SelectionRequest(request) => {
                 desktop.answer(&request, &format!("file://{}\r\n", file.display()))?;
                 desktop.tell(desktop.atom("XdndDrop")?, [source, 0, 0, 0, 0])?;
@@ -52,6 +62,7 @@ pub(crate) fn drop_file(display: &str, window: u32, file: &Path) -> Result<(), B
             _ => {}
         }
     }
+    Err("the window does not take the file".into())
 }
 
 impl Desktop {

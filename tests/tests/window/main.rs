@@ -11,6 +11,7 @@ mod manners;
 mod moving;
 mod picture;
 mod programs;
+mod random;
 mod seeing;
 mod selecting;
 mod stage;

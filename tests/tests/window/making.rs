@@ -145,3 +145,16 @@ fn a_new_scene_is_saved_where_it_is_asked() {
     stage.key("Return");
     stage.until("both balls again", both);
 }
+
+#[test]
+fn a_dropped_model_stands_in_the_scene_and_one_undo_takes_it_back() {
+    let Some(stage) = stage() else { return };
+    let file = stage.folder.path().join("flag.obj");
+    std::fs::write(&file, "o flag\nv 0 0 0\nv 3 0 0\nv 3 2 0\nv 0 2 0\nf 1 2 3 4\n").expect("a model");
+    stage.drop_file(&file);
+    stage.until("a flag before the red ball", |picture| picture.count(UPPER, is_grey) > 500);
+    assert!(saved(&stage, "flag.obj").contains("model \"flag\""));
+    stage.key("ctrl+z");
+    stage.until("no flag", |picture| picture.count(UPPER, is_grey) == 0 && both(picture));
+    saved_as_it_was(&stage);
+}

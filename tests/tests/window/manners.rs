@@ -2,8 +2,8 @@
 //! that can be read.
 
 use crate::picture::Picture;
-use crate::stage::PICTURE;
-use crate::{MIDDLE, is_green, is_red, stage};
+use crate::stage::{PICTURE, Stage};
+use crate::{MIDDLE, SCENE, is_green, is_red, stage};
 
 /// A red ball's edge, half covered.
 const fn is_half_red([r, g, b]: [u8; 3]) -> bool {
@@ -60,10 +60,20 @@ fn the_middle_button_orbits_and_with_shift_pans() {
 
 #[test]
 fn the_list_of_keys_fits_into_a_small_window() {
-    let (width, height) = (500, 350);
     let Some(stage) = stage() else { return };
+    list_fits(&stage, (500, 350), 228);
+}
+
+#[test]
+fn the_list_of_keys_fits_where_two_pixels_make_a_point() {
+    let Some(stage) = Stage::start_scaled(Some(SCENE), 2) else { return };
+    list_fits(&stage, (860, 500), 316);
+}
+
+/// Opens the list in a window of that size, whose picture is that wide.
+fn list_fits(stage: &Stage, (width, height): (usize, usize), room: usize) {
     stage.resize(width, height);
-    stage.wait("the small window", |stage| stage.log().contains(&format!("{}x{height} 1/1", width - 272)));
+    stage.wait("the small window", |stage| stage.log().contains(&format!("{room}x{height} 1/1")));
     let before = stage.settle();
     stage.key("F1");
     let changed = |picture: &Picture, columns: std::ops::Range<usize>| {

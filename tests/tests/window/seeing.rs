@@ -98,3 +98,57 @@ fn passes_show_colours_and_normals() {
     stage.key("v");
     stage.until("a normal towards the eye", middle_is([128, 128, 255]));
 }
+
+/// A window of which the panel shows its lower end, with switches in known places.
+const TALL: (usize, usize) = (900, 710);
+const MARK_CLIPPED: (usize, usize) = (657, 455);
+const COMPARE: (usize, usize) = (675, 560);
+const COMPARE_NOW: (usize, usize) = (835, 582);
+
+/// Shows the lower end of the panel.
+fn tall() -> Option<Stage> {
+    let stage = Stage::start(Some(SCENE))?;
+    stage.resize(TALL.0, TALL.1);
+    let whole = format!("{}x{} samples 16/16 at rest", PICTURE.0, TALL.1);
+    stage.wait("the tall window", |stage| stage.log().trim_end().ends_with(&whole));
+    stage.wheel(760, TALL.1 - 60, "5", 30);
+    stage.settle();
+    Some(stage)
+}
+
+#[test]
+fn pixels_that_are_brighter_than_white_can_be_marked() {
+    let Some(stage) = tall() else { return };
+    let marked = |picture: &Picture| picture.count(PICTURE, |rgb| rgb == [255, 0, 200]);
+    assert_eq!(marked(&stage.picture()), 0);
+    stage.click(MARK_CLIPPED.0, MARK_CLIPPED.1);
+    stage.until("stripes on the balls", |picture| marked(picture) > 20_000);
+    // Three stops darker nothing is clipped.
+    (0..9).for_each(|_| stage.key("bracketleft"));
+    stage.until("no stripes", |picture| marked(picture) == 0);
+}
+
+#[test]
+fn a_picture_on_disk_stands_beside_and_the_error_is_told() {
+    let Some(stage) = tall() else { return };
+    let file = stage.folder.path().join("scene.png");
+    stage.key("p");
+    stage.wait("the picture", |_| std::fs::read(&file).is_ok_and(|bytes| bytes.starts_with(b"\x89PNG")));
+    let numbers = |picture: &Picture| {
+        let panel = (PICTURE.0..TALL.0).flat_map(|x| (590..TALL.1).map(move |y| (x, y)));
+        panel.filter(|(x, y)| is_accent(picture.rgb(*x, *y))).count()
+    };
+    // All blue, as large as the picture.
+    let (width, height) = (PICTURE.0 as u32, TALL.1 as u32);
+    let blue = [0, 0, 255].repeat(PICTURE.0 * TALL.1);
+    catoptra_scene::image::write_png(&file, width, height, &blue).expect("another picture");
+    stage.click(COMPARE.0, COMPARE.1);
+    let opened = stage.settle();
+    assert_eq!(numbers(&opened), 0);
+    stage.click(COMPARE_NOW.0, COMPARE_NOW.1);
+    let is_blue = |rgb: [u8; 3]| rgb == [0, 0, 255];
+    let shown = stage.until("blue beside red", |picture| {
+        picture.count(PICTURE, is_blue) > PICTURE.0 * PICTURE.1 / 3 && numbers(picture) > 50
+    });
+    assert!(is_red(shown.rgb(MIDDLE.0 - 20, TALL.1 / 2)) && is_blue(shown.rgb(MIDDLE.0 + 20, TALL.1 / 2)));
+}

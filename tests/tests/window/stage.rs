@@ -12,7 +12,7 @@ use crate::picture::Picture;
 use crate::programs::{self, LOOK};
 
 /// How long anything may take before the test fails.
-const PATIENCE: Duration = Duration::from_secs(60);
+pub(crate) const PATIENCE: Duration = Duration::from_secs(60);
 
 /// How long the window must stay the same to count as settled. What a test awaits it names itself ([`Stage::until`]);
 /// this only tells apart a state in between from the one that stays.
@@ -96,7 +96,27 @@ impl Stage {
     /// Clicks there with the left button.
     pub(crate) fn click(&self, x: usize, y: usize) {
         self.point(x, y);
-        self.xdotool(&["click", "1"]);
+        self.press("1");
+    }
+
+    /// Presses a button where the pointer is.
+    pub(crate) fn press(&self, button: &str) {
+        self.xdotool(&["click", button]);
+    }
+
+    /// Does something while a key is held; none if that is empty.
+    pub(crate) fn holding(&self, key: &str, act: impl FnOnce()) {
+        if key.is_empty() {
+            return act();
+        }
+        self.xdotool(&["keydown", key]);
+        act();
+        self.xdotool(&["keyup", key]);
+    }
+
+    /// The window's title.
+    pub(crate) fn title(&self) -> String {
+        self.xdotool(&["getwindowname", &self.window])
     }
 
     /// Moves the pointer.
@@ -112,13 +132,14 @@ impl Stage {
 
     /// Drags with a button, in ten steps.
     pub(crate) fn drag(&self, from: (usize, usize), by: (i32, i32), button: &str) {
-        self.point(from.0, from.1);
-        self.xdotool(&["mousedown", button]);
+        let [x, y] = [from.0, from.1].map(|at| at.to_string());
+        let [right, down] = [by.0, by.1].map(|by| (by / 10).to_string());
+        let mut hand = vec!["mousemove", &x, &y, "mousedown", button];
         for _ in 0..10 {
-            self.xdotool(&["mousemove_relative", "--", &(by.0 / 10).to_string(), &(by.1 / 10).to_string()]);
-            sleep(Duration::from_millis(10));
+            hand.extend(["mousemove_relative", "--", &right, &down, "sleep", "0.01"]);
         }
-        self.xdotool(&["mouseup", button]);
+        hand.extend(["mouseup", button]);
+        self.xdotool(&hand);
     }
 
     /// Makes the window another size.

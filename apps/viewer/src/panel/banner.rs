@@ -50,7 +50,8 @@ fn signs(viewer: &Viewer) -> Vec<(String, Weight)> {
         let text = "Turntable: dragging turns the objects and changes the scene. T goes back.";
         (text.to_owned(), Weight::Loud)
     });
-    let transform = viewer.transform.as_ref().map(|transform| (transform.words(), Weight::Loud));
+    let on_surfaces = viewer.settings.on_surfaces;
+    let transform = viewer.transform.as_ref().map(|transform| (transform.words(on_surfaces), Weight::Loud));
     let flown = viewer.flown.as_ref().and_then(|flown| viewer.document.scene().name(flown.id)).map(|name| {
         (format!("Looking through {name}: moving the view moves it. I or Esc ends that."), Weight::Loud)
     });

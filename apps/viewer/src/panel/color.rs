@@ -24,7 +24,13 @@ pub(super) fn swatch(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
     let [r, g, b] = value.to_array().map(super::short);
     let response = ui.color_edit_button_rgb(&mut rgb).on_hover_text(format!("linear {r} {g} {b}"));
     let channel = |v: f32| f64::from(v.clamp(0.0, 1.0));
-    response.changed().then(|| Rgb::new(channel(rgb[0]), channel(rgb[1]), channel(rgb[2])))
+    response.changed().then(|| short(Rgb::new(channel(rgb[0]), channel(rgb[1]), channel(rgb[2]))))
+}
+
+/// With four digits in each number, more than a display can tell: a file is not to hold more.
+pub(super) fn short(color: Rgb) -> Rgb {
+    let [r, g, b] = color.to_array().map(|v| format!("{v:.3e}").parse().unwrap_or(v));
+    Rgb::new(r, g, b)
 }
 
 /// The digits, to be typed.
@@ -74,7 +80,7 @@ fn parsed(text: &str) -> Option<Rgb> {
         let byte = u8::from_str_radix(wide.get(at..at + 2)?, 16).ok()?;
         Some(srgb_decoded(f64::from(byte) / 255.0))
     };
-    Some(Rgb::new(channel(0)?, channel(2)?, channel(4)?))
+    Some(short(Rgb::new(channel(0)?, channel(2)?, channel(4)?)))
 }
 
 fn linear(text: &str) -> Option<Rgb> {
@@ -101,6 +107,7 @@ mod tests {
         }
         assert_eq!(parsed("c86432"), parsed("#c86432"));
         assert_eq!(parsed("#fff"), Some(Rgb::WHITE));
+        assert_eq!(parsed("#7a4a2a"), Some(Rgb::new(0.1946, 0.06848, 0.02315)), "with few digits");
     }
 
     #[test]

@@ -91,7 +91,8 @@ pub(super) fn quantity(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
     let tint = if strength > 0.0 { value * (1.0 / strength) } else { Rgb::BLACK };
     ui.horizontal(|ui| {
         // Of no light one picks a colour as strong as it is shown.
-        let picked = color::swatch(ui, tint).map(|tint| tint * if strength > 0.0 { strength } else { 1.0 });
+        let picked = color::swatch(ui, tint)
+            .map(|tint| color::short(tint * if strength > 0.0 { strength } else { 1.0 }));
         let typed = number::edit(ui, strength, Pace::Value, |ui, widget| ui.add(widget));
         let tint = if strength > 0.0 { tint } else { Rgb::WHITE };
         typed.filter(|typed| *typed >= 0.0).map(|typed| tint * typed).or(picked)

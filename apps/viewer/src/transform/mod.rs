@@ -7,9 +7,9 @@ mod surface;
 mod thing;
 mod tidy;
 
-use catoptra_core::Edit;
 use catoptra_core::glam::DVec3;
 use catoptra_core::scene::{EntityId, History};
+use catoptra_core::{Aabb, Edit};
 use catoptra_raster::{Axis, Constraint, Manipulator, Motion, Projection, Tool};
 
 use crate::arithmetic;
@@ -57,6 +57,8 @@ pub(crate) struct Transform {
     things: Vec<Thing>,
     /// The steps before it.
     steps: History,
+    /// What the things took up of the world at first; empty where they have no extent.
+    bounds: Aabb,
     /// Whether the scene was changed.
     applied: bool,
     /// What is done now.
@@ -74,6 +76,8 @@ pub(crate) fn begin(viewer: &mut Viewer, tool: Tool, constraint: Constraint, end
         let locked = !tops.is_empty();
         return viewer.notify(if locked { "what is selected is locked" } else { "select something first" });
     };
+    let bounds =
+        things.iter().filter_map(|thing| scene.world_bounds(thing.id())).fold(Aabb::EMPTY, Aabb::union);
     viewer.document.end_step();
     viewer.transform = Some(Transform {
         manipulator,
@@ -86,6 +90,7 @@ pub(crate) fn begin(viewer: &mut Viewer, tool: Tool, constraint: Constraint, end
         typed: String::new(),
         things,
         steps: viewer.document.steps(),
+        bounds,
         applied: false,
         motion: None,
     });
@@ -150,7 +155,7 @@ impl Transform {
         }
         if viewer.settings.on_surfaces
             && (manipulator.tool, self.constraint) == (Tool::Move, Constraint::Free)
-            && let Some(by) = surface::placed(viewer, &self.ids(), manipulator.pivot, self.to)
+            && let Some(by) = surface::placed(viewer, &self.ids(), (self.bounds, manipulator.pivot), self.to)
         {
             let [x, y, z] = manipulator.axes;
             return Some(Motion::Move(DVec3::new(x.dot(by), y.dot(by), z.dot(by))));
@@ -176,10 +181,13 @@ impl Transform {
         self.constraint = constraint;
     }
 
-    /// What is being done, in words.
-    pub(crate) fn words(&self) -> String {
+    /// What is being done, in words; things may be put onto surfaces.
+    pub(crate) fn words(&self, on_surfaces: bool) -> String {
         let whose = if self.local { "own " } else { "" };
         let way = match self.constraint {
+            Constraint::Free if on_surfaces && self.manipulator.tool == Tool::Move => {
+                " on surfaces".to_owned()
+            }
             Constraint::Free => String::new(),
             Constraint::Along(axis) => format!(" along {whose}{}", axis.letter()),
             Constraint::Across(axis) => {
@@ -190,7 +198,10 @@ impl Transform {
             (typed, _) if !typed.is_empty() => format!(": {typed}"),
             (_, None) => String::new(),
             (_, Some(Motion::Move(by))) => {
-                format!(": {} m", by.to_array().map(crate::panel::short).join("  "))
+                // Beside the others, a tiny one is but rounding.
+                let tail = 1e-6 * by.abs().max_element();
+                let shown = |v: f64| crate::panel::short(if v.abs() < tail { 0.0 } else { v });
+                format!(": {} m", by.to_array().map(shown).join("  "))
             }
             (_, Some(Motion::Turn { angle, .. })) => format!(": {:.1}°", angle.to_degrees()),
             (_, Some(Motion::Scale(factor))) => format!(": ×{factor:.3}"),

@@ -13,11 +13,15 @@ const CLEARANCE: f64 = 0.03;
 /// Surfaces of the things themselves that are looked through.
 const MOST: usize = 64;
 
-/// How far the things go so that they touch the surface under a pixel; `None` where there is none.
-pub(super) fn placed(viewer: &Viewer, ids: &[EntityId], pivot: DVec3, pixel: (f64, f64)) -> Option<DVec3> {
-    let scene = viewer.document.scene();
+/// How far the things go from where they took up `bounds`, or stood at `pivot` if they have none, so that they touch the
+/// surface under a pixel; `None` where there is none.
+pub(super) fn placed(
+    viewer: &Viewer,
+    ids: &[EntityId],
+    (bounds, pivot): (Aabb, DVec3),
+    pixel: (f64, f64),
+) -> Option<DVec3> {
     let (point, normal) = under(viewer, ids, pixel)?;
-    let bounds = ids.iter().filter_map(|id| scene.world_bounds(*id)).fold(Aabb::EMPTY, Aabb::union);
     if bounds.is_empty() {
         let off = CLEARANCE * viewer.everything().size().length();
         return Some(point + normal * off - pivot);

@@ -144,6 +144,8 @@ fn things_stand_on_the_surface_under_the_pointer() {
         let to = seen(&viewer, DVec3::new(1.0, 0.0, 4.0));
         let from = seen(&viewer, center(&viewer, name));
         begin(&mut viewer, Tool::Move, Constraint::Free, Ends::ByRelease, from);
+        // Wherever the pointer was before.
+        pull(&mut viewer, (from.0 - 30.0, from.1 + 60.0), false);
         pull(&mut viewer, to, false);
         let at = center(&viewer, name);
         assert!((at.x - 1.0).abs() < 0.05 && height.contains(&at.y) && (at.z - 4.0).abs() < 0.05, "{at}");

@@ -110,6 +110,11 @@ impl Manipulator {
     #[must_use]
     pub fn handle_at(&self, view: &Projection, (x, y): (f64, f64), scale: f64) -> Option<Constraint> {
         let near = |off: f64| off <= REACH * scale;
+        // An arrow that points at the eye begins right at the pivot, as it is seen.
+        let pivot = view.project(self.pivot)?;
+        if (pivot.x - x).hypot(pivot.y - y) < (GAP - REACH) * scale {
+            return None;
+        }
         match self.tool {
             Tool::Move => {
                 let planes = Axis::ALL.into_iter().filter(|axis| {
@@ -241,8 +246,18 @@ mod tests {
             assert_eq!(held(Tool::Turn, ring[8]), Some(Constraint::Along(Axis::Z)));
             let circle = manipulator(Tool::Scale).circle(&view, scale).unwrap();
             assert_eq!(held(Tool::Scale, circle[5]), Some(Constraint::Free));
-            for tool in [Tool::Move, Tool::Scale] {
-                assert_eq!(held(tool, arrows.pivot), None, "what stands at the pivot can be clicked");
+        }
+    }
+
+    #[test]
+    fn what_stands_at_the_pivot_can_be_clicked_from_wherever_it_is_seen() {
+        let view = view();
+        for tool in [Tool::Move, Tool::Scale] {
+            for place in 0..100 {
+                let pivot = DVec3::new(f64::from(place % 10) - 4.5, f64::from(place / 10) * 0.5, 0.3);
+                let seen = view.project(pivot).unwrap();
+                let handles = Manipulator { pivot, ..manipulator(tool) };
+                assert_eq!(handles.handle_at(&view, (seen.x, seen.y), 1.0), None, "{tool:?} at {pivot}");
             }
         }
     }

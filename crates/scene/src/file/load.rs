@@ -6,7 +6,7 @@ use std::path::Path;
 
 use catoptra_core::scene::Scene;
 
-use super::SceneFile;
+use super::{SceneFile, Wording};
 use crate::build::{self, Built};
 use crate::read::{self, Files, LONGEST};
 use crate::report::{Complaints, SceneTextError};
@@ -38,7 +38,7 @@ pub fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
     let base = path.parent().filter(|_| lies_in_folder).unwrap_or(Path::new(""));
     let (scene, mut file) = load_from(input, path, base)?;
     file.path = Some(path.to_owned());
-    file.stored.clone_from(&file.text);
+    file.stored.clone_from(&file.now.text);
     Ok((scene, file))
 }
 
@@ -96,18 +96,8 @@ pub(crate) fn parse_with(
         let Built { scene, ids, models, repeats } = build::build(&outline, &mut complaints);
         if complaints.count() == 0 {
             let text = text.to_owned();
-            let file = SceneFile {
-                path: None,
-                stored: String::new(),
-                text,
-                outline,
-                ids,
-                files,
-                models,
-                resting: Vec::new(),
-                repeats,
-                added: None,
-            };
+            let wording = Wording { text, outline, ids, models, resting: Vec::new(), repeats };
+            let file = SceneFile::of(wording, files);
             return Ok((scene, file));
         }
     }

@@ -29,18 +29,27 @@ pub struct SceneFile {
     path: Option<PathBuf>,
     /// What the file at `path` held when it was read or written last.
     stored: String,
+    /// As it was read: each update begins there, so that edits which are undone leave no trace, saved or not.
+    opened: Wording,
+    /// As of the last update.
+    now: Wording,
+    files: Files,
+    added: Option<String>,
+}
+
+/// A text and what it stands for.
+#[derive(Debug, Clone, Default)]
+struct Wording {
     text: String,
     outline: Outline,
     /// What every item of the outline stands for.
     ids: Vec<Id>,
-    files: Files,
     /// What came from model files and is as they and the text say.
     models: Vec<Instance>,
-    /// What came from model files and is not there any more, or not so; an undone edit may bring it back.
+    /// What came from model files and is not there, or not so; an edit or one that is undone may bring it.
     resting: Vec<Instance>,
     /// Repeats that are as the text says.
     repeats: Vec<Repeated>,
-    added: Option<String>,
 }
 
 /// A scene that could not be saved; what was on the disk before is there still.
@@ -58,21 +67,15 @@ impl SceneFile {
         Self { added, ..self }
     }
 
+    /// Of a text that was just read.
+    fn of(wording: Wording, files: Files) -> Self {
+        Self { path: None, stored: String::new(), opened: wording.clone(), now: wording, files, added: None }
+    }
+
     /// Text for a scene that has none yet.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
-        let mut file = Self {
-            path: None,
-            stored: String::new(),
-            text: String::new(),
-            outline: Outline::default(),
-            ids: Vec::new(),
-            files: Files::new(None),
-            models: Vec::new(),
-            resting: Vec::new(),
-            repeats: Vec::new(),
-            added: None,
-        };
+        let mut file = Self::of(Wording::default(), Files::new(None));
         file.update(scene);
         file
     }
@@ -141,28 +144,25 @@ impl SceneFile {
     #[must_use]
     pub fn text_for(&self, path: &Path) -> String {
         let folder = path.parent().unwrap_or(Path::new(""));
-        relocated::text(&self.text, &self.outline, self.folder(), folder)
+        relocated::text(&self.now.text, &self.now.outline, self.folder(), folder)
     }
 
     /// The text, as of the last [`Self::update`].
     #[must_use]
     pub fn text(&self) -> String {
-        self.text.clone()
+        self.now.text.clone()
     }
 
-    /// Makes the text say what the scene holds, changing only what has changed. Comments, order, blank lines and the
-    /// spelling of numbers that did not change stay; a node goes with its line and the comment behind it.
+    /// Makes the text say what the scene holds, changing only what has changed since it was read. Comments, order, blank
+    /// lines and the spelling of numbers that did not change stay; a node goes with its line and the comment behind it, and
+    /// comes back with them.
     pub fn update(&mut self, scene: &Scene) {
+        self.now = self.opened.clone();
         self.know_files(scene);
         self.write_out(scene);
         if self.follow(scene).is_none() {
             // No text that we wrote ourselves could be read again: begin anew rather than lose an edit.
-            self.text.clear();
-            self.outline = Outline::default();
-            self.ids.clear();
-            self.models.clear();
-            self.resting.clear();
-            self.repeats.clear();
+            self.now = Wording::default();
             let _ = self.follow(scene);
         }
     }

@@ -43,7 +43,8 @@ impl SceneFile {
             edits.extend(added(&copy, *look));
         }
         edits.extend(copy.node(root).map(|node| Edit::insert(Subtree::new(node))));
-        self.models.push(instance);
+        // Whatever becomes of the text, it can be made anew with this model.
+        self.opened.resting.push(instance);
         Ok((Edit::Batch(edits), root))
     }
 }

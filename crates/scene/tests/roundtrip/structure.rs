@@ -1,7 +1,7 @@
 //! Do names, kinds, members and their order follow, with the comments that belong to them?
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::scene::{Edit, Node, Subtree};
+use catoptra_core::scene::{Edit, History, Node, Subtree};
 use catoptra_core::{Light, Material, Value, Values};
 
 use super::{difference, edited, id, make_shape};
@@ -44,6 +44,27 @@ fn what_is_removed_goes_with_its_lines_and_nothing_else() {
     assert_eq!(new, Vec::<&str>::new());
     assert_eq!(old.len(), 5, "{old:?}");
     assert!(text.contains("// the other one"));
+}
+
+#[test]
+fn what_was_saved_and_is_undone_leaves_no_trace() {
+    let (mut scene, mut file) = super::start();
+    let mut history = History::new();
+    let (lamp, red) = (id(&scene, "lamp"), scene.material_named("red").unwrap());
+    let (light, material) = (scene.light(lamp).unwrap(), scene.material(red).clone());
+    for edit in [
+        Edit::Remove(id(&scene, "right")),
+        // A field that is not written, as it has the usual value.
+        Edit::Material(red, material.with("reflectiveness", Value::Number(0.5)).unwrap()),
+        Edit::Light(lamp, light.with("outer", Value::Number(1.0)).unwrap()),
+    ] {
+        history.apply(&mut scene, edit).unwrap();
+        file.update(&scene);
+        assert_ne!(file.text(), super::TEXT);
+        history.undo(&mut scene);
+        file.update(&scene);
+        assert_eq!(file.text(), super::TEXT);
+    }
 }
 
 #[test]
