@@ -101,12 +101,13 @@ impl Crossing {
         (self.t + self.error).next_up()
     }
 
-    /// How its position on the ray compares with that of another crossing; where the bounds of both overlap, the roots of
-    /// both are computed, in exact numbers last. `Equal` where a root is missing.
+    /// How its position on the ray compares with that of another crossing; where the bounds of both overlap and they are not
+    /// seen to be `together`, the roots of both are computed, in exact numbers last. `Equal` where a root is missing.
     #[must_use]
     pub fn order(
         &self,
         other: &Self,
+        together: impl FnOnce() -> bool,
         bounded: impl FnOnce() -> [Verdict<Option<Root<Bounded>>>; 2],
         exact: impl FnOnce() -> [Verdict<Option<Root<Dyadic>>>; 2],
     ) -> Ordering {
@@ -115,6 +116,8 @@ impl Crossing {
             Ordering::Less
         } else if other.t + other.error < self.t - self.error {
             Ordering::Greater
+        } else if together() {
+            Ordering::Equal
         } else {
             order_of_roots(bounded, exact)
         }

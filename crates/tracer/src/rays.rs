@@ -1,5 +1,7 @@
 //! Lists of rays that a caller supplies and of their hits, in blocks of columns.
 
+use std::borrow::Cow;
+
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Span};
 
@@ -84,6 +86,19 @@ impl RayList {
             (self.prim[self.length], self.facet[self.length]) = (surface.prim, surface.facet);
         }
         self.length += 1;
+    }
+
+    /// The same rays, of which each leaves the surface that is met where it leaves one.
+    pub(crate) fn from_places(&self, snapshot: &Snapshot) -> Cow<'_, Self> {
+        if self.prim.is_empty() || !snapshot.has_doubles() {
+            return Cow::Borrowed(self);
+        }
+        let mut rays = self.clone();
+        for (prim, facet) in rays.prim.iter_mut().zip(&mut rays.facet).filter(|(prim, _)| **prim != NOTHING) {
+            let there = snapshot.surface_in_place(SurfaceId { prim: *prim, facet: *facet });
+            (*prim, *facet) = (there.prim, there.facet);
+        }
+        Cow::Owned(rays)
     }
 
     fn make_room_for_surfaces(&mut self) {

@@ -9,6 +9,7 @@
 //! ends of the exponent range, where whole numbers need none.)
 
 mod bounded;
+mod determinant;
 mod dyadic;
 mod enclosed;
 mod isolated;
@@ -22,6 +23,7 @@ use std::cmp::Ordering;
 use smallvec::SmallVec;
 
 pub use bounded::Bounded;
+pub use determinant::{Difference, sign_of_determinant};
 pub use dyadic::Dyadic;
 pub use isolated::Isolated;
 pub use root::{Located, Radical, Root};
@@ -148,6 +150,11 @@ pub fn decide<T>(
 #[cold]
 #[inline(never)]
 fn exactly<T>(exact: impl FnOnce() -> Verdict<Option<T>>) -> Option<T> {
+    answer_exactly(exact).unwrap_or(None)
+}
+
+/// Counts an answer of exact arithmetic.
+fn answer_exactly<T>(answer: impl FnOnce() -> T) -> T {
     EXACT.set(EXACT.get() + 1);
-    exact().unwrap_or(None)
+    answer()
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::crossings::Crossings;
 use super::parametrization::{BARYCENTRIC, in_triangle};
 use super::subdivision::MOST_LEVELS;
-use super::triangle::{area, meet_triangle, unit_normal, weights};
+use super::triangle::{area, meet_together, meet_triangle, unit_normal, weights};
 use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{Located, Number, Vector, Verdict};
 use crate::part::Given;
@@ -95,6 +95,15 @@ impl Part for Mesh {
 }
 
 impl Mesh {
+    /// Whether a ray in the space of this mesh meets a triangle of it and one of another at one point for a reason that is seen
+    /// at once; it meets both. Mostly that is an edge, a corner or a plane which both have.
+    #[must_use]
+    pub fn meets_together(&self, triangle: u32, (other, of_other): (&Self, u32), own: &Ray) -> bool {
+        let corners = |mesh: &Self, of: u32| mesh.triangles.corners(of);
+        self.to_object == other.to_object
+            && meet_together(&corners(self, triangle), &corners(other, of_other), own)
+    }
+
     /// How much each corner of a triangle counts at a point.
     fn weights_at(&self, point: DVec3, triangle: u32) -> [f64; 3] {
         let own = self.to_object.point(point);
@@ -119,7 +128,7 @@ impl Geometry for Mesh {
         span: Span,
         leaving: Option<u32>,
     ) -> Verdict<Option<FacetRoot<N>>> {
-        if leaving == Some(triangle) {
+        if leaving.is_some_and(|left| self.triangles.lie_in_one_place(left, triangle)) {
             return Ok(None);
         }
         meet_triangle(&self.triangles.corners(triangle), own, span, triangle)

@@ -9,6 +9,7 @@ mod cuboid;
 mod cylinder;
 mod derived;
 mod disk;
+mod doubles;
 mod ears;
 mod faceted;
 mod faceted_geometry;
@@ -124,8 +125,13 @@ pub trait Geometry {
 
     /// How the positions of two crossings that [`cross_piece`](Self::cross_piece) has found compare.
     fn order(&self, own: &Ray, span: Span, leaving: Option<u32>, [a, b]: [&Crossing; 2]) -> Ordering {
+        let together = || {
+            let mesh = self.as_mesh();
+            mesh.is_some_and(|mesh| mesh.meets_together(a.facet, (mesh, b.facet), own))
+        };
         a.order(
             b,
+            together,
             || [a, b].map(|crossing| self.root(crossing.facet, own, span, leaving)),
             || [a, b].map(|crossing| self.root(crossing.facet, own, span, leaving)),
         )

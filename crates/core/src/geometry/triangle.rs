@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::parametrization::{BARYCENTRIC, in_triangle};
 use super::{FacetRoot, Geometry, Parametrization};
-use crate::exact::{Dyadic, Located, Number, Root, Vector, Verdict};
+use crate::exact::{Difference, Dyadic, Located, Number, Root, Vector, Verdict, sign_of_determinant};
 use crate::numeric::{EDGE_ROUNDING, EDGE_VALUE_ERROR, NORMAL_SINE};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
@@ -97,23 +97,86 @@ pub(super) fn meet_triangle<N: Number>(
     span: Span,
     facet: u32,
 ) -> Verdict<Option<FacetRoot<N>>> {
-    if passes_by(corners, ray) {
+    let signs = sides(corners, ray);
+    if signs.contains(&Ordering::Less) && signs.contains(&Ordering::Greater) {
         return Ok(None);
     }
-    let (origin, direction) = (Vector::<N>::of(ray.origin), Vector::of(ray.direction));
-    let [a, b, c] = corners.map(|p| Vector::of(p).minus(&origin));
-    let signs = [(&c, &b), (&a, &c), (&b, &a)].map(|(p, q)| p.cross(q).dot(&direction).sign());
-    if signs.contains(&Ok(Ordering::Less)) && signs.contains(&Ok(Ordering::Greater)) {
-        return Ok(None);
-    }
-    for sign in signs {
-        sign?;
-    }
+    let a = Vector::<N>::of(corners[0]).minus(&Vector::of(ray.origin));
+    let direction = Vector::of(ray.direction);
     let normal = area(corners);
     match Root::ratio(&normal.dot(&a), &normal.dot(&direction))? {
         Some(root) => FacetRoot::on(span, root, facet),
         None => Ok(None),
     }
+}
+
+/// The signs of the three volumes, of the edges bc, ca and ab; where two are opposite, that of the third may be left out.
+fn sides(corners: &[DVec3; 3], ray: &Ray) -> [Ordering; 3] {
+    let (volumes, error) = volumes(corners, ray);
+    let certain = volumes.map(|v| {
+        if v > error {
+            Ordering::Greater
+        } else if v < -error {
+            Ordering::Less
+        } else {
+            Ordering::Equal
+        }
+    });
+    if certain.contains(&Ordering::Less) && certain.contains(&Ordering::Greater) {
+        return certain;
+    }
+    let [a, b, c] = *corners;
+    let edges = [[c, b], [a, c], [b, a]];
+    std::array::from_fn(|i| match certain[i] {
+        Ordering::Equal => side_of_edge(edges[i], ray),
+        sign => sign,
+    })
+}
+
+/// The sign of the volume that an edge spans with the direction as seen from the origin; 0 where the line of the ray meets
+/// the edge's.
+fn side_of_edge([p, q]: [DVec3; 2], ray: &Ray) -> Ordering {
+    let seen = |to: DVec3| Difference { from: ray.origin, to };
+    sign_of_determinant(&[seen(p), seen(q), Difference::of(ray.direction)])
+}
+
+/// Whether a ray meets two triangles, both of which it meets, at one point for a reason that is seen without working out where:
+/// it passes through an edge or a corner of both, or they lie in one plane.
+pub(super) fn meet_together(first: &[DVec3; 3], second: &[DVec3; 3], ray: &Ray) -> bool {
+    let common = |p: &DVec3| second.contains(p);
+    let [mut a, mut b, mut c] = *first;
+    let through = |p: DVec3, q: DVec3| side_of_edge([p, q], ray).is_eq();
+    let at_edge_or_corner = match first.map(|p| common(&p)) {
+        [true, true, true] => true,
+        [true, true, false] => through(a, b),
+        [false, true, true] => through(b, c),
+        [true, false, true] => through(c, a),
+        [false, false, false] => false,
+        [_, at_b, at_c] => {
+            if at_b {
+                (a, b) = (b, a);
+            } else if at_c {
+                (a, c) = (c, a);
+            }
+            // The line lies in the planes that it spans with both edges: it is the line in which they cross.
+            through(a, b) && through(a, c)
+        }
+    };
+    at_edge_or_corner || second.iter().all(|p| common_plane(first, *p))
+}
+
+/// Whether a point lies in the plane of a triangle.
+fn common_plane(&[a, b, c]: &[DVec3; 3], p: DVec3) -> bool {
+    let [u, v, w] = [b, c, p].map(|to| to - a);
+    let reach = u.abs().max(v.abs()).max_element();
+    let size = w.abs().element_sum();
+    // That of a volume, and the rounding of the third difference.
+    let error = 2.0 * EDGE_VALUE_ERROR * reach * reach * size + f64::MIN_POSITIVE * (1.0 + size);
+    if u.cross(v).dot(w).abs() > error {
+        return false;
+    }
+    let from_a = |to: DVec3| Difference { from: a, to };
+    sign_of_determinant(&[from_a(b), from_a(c), from_a(p)]).is_eq()
 }
 
 /// `(q − p) × (r − p)` of a triangle with corners p, q and r: its normal, twice as long as its area is large.
@@ -210,6 +273,8 @@ pub(super) fn corner_values(corners: &[DVec3]) -> Values {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     fn triangle() -> Triangle {
@@ -252,6 +317,51 @@ mod tests {
             }
         }
         assert!(0.1 < worst && worst <= 1.0, "{worst}");
+    }
+
+    /// Where a line meets a triangle, exactly.
+    fn exactly(corners: &[DVec3; 3], ray: &Ray) -> Option<Root<Dyadic>> {
+        meet_triangle(corners, ray, Span { min: f64::NEG_INFINITY, max: f64::INFINITY }, 0)
+            .unwrap()
+            .map(|met| met.root)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(4000))]
+
+        #[test]
+        fn triangles_that_meet_a_ray_together_have_equal_roots(
+            points in prop::collection::vec([-3_i32..4, -3..4, -3..4], 6),
+            eye in [-0.4..0.4_f64, -0.4..0.4, 5.0..6.0_f64],
+            common in 0..4_usize, shape in 0..4_usize, share in -0.5..1.5_f64,
+        ) {
+            let point = |i: usize| DVec3::from(points[i].map(f64::from));
+            let first = [point(0), point(1), point(2)];
+            let mut second = [point(3), point(4), point(5)];
+            if shape == 3 {
+                // In the plane of the first.
+                second = second.map(|p| first[0] + (first[1] - first[0]) * p.x + (first[2] - first[0]) * p.y);
+            }
+            second[..common].copy_from_slice(&first[..common]);
+            second.rotate_left(shape % 3);
+            prop_assume!(check_area(&first).is_ok() && check_area(&second).is_ok());
+            let eye = DVec3::from(eye);
+            // At a corner, at a point of an edge's line near enough to the edge, at the middle; each as near as directions come.
+            for at in [first[0], first[0].lerp(first[1], 0.5), first[0].lerp(first[1], share), (first[0] + first[1] + first[2]) / 3.0] {
+                for eye in [eye, eye.round()] {
+                    let ray = Ray::new(eye, at - eye);
+                    let roots = [&first, &second].map(|corners| exactly(corners, &ray));
+                    if let [Some(a), Some(b)] = roots {
+                        let equal = a.compare(&b).unwrap().is_eq();
+                        let together = meet_together(&first, &second, &ray);
+                        prop_assert!(equal || !together, "{:?} {:?} {:?}", first, second, ray);
+                        // What is seen is all that mostly happens: an edge, a corner or a plane in common.
+                        let features = common == 3 || shape == 3 || (common > 0 && at == first[0] && eye == eye.round());
+                        prop_assert!(together || !features, "{:?} {:?} {:?}", first, second, ray);
+                    }
+                }
+            }
+        }
     }
 
     #[test]

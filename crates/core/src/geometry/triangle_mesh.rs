@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::OpenEdge;
+use super::doubles::Doubles;
 use super::line_tree::LineTree;
 use super::parametrization::BARYCENTRIC;
 use super::subdivision::{Subdivisions, fitted};
@@ -29,6 +30,7 @@ pub struct TriangleMesh {
     offset: DVec3,
     bounds: Aabb,
     watertight: Watertight,
+    doubles: Doubles,
     lines: LineTree,
     subdivisions: Subdivisions,
 }
@@ -75,6 +77,7 @@ impl TriangleMesh {
             offset: DVec3::ZERO,
             bounds,
             watertight: Watertight::default(),
+            doubles: Doubles::default(),
             lines: LineTree::default(),
             subdivisions: Subdivisions::default(),
         })
@@ -174,6 +177,7 @@ impl TriangleMesh {
             tangents: Tangents::default(),
             offset: self.offset,
             watertight: Watertight::default(),
+            doubles: Doubles::default(),
             lines: LineTree::default(),
             subdivisions: Subdivisions::default(),
         }
@@ -184,6 +188,21 @@ impl TriangleMesh {
     #[must_use]
     pub fn open_edge(&self) -> Option<OpenEdge> {
         self.watertight.open_edge(self)
+    }
+
+    /// For each triangle the first that lies in the same place, with the same corners in whatever order; `None` where all differ.
+    /// Only the first is met.
+    #[must_use]
+    pub fn firsts_in_place(&self) -> Option<&[u32]> {
+        self.doubles.firsts(self)
+    }
+
+    /// Whether two triangles are one, or lie in the same place.
+    pub(super) fn lie_in_one_place(&self, a: u32, b: u32) -> bool {
+        let same = |firsts: &[u32]| {
+            firsts.get(a as usize).is_some_and(|first| firsts.get(b as usize) == Some(first))
+        };
+        a == b || self.firsts_in_place().is_some_and(same)
     }
 
     /// Shows `visit` each triangle that the line of a ray in the mesh's own space may meet, in any order, until an error.

@@ -36,6 +36,11 @@ pub(super) fn grow(mesh: &TriangleMesh, preset: Preset, pool: &Pool) -> WideTree
     pool.run(|| dispatch!(Level::new(), s => Grower { s, preset, mesh, overlap: f32::INFINITY }.grow()))
 }
 
+/// The triangles that are the first in their places: rays meet no others.
+fn distinct(firsts: &[u32]) -> Vec<u32> {
+    firsts.iter().zip(0..).filter(|(first, own)| *first == own).map(|(first, _)| *first).collect()
+}
+
 struct Grower<'a, S: Simd> {
     s: S,
     preset: Preset,
@@ -54,10 +59,13 @@ impl<S: Simd> Copy for Grower<'_, S> {}
 
 impl<S: Simd> Grower<'_, S> {
     fn grow(mut self) -> WideTree {
-        let (mesh, count) = (self.mesh, self.mesh.triangles().len());
+        let mesh = self.mesh;
+        let distinct: Option<Vec<u32>> = mesh.firsts_in_place().map(distinct);
+        let count = distinct.as_ref().map_or(mesh.triangles().len(), Vec::len);
+        let id = |place: usize| distinct.as_ref().map_or(place as u32, |ids| ids[place]);
         let room = self.preset.room(count);
         let places = |count: usize| (0..count).into_par_iter().with_min_len(PARALLEL);
-        let mut items: Vec<Item> = places(count).map(|id| Item::new(mesh, id as u32)).collect();
+        let mut items: Vec<Item> = places(count).map(|place| Item::new(mesh, id(place))).collect();
         let root = self.measured(&items, Set { room, ..Set::of(self.s, &[]) });
         items.resize(count + room, Item::NONE);
         let mut scratch: Vec<Item> = places(count + room).map(|_| Item::NONE).collect();

@@ -22,19 +22,44 @@ pub(super) struct Index {
     /// Each once.
     pub(super) meshes: Vec<Arc<MeshTree>>,
     pub(super) columns: Columns,
+    /// For each mesh that stands where an earlier one of the same triangles does, in order: its number and that one's. Rays meet
+    /// the earlier one alone.
+    pub(super) doubles: Vec<[u32; 2]>,
 }
 
 impl Index {
     /// Relative to an origin.
     pub(super) fn build(prims: &[Prim], trees: MeshTrees<'_>, origin: DVec3) -> Self {
+        let doubles = doubles(prims);
+        let met = |prim: &u32| doubles.binary_search_by_key(prim, |[double, _]| *double).is_err();
         let (bounded, unbounded): (Vec<u32>, Vec<u32>) =
-            (0..prims.len() as u32).partition(|&i| prims[i as usize].bounds().is_some());
+            (0..prims.len() as u32).filter(met).partition(|&i| prims[i as usize].bounds().is_some());
         let boxes = bounded.iter().filter_map(|&i| prims[i as usize].bounds());
         let boxes: Vec<Box32> = boxes.map(|b| around(b, origin)).collect();
         let MeshTrees { meshes, pool, .. } = trees;
         let columns = Columns::of(prims, &bounded, &meshes, origin);
-        Self { unbounded, bounded, tree: Tree::build(&boxes, pool), meshes, columns }
+        Self { unbounded, bounded, tree: Tree::build(&boxes, pool), meshes, columns, doubles }
     }
+}
+
+/// The meshes that stand where earlier ones of the same triangles do, each with the first of those.
+fn doubles(prims: &[Prim]) -> Vec<[u32; 2]> {
+    let mut places: HashMap<u32, Vec<u32>> = HashMap::new();
+    let mut doubles = Vec::new();
+    for (prim, number) in prims.iter().zip(0_u32..) {
+        let (Some(tree), None, Some(mesh)) = (prim.mesh, &prim.member, prim.shape.as_mesh()) else {
+            continue;
+        };
+        let firsts = places.entry(tree).or_default();
+        let stands_there = |first: &&u32| {
+            prims[**first as usize].shape.as_mesh().is_some_and(|other| other.placement() == mesh.placement())
+        };
+        match firsts.iter().find(stands_there) {
+            Some(&first) => doubles.push([number, first]),
+            None => firsts.push(number),
+        }
+    }
+    doubles
 }
 
 /// A box, relative to an origin, and widened by the rounding of its corners and of rays.

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::cmp::Ordering;
+use std::sync::Arc;
 
 use catoptra_core::exact::{Number, Root, Verdict};
 use catoptra_core::geometry::Mesh;
@@ -10,7 +11,7 @@ use catoptra_core::{Crossing, Geometry, Member, Placement, Ray, Shape, Span, ord
 
 use super::origin::{is_exact, relative};
 use super::{Prim, Snapshot};
-use crate::accel::WideTree;
+use crate::accel::{MeshTree, WideTree};
 
 /// A facet of a shape. A ray that leaves from one does not meet it again at its origin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,19 +35,19 @@ impl Snapshot {
     /// What a ray in the snapshot's frame meets first, found by the trees; ties go to the shape with the lower id.
     #[must_use]
     pub fn nearest(&self, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
-        self.nearest_on(&RaySegment::new(ray, span, leaving))
+        self.nearest_on(&RaySegment::new(ray, span, self.left_by(leaving)))
     }
 
     /// Whether a ray in the snapshot's frame meets anything on the stretch, found by the trees.
     #[must_use]
     pub fn occluded(&self, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool {
-        self.is_occluded_on(&RaySegment::new(ray, span, leaving))
+        self.is_occluded_on(&RaySegment::new(ray, span, self.left_by(leaving)))
     }
 
     /// What a ray in the snapshot's frame meets first, found by trying every shape and every triangle.
     #[must_use]
     pub fn nearest_of_all(&self, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
-        self.nearest_of_all_on(&RaySegment::new(ray, span, leaving))
+        self.nearest_of_all_on(&RaySegment::new(ray, span, self.left_by(leaving)))
     }
 
     /// A ray of the world in the snapshot's frame, unless that rounds it.
@@ -93,6 +94,7 @@ impl Snapshot {
     /// As [`nearest_of_all`](Self::nearest_of_all).
     pub(crate) fn nearest_of_all_on(&self, segment: &RaySegment<'_>) -> Option<Hit> {
         (0..self.prims.len() as u32)
+            .filter(|&prim| self.first_in_place(prim) == prim)
             .fold(None, |best, prim| self.closer(segment, best, self.cross_whole(prim, &segment.until(best))))
     }
 
@@ -139,6 +141,7 @@ impl Snapshot {
     pub(crate) fn precedes(&self, segment: &RaySegment<'_>, a: &Hit, b: &Hit) -> bool {
         let order = a.crossing.order(
             &b.crossing,
+            || self.are_met_together(segment, a.surface, b.surface),
             || [a, b].map(|hit| self.root(segment, hit.surface)),
             || [a, b].map(|hit| self.root(segment, hit.surface)),
         );
@@ -147,11 +150,29 @@ impl Snapshot {
 
     /// As [`precedes`](Self::precedes), of hits that are known to be ones, wherever they are.
     pub(crate) fn surface_precedes(&self, segment: &RaySegment<'_>, a: SurfaceId, b: SurfaceId) -> bool {
-        let order = order_of_roots(
-            || [a, b].map(|surface| self.root(segment, surface)),
-            || [a, b].map(|surface| self.root(segment, surface)),
-        );
+        let order = if self.are_met_together(segment, a, b) {
+            Ordering::Equal
+        } else {
+            order_of_roots(
+                || [a, b].map(|surface| self.root(segment, surface)),
+                || [a, b].map(|surface| self.root(segment, surface)),
+            )
+        };
         comes_first(order, a, b)
+    }
+
+    /// Whether two triangles of meshes, both met, are seen to be met at one point.
+    fn are_met_together(&self, segment: &RaySegment<'_>, a: SurfaceId, b: SurfaceId) -> bool {
+        let is_mesh = |of: SurfaceId| {
+            let prim = &self.prims[of.prim as usize];
+            prim.mesh.is_some() && prim.member.is_none()
+        };
+        if !is_mesh(a) || !is_mesh(b) {
+            return false;
+        }
+        let [first, second] = [a, b].map(|of| self.shape(segment, of.prim));
+        let (Some(first), Some(second)) = (first.as_mesh(), second.as_mesh()) else { return false };
+        first.meets_together(a.facet, (second, b.facet), &first.own_ray(segment.ray))
     }
 
     fn root<N: Number>(&self, segment: &RaySegment<'_>, surface: SurfaceId) -> Verdict<Option<Root<N>>> {
@@ -178,6 +199,32 @@ impl Snapshot {
             return self.cross(prim, &RaySegment::new(ray, span, leaving));
         };
         hit_on(prim, shape.cross_part(facet, ray, span, leaving_facet(prim, leaving)))
+    }
+
+    /// The first of the meshes of the same triangles that stand where a shape does; the shape itself where it stands alone. Only
+    /// the first is met.
+    pub(crate) fn first_in_place(&self, prim: u32) -> u32 {
+        let doubles = &self.index.doubles;
+        doubles.binary_search_by_key(&prim, |[double, _]| *double).map_or(prim, |at| doubles[at][1])
+    }
+
+    /// Whether anything lies in the place of something else.
+    pub(crate) fn has_doubles(&self) -> bool {
+        let repeats = |tree: &Arc<MeshTree>| tree.mesh().firsts_in_place().is_some();
+        !self.index.doubles.is_empty() || self.index.meshes.iter().any(repeats)
+    }
+
+    /// What a ray leaves that leaves a surface: the one that is met there.
+    fn left_by(&self, leaving: Option<SurfaceId>) -> Option<SurfaceId> {
+        leaving.map(|surface| self.surface_in_place(surface))
+    }
+
+    /// The surface that is met where a surface lies.
+    pub(crate) fn surface_in_place(&self, SurfaceId { prim, facet }: SurfaceId) -> SurfaceId {
+        let mesh = self.prims.get(prim as usize).and_then(|prim| prim.shape.as_mesh());
+        let firsts = mesh.and_then(|mesh| mesh.triangles().firsts_in_place());
+        let facet = firsts.and_then(|firsts| firsts.get(facet as usize)).copied().unwrap_or(facet);
+        SurfaceId { prim: self.first_in_place(prim), facet }
     }
 
     /// The mesh that a shape is, if it is one.
