@@ -18,6 +18,7 @@ mod egui_paint;
 mod egui_textures;
 mod events;
 mod exposure;
+mod fit;
 mod fly;
 mod frame_worker;
 mod framing;

@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 use catoptra_tracer::Size;
 
 use crate::app::App;
-use crate::canvas::{Fit, Pixels, Region};
+use crate::canvas::{Pixels, Region};
+use crate::fit::Fit;
 use crate::pass::PASSES;
 use crate::refine::Step;
 use crate::screen::{Fitted, Screen};
