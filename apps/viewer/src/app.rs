@@ -58,8 +58,8 @@ pub(crate) struct App {
     pub(crate) options: Options,
     pub(crate) viewer: Viewer,
     pub(crate) pool: Arc<Pool>,
-    /// A thread that only encodes frames, so that the window never waits for what the pool is busy with.
-    pub(crate) encoder: Pool,
+    /// Threads that only draw and lay out what the window shows, so that it never waits for what the pool is busy with.
+    pub(crate) window_pool: Pool,
     pub(crate) worker: FrameWorker<PoolTracing>,
     /// Traces the picture of a material.
     balls: FrameWorker<BallTracing>,
@@ -102,7 +102,7 @@ impl App {
         options: Options,
         opened: Opened,
         pool: Arc<Pool>,
-        (encoder, balls): (Pool, BallTracing),
+        (window_pool, balls): (Pool, BallTracing),
         proxy: EventLoopProxy<Wake>,
     ) -> Self {
         let wake = proxy.clone();
@@ -126,7 +126,7 @@ impl App {
         let mut app = Self {
             viewer: Viewer::new(opened),
             pool,
-            encoder,
+            window_pool,
             worker,
             balls,
             screen: None,

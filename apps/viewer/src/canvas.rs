@@ -1,5 +1,10 @@
 //! What is in the window below egui? The traced picture, scaled to its place, and the overlays over it: a frame of
-//! 0x00RRGGBB pixels that is kept, so that showing egui again costs a copy and no drawing.
+//! 0x00RRGGBB pixels that is kept, so that showing egui again costs a copy and no drawing. Rows are shared out among threads.
+
+use catoptra_tracer::Pool;
+use rayon::prelude::*;
+
+use crate::fit::{Fit, Tap};
 
 /// What surrounds the picture while there is none.
 pub(crate) const BACKDROP: u32 = 0x0014_161a;
@@ -76,82 +81,18 @@ pub(crate) struct Pixels {
     pub(crate) data: Vec<u32>,
 }
 
-/// How the pixels of a traced film lie under those of the picture: both have the same middle and the same upper and
-/// lower edge, as a camera sees them.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Fit {
-    film: (u32, u32),
-    picture: (u32, u32),
-}
-
-impl Fit {
-    /// Of a film and a picture with these sizes.
-    pub(crate) fn new(film: (u32, u32), picture: (u32, u32)) -> Self {
-        Self { film, picture }
-    }
-
-    /// Pixels of the picture to a pixel of the film, along each axis.
-    pub(crate) fn scale(self) -> f64 {
-        f64::from(self.picture.1) / f64::from(self.film.1.max(1))
-    }
-
-    /// Where the corner (x, y) of a film's pixel lies in the picture.
-    pub(crate) fn corner(self, x: u32, y: u32) -> (f64, f64) {
-        let across = (f64::from(x) - 0.5 * f64::from(self.film.0)) * self.scale();
-        (across + 0.5 * f64::from(self.picture.0), f64::from(y) * self.scale())
-    }
-
-    /// The film's pixel under a point of the picture, if there is one.
-    pub(crate) fn pixel(self, (x, y): (f64, f64)) -> Option<(u32, u32)> {
-        let across = (x - 0.5 * f64::from(self.picture.0)) / self.scale() + 0.5 * f64::from(self.film.0);
-        let down = y / self.scale();
-        let within = |at: f64, count: u32| (at >= 0.0 && at < f64::from(count)).then_some(at as u32);
-        Some((within(across, self.film.0)?, within(down, self.film.1)?))
-    }
-
-    /// For the middle of each column of the picture the film's column before it and the share of the next, of 256.
-    fn columns(self) -> Vec<Tap> {
-        let (film, picture) = (f64::from(self.film.0), f64::from(self.picture.0));
-        let at = |x: u32| (f64::from(x) + 0.5 - 0.5 * picture) / self.scale() + 0.5 * film;
-        (0..self.picture.0).map(|x| Tap::new(at(x), self.film.0)).collect()
-    }
-
-    /// The same for rows.
-    fn rows(self) -> impl Iterator<Item = Tap> {
-        (0..self.picture.1).map(move |y| Tap::new((f64::from(y) + 0.5) / self.scale(), self.film.1))
-    }
-}
-
-/// Two neighbouring pixels, and how much the second counts, of 256.
-#[derive(Debug, Clone, Copy)]
-struct Tap {
-    first: usize,
-    second: usize,
-    share: u32,
-}
-
-impl Tap {
-    /// The pixels whose middles lie about `at`, held within 0..`count`.
-    fn new(at: f64, count: u32) -> Self {
-        let last = f64::from(count.saturating_sub(1));
-        let before = (at - 0.5).clamp(0.0, last);
-        let first = before.floor();
-        let share = ((before - first) * 256.0) as u32;
-        Self { first: first as usize, second: (first + 1.0).min(last) as usize, share }
-    }
-}
-
 /// The picture with all that is drawn over it, below egui.
 #[derive(Debug, Default)]
 pub(crate) struct Canvas {
     picture: Pixels,
-    /// A row of the film between two of its rows.
-    row: Vec<u32>,
 }
+
+/// Rows that a thread takes at a time.
+const BAND: usize = 16;
 
 impl Canvas {
     /// Lays a traced picture out to a size in pixels, smoothly where it is coarser. Without one there is backdrop.
-    pub(crate) fn lay(&mut self, traced: &Pixels, (width, height): (u32, u32)) {
+    pub(crate) fn lay(&mut self, traced: &Pixels, (width, height): (u32, u32), pool: &Pool) {
         self.picture.width = width;
         self.picture.height = height;
         resize(&mut self.picture.data, width as usize * height as usize, BACKDROP);
@@ -160,23 +101,28 @@ impl Canvas {
         } else if (traced.width, traced.height) == (width, height) {
             self.picture.data.copy_from_slice(&traced.data);
         } else {
-            self.stretch(traced, Fit::new((traced.width, traced.height), (width, height)));
+            self.stretch(traced, Fit::new((traced.width, traced.height), (width, height)), pool);
         }
     }
 
-    fn stretch(&mut self, traced: &Pixels, fit: Fit) {
-        let columns = fit.columns();
-        let wide = traced.width as usize;
-        let rows = self.picture.data.chunks_exact_mut(self.picture.width as usize);
-        for (row, tap) in rows.zip(fit.rows()) {
-            let upper = &traced.data[tap.first * wide..][..wide];
-            let lower = &traced.data[tap.second * wide..][..wide];
-            self.row.clear();
-            self.row.extend(upper.iter().zip(lower).map(|(a, b)| mixed(*a, *b, tap.share)));
-            for (pixel, tap) in row.iter_mut().zip(&columns) {
-                *pixel = mixed(self.row[tap.first], self.row[tap.second], tap.share);
+    fn stretch(&mut self, traced: &Pixels, fit: Fit, pool: &Pool) {
+        let (columns, rows) = (fit.columns(), fit.rows());
+        let (wide, width) = (traced.width as usize, self.picture.width as usize);
+        let stretch_band = |(band, taps): (&mut [u32], &[Tap])| {
+            // A row of the film between two of its rows.
+            let mut between = Vec::with_capacity(wide);
+            for (row, tap) in band.chunks_exact_mut(width).zip(taps) {
+                let upper = &traced.data[tap.first * wide..][..wide];
+                let lower = &traced.data[tap.second * wide..][..wide];
+                between.clear();
+                between.extend(upper.iter().zip(lower).map(|(a, b)| mixed(*a, *b, tap.share)));
+                for (pixel, tap) in row.iter_mut().zip(&columns) {
+                    *pixel = mixed(between[tap.first], between[tap.second], tap.share);
+                }
             }
-        }
+        };
+        let picture = &mut self.picture.data;
+        pool.run(|| picture.par_chunks_mut(BAND * width).zip(rows.par_chunks(BAND)).for_each(stretch_band));
     }
 
     /// The picture's pixels, to draw over.
@@ -190,11 +136,11 @@ impl Canvas {
     }
 
     /// Fills a frame `width` pixels wide: the picture in the top left corner, backdrop round it.
-    pub(crate) fn copy_to(&self, frame: &mut [u32], width: u32) {
-        let covered = self.picture.width.min(width) as usize;
-        let mut rows = self.picture.data.chunks_exact((self.picture.width as usize).max(1));
-        for row in frame.chunks_exact_mut((width as usize).max(1)) {
-            let from = if covered > 0 { rows.next() } else { None };
+    pub(crate) fn copy_to(&self, frame: &mut [u32], width: u32, pool: &Pool) {
+        let (wide, frame_wide) = (self.picture.width as usize, (width as usize).max(1));
+        let covered = wide.min(frame_wide);
+        let copy_row = |(y, row): (usize, &mut [u32])| {
+            let from = if covered > 0 { self.picture.data.get(y * wide..(y + 1) * wide) } else { None };
             let covered = if let Some(from) = from {
                 row[..covered].copy_from_slice(&from[..covered]);
                 covered
@@ -202,7 +148,10 @@ impl Canvas {
                 0
             };
             row[covered..].fill(BACKDROP);
-        }
+        };
+        pool.run(|| {
+            frame.par_chunks_exact_mut(frame_wide).enumerate().with_min_len(BAND).for_each(copy_row);
+        });
     }
 }
 
@@ -220,6 +169,10 @@ fn mixed(a: u32, b: u32, share: u32) -> u32 {
 mod tests {
     use super::*;
 
+    fn pool() -> Pool {
+        Pool::new(2).unwrap()
+    }
+
     fn traced() -> Pixels {
         Pixels { width: 2, height: 2, data: vec![1, 2, 3, 4] }
     }
@@ -227,16 +180,30 @@ mod tests {
     #[test]
     fn a_picture_of_its_size_is_copied() {
         let mut canvas = Canvas::default();
-        canvas.lay(&traced(), (2, 2));
+        canvas.lay(&traced(), (2, 2), &pool());
         assert_eq!(canvas.picture_mut(), &traced());
     }
 
     #[test]
     fn a_coarse_picture_is_laid_out_smoothly() {
         let mut canvas = Canvas::default();
-        canvas.lay(&Pixels { width: 2, height: 1, data: vec![0x0000_0000, 0x0040_8020] }, (4, 2));
+        canvas.lay(&Pixels { width: 2, height: 1, data: vec![0x0000_0000, 0x0040_8020] }, (4, 2), &pool());
         let row = [0x0000_0000, 0x0010_2008, 0x0030_6018, 0x0040_8020];
         assert_eq!(canvas.picture_mut().data, [row, row].concat());
+    }
+
+    #[test]
+    fn every_row_is_stretched_from_its_own() {
+        let mut canvas = Canvas::default();
+        let rows = Pixels { width: 1, height: 50, data: (0..50).collect() };
+        canvas.lay(&rows, (3, 150), &pool());
+        // The middle of three rows has the middle of that of the film.
+        let middles: Vec<u32> = canvas.picture_mut().data.chunks(9).map(|rows| rows[4]).collect();
+        assert_eq!(middles, rows.data);
+        let mut frame = vec![7; 4 * 160];
+        canvas.copy_to(&mut frame, 4, &pool());
+        let copied: Vec<u32> = frame.chunks(12).take(50).map(|rows| rows[5]).collect();
+        assert_eq!((copied, &frame[600..]), (rows.data, &[BACKDROP; 40][..]));
     }
 
     #[test]
@@ -248,50 +215,39 @@ mod tests {
     }
 
     #[test]
-    fn film_and_picture_share_their_middle_and_their_edges() {
-        let fit = Fit::new((101, 88), (805, 701));
-        assert_eq!(fit.corner(0, 0).1, 0.0);
-        assert!((fit.corner(0, 88).1 - 701.0).abs() < 1e-9);
-        assert!((fit.corner(50, 0).0 + fit.corner(51, 0).0 - 805.0).abs() < 1e-9);
-        let (x, y) = fit.corner(17, 40);
-        assert_eq!(fit.pixel((x + 1.0, y + 1.0)), Some((17, 40)));
-        assert_eq!([fit.pixel((4.0, 701.5)), fit.pixel((-9.0, 4.0))], [None; 2]);
-    }
-
-    #[test]
     fn without_a_picture_there_is_backdrop() {
         let mut canvas = Canvas::default();
-        canvas.lay(&traced(), (2, 2));
-        canvas.lay(&Pixels::default(), (2, 1));
+        canvas.lay(&traced(), (2, 2), &pool());
+        canvas.lay(&Pixels::default(), (2, 1), &pool());
         assert_eq!(canvas.picture_mut().data, [BACKDROP; 2]);
     }
 
     #[test]
     fn a_smaller_picture_gives_memory_back() {
         let mut canvas = Canvas::default();
-        canvas.lay(&traced(), (700, 500));
-        canvas.lay(&traced(), (128, 72));
+        canvas.lay(&traced(), (700, 500), &pool());
+        canvas.lay(&traced(), (128, 72), &pool());
         assert!(canvas.picture.data.capacity() <= 2 * 128 * 72);
     }
 
     #[test]
     fn an_empty_place_takes_anything() {
         let mut canvas = Canvas::default();
-        canvas.lay(&traced(), (0, 2));
+        canvas.lay(&traced(), (0, 2), &pool());
         let mut frame = [7; 2];
-        canvas.copy_to(&mut frame, 2);
+        canvas.copy_to(&mut frame, 2, &pool());
         assert_eq!(frame, [BACKDROP; 2]);
     }
 
     #[test]
     fn a_frame_holds_the_picture_and_backdrop_round_it() {
         let mut canvas = Canvas::default();
-        canvas.lay(&traced(), (2, 2));
+        canvas.lay(&traced(), (2, 2), &pool());
         let mut frame = [7; 9];
-        canvas.copy_to(&mut frame, 3);
+        canvas.copy_to(&mut frame, 3, &pool());
         let b = BACKDROP;
         assert_eq!(frame, [1, 2, b, 3, 4, b, b, b, b]);
-        canvas.copy_to(&mut frame[..3], 1);
+        canvas.copy_to(&mut frame[..3], 1, &pool());
         assert_eq!(frame[..3], [1, 3, b]);
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use catoptra_core::Image;
 use catoptra_core::texture::Encoding;
-use catoptra_tracer::Tone;
+use catoptra_tracer::{Pool, Tone};
 
 use crate::canvas::{Canvas, Pixels};
 
@@ -103,7 +103,12 @@ impl Comparison {
     }
 
     /// Measures a picture that is traced in full, and lays the other one over its part right of the line.
-    pub(crate) fn lay_over(&mut self, traced: Option<&Pixels>, picture: &mut Pixels, tone: Tone) {
+    pub(crate) fn lay_over(
+        &mut self,
+        traced: Option<&Pixels>,
+        picture: &mut Pixels,
+        (tone, pool): (Tone, &Pool),
+    ) {
         let Some(reference) = &mut self.reference else { return };
         let size = (picture.width, picture.height);
         if reference.shown.0 != tone {
@@ -112,7 +117,7 @@ impl Comparison {
         }
         self.difference = traced.and_then(|traced| Difference::of(&reference.shown.1, traced));
         if reference.laid.size() != size {
-            reference.laid.lay(&reference.shown.1, size);
+            reference.laid.lay(&reference.shown.1, size, pool);
         }
         let width = size.0 as usize;
         let line = ((self.line * f64::from(size.0)) as usize).min(width);
@@ -179,7 +184,7 @@ mod tests {
             Pixels { width: 4, height: 1, data: vec![0x000a_141e, 0x000a_141e, 0x000a_141e, 0x000d_141e] };
         let mut picture = traced.clone();
         comparison.line = 0.25;
-        comparison.lay_over(Some(&traced), &mut picture, Tone::default());
+        comparison.lay_over(Some(&traced), &mut picture, (Tone::default(), &Pool::new(1).unwrap()));
         assert_eq!(picture.data, [0x000a_141e, LINE, 0x000a_141e, 0x000a_141e]);
         let found = comparison.difference.unwrap();
         assert_eq!(found.pixels, 0.25);
@@ -192,7 +197,7 @@ mod tests {
         let traced = Pixels { width: 8, height: 2, data: vec![0; 16] };
         let mut picture = traced.clone();
         comparison.line = 0.0;
-        comparison.lay_over(Some(&traced), &mut picture, Tone::default());
+        comparison.lay_over(Some(&traced), &mut picture, (Tone::default(), &Pool::new(1).unwrap()));
         assert_eq!((comparison.difference, picture.data[9]), (None, 0x00ff_0000));
         comparison.end();
         assert_eq!(comparison.file(), None);

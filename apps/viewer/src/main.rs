@@ -21,6 +21,7 @@ mod egui_paint;
 mod egui_textures;
 mod events;
 mod exposure;
+mod fit;
 mod fly;
 mod frame_worker;
 mod framing;
@@ -110,7 +111,7 @@ fn run(options: Options) -> Result<ExitCode, String> {
         .build()
         .map_err(|why| format!("{NO_DISPLAY}\n({})", reason(&why.to_string())))?;
     let pool = Arc::new(Pool::new(options.threads.map_or(0, usize::from)).map_err(|e| e.to_string())?);
-    let encoder = Pool::new(1).map_err(|e| e.to_string())?;
+    let window_pool = Pool::new(pool.threads()).map_err(|e| e.to_string())?;
     let balls = ball::BallTracing::new(Pool::new(1).map_err(|e| e.to_string())?)?;
     let opened = loader::welcome(&pool)?;
     let proxy = events.create_proxy();
@@ -119,7 +120,7 @@ fn run(options: Options) -> Result<ExitCode, String> {
         let _ = proxy.send_event(Wake::Ended);
     });
     told.map_err(|why| format!("the viewer cannot hear when it is to end: {why}"))?;
-    let mut app = App::new(options, opened, pool, (encoder, balls), events.create_proxy());
+    let mut app = App::new(options, opened, pool, (window_pool, balls), events.create_proxy());
     events.run_app(&mut app).map_err(|e| e.to_string())?;
     let code = if app.ended { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS };
     app.failure.map_or(Ok(code), Err)

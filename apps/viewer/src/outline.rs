@@ -3,7 +3,8 @@
 use catoptra_core::scene::EntityId;
 use catoptra_tracer::{Film, Size};
 
-use crate::canvas::{Fit, Pixels};
+use crate::canvas::Pixels;
+use crate::fit::Fit;
 
 /// The colour of the outline, 0x00RRGGBB.
 const COLOR: u32 = 0x00ff_b02e;

@@ -28,15 +28,9 @@ pub(crate) struct Overlays {
 }
 
 impl Overlays {
-    /// Lays the overlay over a picture of the overlay's size. What `film`, traced for the request of that number, tells to be
+    /// Draws the overlay if it does not look as it did. What `film`, traced for the request of that number, tells to be
     /// nearer hides what lies behind; without one nothing is hidden.
-    pub(crate) fn lay_over(
-        &mut self,
-        picture: &mut [u32],
-        overlay: Overlay<'_>,
-        film: Option<&Film>,
-        generation: u64,
-    ) {
+    pub(crate) fn follow(&mut self, overlay: Overlay<'_>, film: Option<&Film>, generation: u64) {
         let look = Look {
             revision: overlay.scene.revision(),
             generation,
@@ -50,6 +44,10 @@ impl Overlays {
             self.draw(overlay, film);
             self.drawn = Some(look);
         }
+    }
+
+    /// Lays what was drawn last over a picture of its size.
+    pub(crate) fn lay_over(&self, picture: &mut [u32]) {
         self.layer.blend_over(picture);
     }
 
@@ -78,7 +76,8 @@ mod tests {
         let mut laid = |viewer: &Viewer, generation: u64| {
             let seen = |overlays: &mut Overlays| {
                 let mut picture = vec![0; 160 * 90];
-                overlays.lay_over(&mut picture, viewer.overlay(&viewer.camera), None, generation);
+                overlays.follow(viewer.overlay(&viewer.camera), None, generation);
+                overlays.lay_over(&mut picture);
                 picture
             };
             let picture = seen(&mut kept);

@@ -234,3 +234,35 @@ impl Tracer<'_> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_scene_asks_for_comes_first() {
+        let settings = |text: &str| {
+            let (scene, _) =
+                catoptra_scene::parse(&format!("settings {{ {text} }}\n"), "text", None).unwrap();
+            scene.settings().clone()
+        };
+        let of = |text, integrator| Goal::of(&settings(text), integrator, 0.5);
+        assert_eq!(of("samples 4", Integrator::Whitted), Goal { max_error: 0.5, most: 64 });
+        assert_eq!(
+            of("samples 4096; max-error 0.25", Integrator::Path),
+            Goal { max_error: 0.25, most: 4096 }
+        );
+    }
+
+    #[test]
+    fn tiles_cover_a_picture_once_and_settle_alone() {
+        let mut parts = Parts::new(Size::new(40, 17), Quality::Full);
+        assert_eq!((parts.across, parts.parts.len()), (3, 6));
+        assert_eq!(parts.parts.iter().map(Part::pixels).sum::<u64>(), 40 * 17);
+        parts.parts[1].settled = true;
+        let Refined { settled, pixels, .. } = parts.refined(0);
+        assert_eq!((settled, pixels), (256, 680));
+        let draft = Parts::new(Size::new(40, 17), Quality::Draft);
+        assert_eq!((draft.refined(0).quality, parts.refined(0).quality), (Quality::Draft, Quality::Full));
+    }
+}

@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 use catoptra_tracer::Size;
 
 use crate::app::App;
-use crate::canvas::{Fit, Pixels, Region};
+use crate::canvas::{Pixels, Region};
+use crate::fit::Fit;
 use crate::pass::PASSES;
 use crate::refine::Step;
 use crate::screen::{Fitted, Screen};
@@ -55,7 +56,7 @@ impl App {
             // The scene was saved, or edited, or is another.
             self.watch_files();
         }
-        screen.present(changed)
+        screen.present(changed, &self.window_pool)
     }
 
     /// Whether egui asked for this moment, or the status line is out of date.
@@ -155,18 +156,30 @@ impl App {
         self.viewer.stale.overlay = false;
         let size = self.viewer.size;
         let Some(shown) = &mut self.shown else {
-            screen.canvas.lay(&Pixels::default(), size);
+            screen.canvas.lay(&Pixels::default(), size, &self.window_pool);
             return;
         };
         if shown.frame.tone != self.viewer.tone() {
-            shown.frame.encode(self.viewer.tone(), &self.encoder);
+            shown.frame.encode(self.viewer.tone(), &self.window_pool);
         }
         let frame = &shown.frame;
-        screen.canvas.lay(&frame.pixels, size);
+        let (viewer, overlays, pool) = (&self.viewer, &mut self.overlays, &self.window_pool);
+        let film = Some(&*frame.film).filter(|_| frame.size == size);
+        let shows_overlays = is_any_shown(viewer);
+        pool.run(|| {
+            rayon::join(
+                || screen.canvas.lay(&frame.pixels, size, pool),
+                || {
+                    if shows_overlays {
+                        overlays.follow(viewer.overlay(&frame.camera), film, shown.generation);
+                    }
+                },
+            )
+        });
         let picture = screen.canvas.picture_mut();
         let in_full = (shown.step == Step::FULL).then_some(&frame.pixels);
         let tone = self.viewer.tone();
-        self.viewer.comparison.lay_over(in_full, picture, tone);
+        self.viewer.comparison.lay_over(in_full, picture, (tone, &self.window_pool));
         let marks = self.viewer.settings.marks_clipped && frame.pass.paint.is_none();
         let clipped = marks.then(|| clipped::mark(picture));
         self.viewer.stale.panel |=
@@ -178,10 +191,8 @@ impl App {
             let width = self.viewer.settings.style.scale.round().max(1.0) as u32 * 2;
             outline::draw(&frame.film, width, |s| selection.covers(scene, s), picture);
         }
-        let overlay = self.viewer.overlay(&frame.camera);
-        if is_any_shown(&self.viewer) {
-            let film = Some(&*frame.film).filter(|_| frame.size == size);
-            self.overlays.lay_over(&mut picture.data, overlay, film, shown.generation);
+        if shows_overlays {
+            self.overlays.lay_over(&mut picture.data);
         }
     }
 

@@ -4,6 +4,7 @@ use std::num::NonZeroU32;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
+use catoptra_tracer::Pool;
 use egui::{Context, FullOutput, ViewportId};
 use softbuffer::{Rect, Surface};
 use winit::dpi::{LogicalSize, PhysicalSize};
@@ -134,13 +135,13 @@ impl Screen {
     ///
     /// # Errors
     /// When the surface cannot be drawn on.
-    pub(crate) fn present(&mut self, changed: Region) -> Result<(), String> {
+    pub(crate) fn present(&mut self, changed: Region, pool: &Pool) -> Result<(), String> {
         let (width, height) = changed.size();
         let (Some(width), Some(height)) = (NonZeroU32::new(width), NonZeroU32::new(height)) else {
             return Ok(());
         };
         let mut buffer = self.surface.buffer_mut().map_err(|e| e.to_string())?;
-        self.canvas.copy_to(&mut buffer, self.size.0);
+        self.canvas.copy_to(&mut buffer, self.size.0, pool);
         self.layer.blend_over(&mut buffer, self.size);
         self.window.pre_present_notify();
         let rect = Rect { x: changed.left, y: changed.top, width, height };

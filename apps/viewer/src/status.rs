@@ -99,7 +99,7 @@ impl Meter {
         match (last, self.ends.front(), self.ends.back()) {
             (Some((true, _)), ..) => "at rest".to_owned(),
             (Some((false, Some(refined))), ..) => {
-                format!("refining, {} % settled, {} samples", refined.percent(), refined.samples)
+                format!("refining, {} % settled, sample {}", refined.percent(), refined.samples)
             }
             (_, Some(first), Some(last)) if now.duration_since(*last) < REST && last > first => {
                 let seconds = last.duration_since(*first).as_secs_f64();
@@ -172,7 +172,7 @@ mod tests {
         for (frame, told) in [
             (FRAME, "refining"),
             (full, "refining"),
-            (FrameFigures { refined: refined(999), ..full }, "refining, 99 % settled, 16 samples"),
+            (FrameFigures { refined: refined(999), ..full }, "refining, 99 % settled, sample 16"),
             (FrameFigures { refined: refined(1000), is_last: true, ..full }, "at rest"),
         ] {
             meter.record(frame, start);
