@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use catoptra_core::light::{AmbientLight, DirectionalLight};
 use catoptra_core::scene::{Edit, EntityId, MaterialId, Role, Scene, SceneError};
-use catoptra_core::{Camera, Field, FieldKind, Rgb, Value, Values};
+use catoptra_core::{Camera, Field, FieldKind, Light, Rgb, Value, Values};
 
 /// What the headlight sends onto what faces it, W/m²: white surfaces are shown a little below white.
 const HEADLIGHT: f64 = 0.9 * PI;
@@ -176,7 +176,16 @@ fn darkened(scene: &Scene, is_dark: impl Fn(EntityId) -> bool) -> Result<Scene, 
 /// # Errors
 /// What a scene refuses.
 pub(crate) fn with_one_light(scene: &Scene, light: EntityId) -> Result<Scene, SceneError> {
-    darkened(scene, |id| id != light)
+    let mut lit = darkened(scene, |id| id != light)?;
+    for id in scene.entities().filter(|id| *id != light) {
+        // A light that is no body and is not seen can as well be gone: then nobody asks about it.
+        let is_nowhere =
+            |part: Light| part.lamp().is_none() && (part.position().is_some() || part.direction().is_some());
+        if lit.light(id).is_some_and(is_nowhere) {
+            lit.apply(Edit::Remove(id))?;
+        }
+    }
+    Ok(lit)
 }
 
 fn with_headlight(scene: &Scene, camera: &Camera) -> Result<Scene, SceneError> {
