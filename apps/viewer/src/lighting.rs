@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use catoptra_core::light::{AmbientLight, DirectionalLight};
 use catoptra_core::scene::{Edit, EntityId, MaterialId, Role, Scene, SceneError};
-use catoptra_core::{Camera, Field, FieldKind, Light, Rgb, Value, Values};
+use catoptra_core::{Camera, Field, FieldKind, Rgb, Value, Values};
 
 /// What the headlight sends onto what faces it, W/m²: white surfaces are shown a little below white.
 const HEADLIGHT: f64 = 0.9 * PI;
@@ -149,7 +149,10 @@ fn without_light(fields: &[Field], values: &Values) -> Values {
 }
 
 /// The scene with the lights dark that `is_dark` says yes to.
-fn darkened(scene: &Scene, is_dark: impl Fn(EntityId) -> bool) -> Result<Scene, SceneError> {
+///
+/// # Errors
+/// What a scene refuses.
+pub(crate) fn darkened(scene: &Scene, is_dark: impl Fn(EntityId) -> bool) -> Result<Scene, SceneError> {
     let mut lit = scene.clone();
     for id in scene.entities().filter(|id| is_dark(*id)) {
         if let Some(light) = scene.light(id) {
@@ -166,23 +169,6 @@ fn darkened(scene: &Scene, is_dark: impl Fn(EntityId) -> bool) -> Result<Scene, 
             let name = lit.free_material_name(scene.material_name(material));
             let dark = lit.add_material(&name, dark)?;
             lit.apply(Edit::MaterialOf(id, dark))?;
-        }
-    }
-    Ok(lit)
-}
-
-/// The scene with one of its lights alone.
-///
-/// # Errors
-/// What a scene refuses.
-pub(crate) fn with_one_light(scene: &Scene, light: EntityId) -> Result<Scene, SceneError> {
-    let mut lit = darkened(scene, |id| id != light)?;
-    for id in scene.entities().filter(|id| *id != light) {
-        // A light that is no body and is not seen can as well be gone: then nobody asks about it.
-        let is_nowhere =
-            |part: Light| part.lamp().is_none() && (part.position().is_some() || part.direction().is_some());
-        if lit.light(id).is_some_and(is_nowhere) {
-            lit.apply(Edit::Remove(id))?;
         }
     }
     Ok(lit)

@@ -14,6 +14,7 @@ mod programs;
 mod seeing;
 mod selecting;
 mod stage;
+mod tree;
 mod writing;
 
 use std::time::{Duration, Instant};
