@@ -47,6 +47,11 @@ pub(crate) enum Wake {
     Made(pictures::Outcome),
     /// Files of the scene were changed.
     Changed(Vec<PathBuf>),
+    /// The desktop's own dialog has answered with a file, or with none.
+    Chosen(Option<PathBuf>),
+    /// A screen reader asks for something.
+    #[cfg(feature = "screen-reader")]
+    ScreenReader(egui_winit::accesskit_winit::WindowEvent),
     /// Unsaved edits could not be kept.
     NotKept(String),
     /// The viewer is told to end.
@@ -205,7 +210,12 @@ impl ApplicationHandler<Wake> for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.screen.is_none() {
             match Screen::open(event_loop, self.options.size) {
-                Ok(screen) => self.screen = Some(screen),
+                Ok(screen) => {
+                    let screen = self.screen.insert(screen);
+                    #[cfg(feature = "screen-reader")]
+                    crate::screen_reader::connect(screen, event_loop, self.proxy.clone());
+                    screen.window.request_redraw();
+                }
                 Err(why) => self.fail(event_loop, why),
             }
         }
@@ -225,6 +235,9 @@ impl ApplicationHandler<Wake> for App {
             Wake::Ball => self.take_ball(),
             Wake::Made(outcome) => self.viewer.picture_made(outcome),
             Wake::Changed(files) => self.files_changed(&files),
+            #[cfg(feature = "screen-reader")]
+            Wake::ScreenReader(event) => self.screen_reader_asks(event),
+            Wake::Chosen(path) => self.viewer.chosen_outside(path),
             Wake::NotKept(why) => {
                 self.viewer.failure = Some(format!("unsaved edits cannot be kept: {why}"));
                 self.viewer.stale.panel = true;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::guard::Next;
-use crate::pictures::{Format, Spec};
+use crate::pictures::Spec;
 
 /// What a file is wanted for.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,6 +19,27 @@ pub(crate) enum Purpose {
 }
 
 impl Purpose {
+    /// What a person is asked for.
+    pub(crate) fn title(&self) -> &'static str {
+        match self {
+            Self::Open => "Open a scene or a model",
+            Self::Save(_) => "Save the scene as",
+            Self::Model => "Put a model into the scene",
+            Self::Picture(_) => "Write the picture",
+        }
+    }
+
+    /// How the names of files end that fit.
+    pub(crate) fn endings(&self) -> Vec<&'static str> {
+        let models = catoptra_scene::model::endings();
+        match self {
+            Self::Open => std::iter::once("kdl").chain(models).collect(),
+            Self::Save(_) => vec!["kdl"],
+            Self::Model => models.collect(),
+            Self::Picture(_) => vec!["png", "exr"],
+        }
+    }
+
     /// The ending that a name gets which has none, where the file is to be written.
     fn ending(&self) -> Option<&'static str> {
         match self {
@@ -48,13 +69,17 @@ pub(crate) struct Browser {
     pub(crate) problem: Option<String>,
     /// A file that is there already, to be replaced if that is chosen again.
     pub(crate) replaces: Option<PathBuf>,
+    /// The desktop's own dialog stands over this one.
+    pub(crate) waits: bool,
 }
 
 impl Browser {
     /// In that folder, with a name to begin with.
     pub(crate) fn new(purpose: Purpose, folder: &Path, typed: String) -> Self {
         let (entries, problem, replaces) = (Vec::new(), None, None);
-        let mut browser = Self { purpose, folder: PathBuf::new(), typed, entries, problem, replaces };
+        let folder_there = PathBuf::new();
+        let mut browser =
+            Self { purpose, folder: folder_there, typed, entries, problem, replaces, waits: false };
         browser.go(folder);
         browser
     }
@@ -79,6 +104,13 @@ impl Browser {
         if let Some(outer) = self.folder.parent().map(Path::to_owned) {
             self.go(&outer);
         }
+    }
+
+    /// Chooses what the desktop's dialog has answered, which has asked already whether a file is to be replaced.
+    pub(crate) fn choose_whole(&mut self, path: PathBuf) -> Option<PathBuf> {
+        self.typed = path.to_string_lossy().into_owned();
+        self.replaces = Some(path);
+        self.choose()
     }
 
     /// Chooses what was typed: a folder is gone to, a file is answered with. A file that would be replaced must be chosen
@@ -133,15 +165,8 @@ fn entries(folder: &Path, purpose: &Purpose) -> std::io::Result<Vec<Entry>> {
 }
 
 fn fits(name: &str, purpose: &Purpose) -> bool {
-    let path = Path::new(name);
-    let is_scene = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("kdl"));
-    let is_model = catoptra_scene::model::is_named_so(path);
-    match purpose {
-        Purpose::Open => is_scene || is_model,
-        Purpose::Save(_) => is_scene,
-        Purpose::Model => is_model,
-        Purpose::Picture(_) => Format::of(path).is_some(),
-    }
+    let ending = Path::new(name).extension().unwrap_or_default();
+    purpose.endings().iter().any(|fitting| ending.eq_ignore_ascii_case(fitting))
 }
 
 /// `~` at the start is the person's own folder.
@@ -195,6 +220,16 @@ mod tests {
         assert_eq!(browser.choose(), Some(folder.path().join("A.kdl")));
         browser.go(Path::new("/no such folder"));
         assert!(browser.problem.is_some() && browser.folder.ends_with(folder.path().file_name().unwrap()));
+    }
+
+    #[test]
+    fn what_the_desktop_asked_about_is_not_asked_about_again() {
+        let folder = folder();
+        let mut browser = Browser::new(Purpose::Save(None), folder.path(), "new".to_owned());
+        let there = folder.path().join("A.kdl");
+        assert_eq!(browser.choose_whole(there.clone()), Some(there.clone()));
+        assert_eq!(browser.choose_whole(there.with_extension("")), None, "with an ending it is another");
+        assert!(browser.problem.is_some());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! When are edits kept that are not saved? By themselves, some seconds after the first that is not kept yet, on a thread: a
 //! window that is killed loses no more than those.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -60,7 +60,7 @@ impl Keeper {
     /// Keeps them in that folder. `failed` hears why they cannot be kept, each time that another reason keeps them from it.
     pub(crate) fn start(folder: Option<PathBuf>, failed: impl Fn(String) + Send + 'static) -> Self {
         let (jobs, todo) = channel();
-        let thread = std::thread::spawn(move || work(&todo, folder, &failed));
+        let thread = std::thread::spawn(move || work(&todo, folder.as_deref(), &failed));
         Self { jobs, thread, kept: None, due: None }
     }
 
@@ -109,7 +109,7 @@ impl Keeper {
 /// Does what comes in, the newest of what waits. Answers with what the last came to.
 fn work(
     todo: &Receiver<Job>,
-    folder: Option<PathBuf>,
+    folder: Option<&Path>,
     failed: &impl Fn(String),
 ) -> Result<Option<PathBuf>, String> {
     let mut own: Option<Own> = None;
@@ -121,7 +121,7 @@ fn work(
                 own.take().into_iter().for_each(Own::forget);
                 Ok(None)
             }
-            Job::Keep(unsaved) => keep(*unsaved, folder.as_ref(), &mut own).map(Some),
+            Job::Keep(unsaved) => keep(*unsaved, folder, &mut own).map(Some),
         };
         if let Err(why) = &last
             && before.as_ref() != Some(why)
@@ -132,7 +132,7 @@ fn work(
     last
 }
 
-fn keep(unsaved: Unsaved, folder: Option<&PathBuf>, own: &mut Option<Own>) -> Result<PathBuf, String> {
+fn keep(unsaved: Unsaved, folder: Option<&Path>, own: &mut Option<Own>) -> Result<PathBuf, String> {
     let folder = folder.ok_or("there is no folder to keep unsaved edits in")?;
     if own.is_none() {
         *own = Some(Own::claim(folder).map_err(|e| format!("{}: {e}", folder.display()))?);

@@ -2,7 +2,8 @@
 
 use std::sync::{Arc, OnceLock};
 
-use catoptra_core::scene::{EntityId, Scene};
+use catoptra_core::Light;
+use catoptra_core::scene::{Edit, EntityId, Scene, SceneError};
 use catoptra_tracer::{Extraction, Pool, Snapshot};
 
 use crate::lighting::{self, Lighting};
@@ -47,7 +48,7 @@ impl LightParts {
         let told: Vec<EntityId> =
             all.into_iter().filter(|id| are_all || selected.contains(id)).take(MOST).collect();
         let part = |id: EntityId| {
-            let lit = lighting::with_one_light(scene, id).ok()?;
+            let lit = with_one_light(scene, id).ok()?;
             let name = scene.name(id).unwrap_or_default();
             Some(LightPart { id, name, extraction: Extraction::of(&lit), snapshot: OnceLock::new() })
         };
@@ -57,6 +58,20 @@ impl LightParts {
         let alone = selected.iter().copied().filter(is_part).collect();
         Arc::new(Self { parts, are_all, alone })
     }
+}
+
+/// The scene with one of its lights alone.
+fn with_one_light(scene: &Scene, light: EntityId) -> Result<Scene, SceneError> {
+    let mut lit = lighting::darkened(scene, |id| id != light)?;
+    for id in scene.entities().filter(|id| *id != light) {
+        // A light that is no body and is not seen can as well be gone: then nobody asks about it.
+        let is_nowhere =
+            |part: Light| part.lamp().is_none() && (part.position().is_some() || part.direction().is_some());
+        if lit.light(id).is_some_and(is_nowhere) {
+            lit.apply(Edit::Remove(id))?;
+        }
+    }
+    Ok(lit)
 }
 
 #[cfg(test)]

@@ -149,7 +149,10 @@ fn without_light(fields: &[Field], values: &Values) -> Values {
 }
 
 /// The scene with the lights dark that `is_dark` says yes to.
-fn darkened(scene: &Scene, is_dark: impl Fn(EntityId) -> bool) -> Result<Scene, SceneError> {
+///
+/// # Errors
+/// What a scene refuses.
+pub(crate) fn darkened(scene: &Scene, is_dark: impl Fn(EntityId) -> bool) -> Result<Scene, SceneError> {
     let mut lit = scene.clone();
     for id in scene.entities().filter(|id| is_dark(*id)) {
         if let Some(light) = scene.light(id) {
@@ -169,14 +172,6 @@ fn darkened(scene: &Scene, is_dark: impl Fn(EntityId) -> bool) -> Result<Scene, 
         }
     }
     Ok(lit)
-}
-
-/// The scene with one of its lights alone.
-///
-/// # Errors
-/// What a scene refuses.
-pub(crate) fn with_one_light(scene: &Scene, light: EntityId) -> Result<Scene, SceneError> {
-    darkened(scene, |id| id != light)
 }
 
 fn with_headlight(scene: &Scene, camera: &Camera) -> Result<Scene, SceneError> {

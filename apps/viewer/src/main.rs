@@ -12,6 +12,7 @@ mod canvas;
 mod clipped;
 mod comparison;
 mod deeds;
+mod desktop_dialog;
 mod difference;
 mod document;
 mod draft;
@@ -54,6 +55,8 @@ mod refine;
 mod retype;
 mod saving;
 mod screen;
+#[cfg(feature = "screen-reader")]
+mod screen_reader;
 mod seeing;
 mod selection;
 mod shown;

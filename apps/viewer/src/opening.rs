@@ -10,7 +10,7 @@ use crate::guard::Next;
 use crate::keeping::{Keeper, Unsaved};
 use crate::loader::{self, Outcome};
 use crate::viewer::{Broken, Wanted};
-use crate::{dropped, making, recent, recovery};
+use crate::{desktop_dialog, dropped, making, recent, recovery};
 
 impl App {
     /// Starts to read what comes next; the scene shown stays until that is there, and goes then with the edits made so far.
@@ -140,6 +140,14 @@ impl App {
         match self.viewer.wanted.take() {
             None => {}
             Some(Wanted::Model(file)) => self.model_dropped(&file),
+            Some(Wanted::DesktopDialog) => {
+                let Some(browser) = &self.viewer.browser else { return };
+                let (proxy, name) = (self.proxy.clone(), browser.typed.clone());
+                desktop_dialog::ask(&browser.purpose, &browser.folder, name, move |path| {
+                    // The loop may have ended; then no one waits for the file.
+                    let _ = proxy.send_event(Wake::Chosen(path));
+                });
+            }
             Some(Wanted::Copy(text)) => {
                 if let Some(screen) = &mut self.screen {
                     screen.input.set_clipboard_text(text);

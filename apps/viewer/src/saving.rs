@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::browse::{Browser, Purpose};
 use crate::guard::{Answer, Due, Next, Told};
-use crate::viewer::Viewer;
+use crate::viewer::{Viewer, Wanted};
 
 impl Viewer {
     /// Closes the window or shows another scene, once the edits are saved or given up.
@@ -41,6 +41,29 @@ impl Viewer {
     pub(crate) fn browse(&mut self, purpose: Purpose, folder: &Path, name: String) {
         self.browser = Some(Browser::new(purpose, folder, name));
         self.stale.panel = true;
+    }
+
+    /// Does with a file that was chosen what it was wanted for.
+    pub(crate) fn chosen(&mut self, purpose: Purpose, path: PathBuf) {
+        self.stale.panel = true;
+        match purpose {
+            Purpose::Open => self.leave(Next::Open(path)),
+            Purpose::Save(next) => self.save_to(path, next),
+            Purpose::Model => self.wanted = Some(Wanted::Model(path)),
+            Purpose::Picture(spec) => self.want_picture(path, spec),
+        }
+    }
+
+    /// Takes in what the desktop's own dialog has answered, if that is still waited for; without an answer the one in the
+    /// window goes on.
+    pub(crate) fn chosen_outside(&mut self, path: Option<PathBuf>) {
+        self.stale.panel = true;
+        let Some(mut browser) = self.browser.take_if(|browser| browser.waits) else { return };
+        browser.waits = false;
+        match path.and_then(|path| browser.choose_whole(path)) {
+            Some(path) => self.chosen(browser.purpose, path),
+            None => self.browser = Some(browser),
+        }
     }
 
     /// Saves the scene to a file that was chosen; then comes what was to come.
@@ -107,6 +130,24 @@ mod tests {
         std::fs::create_dir(&inner).unwrap();
         viewer.save();
         assert!(viewer.failure.is_none() && viewer.document.is_saved());
+    }
+
+    #[test]
+    fn what_the_desktops_dialog_answers_counts_only_while_it_is_waited_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut viewer = Viewer::new(Opened::new(Document::empty().unwrap(), &Pool::new(1).unwrap()));
+        let file = folder.path().join("mine.kdl");
+        viewer.save_elsewhere(None);
+        viewer.chosen_outside(Some(file.clone()));
+        assert!(viewer.browser.is_some() && !file.exists(), "it was not asked");
+        viewer.browser.as_mut().unwrap().waits = true;
+        viewer.chosen_outside(None);
+        assert!(viewer.browser.as_ref().is_some_and(|browser| !browser.waits), "the other dialog goes on");
+        viewer.browser.as_mut().unwrap().waits = true;
+        viewer.chosen_outside(Some(file.clone()));
+        assert!(viewer.browser.is_none() && file.exists());
+        viewer.chosen_outside(Some(folder.path().join("late.kdl")));
+        assert!(!folder.path().join("late.kdl").exists());
     }
 
     #[test]

@@ -68,6 +68,8 @@ impl Screen {
         let attributes = named(Window::default_attributes())
             .with_title("catoptra")
             .with_window_icon(icon::icon())
+            // Screen readers must know of it first.
+            .with_visible(!cfg!(feature = "screen-reader"))
             .with_inner_size(LogicalSize::new(width, height))
             .with_min_inner_size(PhysicalSize::new(1, 1));
         let window = Rc::new(event_loop.create_window(attributes).map_err(|e| e.to_string())?);

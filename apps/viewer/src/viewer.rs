@@ -61,6 +61,8 @@ pub(crate) enum Wanted {
     Copy(String),
     /// Paste what is on the clipboard.
     Paste,
+    /// Let the desktop's own dialog ask for the file that is wanted.
+    DesktopDialog,
 }
 
 /// A file that could not be read.

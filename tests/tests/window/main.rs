@@ -15,6 +15,7 @@ mod random;
 mod seeing;
 mod selecting;
 mod stage;
+mod tree;
 mod writing;
 
 use std::time::{Duration, Instant};

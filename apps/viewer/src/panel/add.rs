@@ -2,6 +2,7 @@
 
 use egui::{Frame, Id, Key, Modal, Rect, RichText, ScrollArea, TextEdit, Ui};
 
+use super::spoken;
 use crate::making::add::{self, Adding};
 use crate::making::starters::Addable;
 use crate::viewer::Viewer;
@@ -20,6 +21,8 @@ pub(super) fn show(ui: &Ui, viewer: &mut Viewer, window: Rect) {
         ui.set_width((window.width() - 40.0).clamp(60.0, 4.2 * SECTION));
         ui.label(RichText::new("Add").strong().size(15.0));
         let field = ui.add(TextEdit::singleline(&mut adding.typed).hint_text("find").desired_width(160.0));
+        spoken::next(ui, "find something to add");
+        spoken::name(ui, &field);
         let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         if ui.memory(|memory| memory.focused().is_none()) {
             field.request_focus();

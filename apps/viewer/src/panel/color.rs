@@ -4,6 +4,7 @@
 use catoptra_core::{Rgb, srgb_decoded, srgb_encoded};
 use egui::{Id, TextEdit, Ui};
 
+use super::spoken;
 use crate::arithmetic;
 
 /// Width of the digits, in points.
@@ -23,6 +24,7 @@ pub(super) fn swatch(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
     let mut rgb = [value.r as f32, value.g as f32, value.b as f32];
     let [r, g, b] = value.to_array().map(super::short);
     let response = ui.color_edit_button_rgb(&mut rgb).on_hover_text(format!("linear {r} {g} {b}"));
+    spoken::name(ui, &response);
     let channel = |v: f32| f64::from(v.clamp(0.0, 1.0));
     response.changed().then(|| short(Rgb::new(channel(rgb[0]), channel(rgb[1]), channel(rgb[2]))))
 }
@@ -41,6 +43,7 @@ fn digits(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
     let field = TextEdit::singleline(&mut text).id(id).desired_width(WIDTH).font(egui::TextStyle::Small);
     let tip = "sRGB digits such as #c86432, or three linear numbers as in the file, such as 0.58 0.13 0.03.";
     let response = ui.add(field).on_hover_text(tip);
+    spoken::name_part(ui, &response, "digits");
     if response.gained_focus() {
         // What is typed takes the place of all that stands there.
         let mut state = egui::text_edit::TextEditState::load(ui.ctx(), id).unwrap_or_default();

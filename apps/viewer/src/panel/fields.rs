@@ -6,7 +6,7 @@ use catoptra_core::{Field, FieldKind, InvalidPart, Kind, TextureId, Value, Value
 use egui::Ui;
 
 use super::number::Pace;
-use super::{color, paint, widgets};
+use super::{color, paint, spoken, widgets};
 
 /// Points between names and values.
 const GAP: f32 = 8.0;
@@ -151,7 +151,7 @@ fn given(
     value: &Value,
     offers: &Offers<'_>,
 ) -> Option<Option<Value>> {
-    ui.label(field.name).on_hover_text(field.doc);
+    spoken::label(ui, field.name).on_hover_text(field.doc);
     let can_be_taken =
         offers.optional && field.may_be_missing && field.default.is_none() && field.instead_of.is_none();
     let cell = |ui: &mut Ui| {
@@ -168,6 +168,7 @@ fn given(
     ui.end_row();
     if let Value::Textured(textured) = value {
         ui.weak("  × texture").on_hover_text("What multiplies it.");
+        spoken::next(ui, &format!("texture of {}", field.name));
         let chosen =
             ui.push_id((salt, field.name, "texture"), |ui| paint::choose(ui, field, textured, offers));
         new = chosen.inner.map(Some).or(new);

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use egui::{Frame, Id, Key, Modal, Rect, RichText, ScrollArea, TextEdit, Ui};
 
-use super::{pictures, theme};
+use super::{pictures, spoken, theme};
 use crate::browse::{Browser, Purpose};
-use crate::guard::Next;
+use crate::desktop_dialog;
 use crate::viewer::{Viewer, Wanted};
 
 /// Width of the box in points, where the window has room.
@@ -16,6 +16,8 @@ const WIDTH: f32 = 440.0;
 enum Step {
     Stay,
     Cancel,
+    /// The desktop's own dialog is to ask.
+    Desktop,
     Chosen(PathBuf),
 }
 
@@ -31,23 +33,23 @@ pub(super) fn show(ui: &Ui, viewer: &mut Viewer, window: Rect) {
     match modal.inner {
         Step::Stay => viewer.browser = Some(browser),
         Step::Cancel => {}
-        Step::Chosen(path) => match browser.purpose {
-            Purpose::Open => viewer.leave(Next::Open(path)),
-            Purpose::Save(next) => viewer.save_to(path, next),
-            Purpose::Model => viewer.wanted = Some(Wanted::Model(path)),
-            Purpose::Picture(spec) => viewer.want_picture(path, spec),
-        },
+        Step::Desktop => {
+            browser.waits = true;
+            viewer.wanted = Some(Wanted::DesktopDialog);
+            viewer.browser = Some(browser);
+        }
+        Step::Chosen(path) => viewer.chosen(browser.purpose, path),
     }
 }
 
 fn contents(ui: &mut Ui, browser: &mut Browser, height: f32) -> Step {
-    let (title, word) = match browser.purpose {
-        Purpose::Open => ("Open a scene or a model", "Open"),
-        Purpose::Save(_) => ("Save the scene as", "Save"),
-        Purpose::Model => ("Put a model into the scene", "Put in"),
-        Purpose::Picture(_) => ("Write the picture", "Write"),
+    let word = match browser.purpose {
+        Purpose::Open => "Open",
+        Purpose::Save(_) => "Save",
+        Purpose::Model => "Put in",
+        Purpose::Picture(_) => "Write",
     };
-    ui.label(RichText::new(title).strong().size(15.0));
+    ui.label(RichText::new(browser.purpose.title()).strong().size(15.0));
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         if ui.button("Up").on_hover_text("The folder that this one lies in.").clicked() {
@@ -62,6 +64,8 @@ fn contents(ui: &mut Ui, browser: &mut Browser, height: f32) -> Step {
     });
     let field = ui
         .add(TextEdit::singleline(&mut browser.typed).hint_text("name or path").desired_width(f32::INFINITY));
+    spoken::next(ui, "name or path");
+    spoken::name(ui, &field);
     if field.changed() {
         (browser.problem, browser.replaces) = (None, None);
     }
@@ -89,6 +93,10 @@ fn contents(ui: &mut Ui, browser: &mut Browser, height: f32) -> Step {
         }
         if ui.add(button("Cancel")).clicked() {
             step = Step::Cancel;
+        }
+        let own = egui::Button::new("Desktop’s dialog…");
+        if desktop_dialog::is_there() && ui.add_enabled(!browser.waits, own).clicked() {
+            step = Step::Desktop;
         }
     });
     step

@@ -2,6 +2,7 @@
 
 use egui::{Align2, Id, Label, Margin, Rect, RichText, ScrollArea, TextEdit, Ui, Window, vec2};
 
+use super::spoken;
 use crate::keys::{OTHERS, bindings};
 use crate::viewer::Viewer;
 
@@ -50,7 +51,10 @@ fn search(ui: &mut Ui) -> String {
     let id = Id::new("search of keys");
     let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_default();
     let field = TextEdit::singleline(&mut text).hint_text("search").desired_width(f32::INFINITY);
-    if ui.add(field).changed() {
+    let field = ui.add(field);
+    spoken::next(ui, "search");
+    spoken::name(ui, &field);
+    if field.changed() {
         ui.data_mut(|data| data.insert_temp(id, text.clone()));
     }
     text

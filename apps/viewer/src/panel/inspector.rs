@@ -8,7 +8,7 @@ use egui::text_edit::TextEditOutput;
 use egui::{TextEdit, Ui};
 
 use super::fields::{self, Changed, Offers, step_key};
-use super::{kind, material, placement};
+use super::{kind, material, placement, spoken};
 use crate::fly;
 use crate::naming::Named;
 use crate::viewer::Viewer;
@@ -61,6 +61,8 @@ pub(super) fn name(ui: &mut Ui, viewer: &mut Viewer, owner: Named) {
         return;
     }
     let response = ui.add(field);
+    spoken::next(ui, "name");
+    spoken::name(ui, &response);
     if response.has_focus() || response.lost_focus() {
         if !is_typed {
             viewer.finish_name();

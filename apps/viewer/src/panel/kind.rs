@@ -6,7 +6,7 @@ use egui::{ComboBox, Ui};
 
 use super::fields::step_key;
 use super::inspector::put;
-use super::tree;
+use super::{spoken, tree};
 use crate::making::starters;
 use crate::retype;
 use crate::viewer::Viewer;
@@ -37,13 +37,15 @@ pub(super) fn choose(ui: &mut Ui, viewer: &mut Viewer, id: EntityId) {
 /// The kind that is chosen, if it is another.
 fn list(ui: &mut Ui, now: &'static str, kinds: impl Iterator<Item = &'static str>) -> Option<&'static str> {
     let mut chosen = None;
-    ComboBox::from_id_salt("entity kind").selected_text(now).width(92.0).show_ui(ui, |ui| {
+    let shown = ComboBox::from_id_salt("entity kind").selected_text(now).width(92.0).show_ui(ui, |ui| {
         for kind in kinds {
             if ui.selectable_label(kind == now, kind).clicked() {
                 chosen = Some(kind);
             }
         }
     });
+    spoken::next(ui, "kind");
+    spoken::name(ui, &shown.response);
     chosen.filter(|kind| *kind != now)
 }
 

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use catoptra_core::Extent;
 use catoptra_raster::Tool;
-use egui::{ComboBox, RichText, Slider, TextEdit, Ui};
+use egui::{ComboBox, DragValue, RichText, Slider, TextEdit, Ui};
 
 use super::number::Pace;
-use super::{theme, widgets};
+use super::{spoken, theme, widgets};
 use crate::exposure::{Exposure, MOST};
 use crate::pass::PASSES;
 use crate::viewer::Viewer;
@@ -20,13 +20,14 @@ fn tenths(stops: f64) -> f64 {
 /// A list of the passes.
 pub(super) fn pass(ui: &mut Ui, viewer: &mut Viewer) {
     let now = viewer.settings.pass;
-    ComboBox::from_id_salt("pass").selected_text(now.name).show_ui(ui, |ui| {
+    let shown = ComboBox::from_id_salt("pass").selected_text(now.name).show_ui(ui, |ui| {
         for pass in PASSES {
             if ui.selectable_label(pass.name == now.name, pass.name).on_hover_text(pass.doc).clicked() {
                 viewer.show_pass(pass);
             }
         }
     });
+    spoken::name(ui, &shown.response);
 }
 
 /// Whether the light of the selected lights is shown alone, where lights are told apart.
@@ -50,9 +51,14 @@ pub(super) fn exposure(ui: &mut Ui, viewer: &mut Viewer) {
         ui.spacing_mut().slider_width = 64.0;
         let tip =
             "Stops brighter, in this window alone; the scene has its own. A double click goes back to 0.";
-        if ui.add(slider).on_hover_text(tip).double_clicked() {
+        let slider = ui.add(slider.show_value(false)).on_hover_text(tip);
+        spoken::name(ui, &slider);
+        if slider.double_clicked() {
             stops = 0.0;
         }
+        let number = DragValue::new(&mut stops).range(-MOST..=MOST).fixed_decimals(1).speed(0.1);
+        let number = ui.add(number.update_while_editing(false));
+        spoken::name_part(ui, &number, "as a number");
         if tenths(stops) != tenths(new.stops) {
             new = Exposure { stops: tenths(stops), automatic: false };
         }
@@ -116,6 +122,8 @@ pub(super) fn comparison(ui: &mut Ui, viewer: &mut Viewer) {
         ui.horizontal(|ui| {
             let field = TextEdit::singleline(&mut viewer.comparison.typed).desired_width(150.0);
             let field = ui.add(field.hint_text("picture.png"));
+            spoken::next(ui, "picture to compare with");
+            spoken::name(ui, &field);
             let entered = field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
             let asked = ui.button("Compare").on_hover_text("With the picture in this file.").clicked();
             if (asked || entered) && !viewer.comparison.typed.trim().is_empty() {
@@ -125,8 +133,11 @@ pub(super) fn comparison(ui: &mut Ui, viewer: &mut Viewer) {
         let Some(file) = viewer.comparison.file().map(|file| file.display().to_string()) else { return };
         ui.horizontal(|ui| {
             let before = viewer.comparison.line;
-            ui.add(Slider::new(&mut viewer.comparison.line, 0.0..=1.0).show_value(false))
+            let line = ui
+                .add(Slider::new(&mut viewer.comparison.line, 0.0..=1.0).show_value(false))
                 .on_hover_text(format!("Left of the line is this picture, right of it {file}."));
+            spoken::next(ui, "line between the pictures");
+            spoken::name(ui, &line);
             viewer.stale.overlay |= viewer.comparison.line != before;
             if ui.button("End").clicked() {
                 viewer.comparison.end();

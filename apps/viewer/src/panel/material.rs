@@ -7,6 +7,7 @@ use egui::{CollapsingHeader, ComboBox, Ui};
 
 use super::fields::{self, Changed, Offers, step_key};
 use super::inspector::put;
+use super::spoken;
 use crate::ball::{SIDE, Sample};
 use crate::making;
 use crate::retype;
@@ -68,13 +69,15 @@ fn choose_material(ui: &mut Ui, viewer: &mut Viewer, id: EntityId, worn: Materia
     let scene = viewer.document.scene();
     let mut chosen = None;
     let now = scene.material_name(worn);
-    ComboBox::from_id_salt("material").selected_text(now).show_ui(ui, |ui| {
+    let shown = ComboBox::from_id_salt("material").selected_text(now).show_ui(ui, |ui| {
         for (other, name, _) in scene.materials() {
             if ui.selectable_label(other == worn, name).clicked() {
                 chosen = Some(other);
             }
         }
     });
+    spoken::next(ui, "material");
+    spoken::name(ui, &shown.response);
     if let Some(other) = chosen.filter(|other| *other != worn) {
         let scene = viewer.document.scene();
         let shapes =
@@ -87,13 +90,15 @@ fn choose_material(ui: &mut Ui, viewer: &mut Viewer, id: EntityId, worn: Materia
 fn choose_kind(ui: &mut Ui, viewer: &mut Viewer, worn: MaterialId, material: &Material) {
     let now = material.kind_name();
     let mut chosen = None;
-    ComboBox::from_id_salt("kind").selected_text(now).show_ui(ui, |ui| {
+    let shown = ComboBox::from_id_salt("kind").selected_text(now).show_ui(ui, |ui| {
         for kind in Material::KINDS {
             if ui.selectable_label(kind.name == now, kind.name).on_hover_text(kind.doc).clicked() {
                 chosen = Some(kind);
             }
         }
     });
+    spoken::next(ui, "kind of material");
+    spoken::name(ui, &shown.response);
     if let Some(kind) = chosen.filter(|kind| kind.name != now) {
         let key = step_key("kind", worn.index(), "");
         put(viewer, retype::of_kind(material, kind), key, |material| Edit::Material(worn, material));
@@ -110,13 +115,15 @@ fn choose_glass(ui: &mut Ui, viewer: &mut Viewer, worn: MaterialId, material: &M
     let mut chosen = None;
     let is_it = |of: f64| of.total_cmp(&ior).is_eq();
     let now = GLASSES.iter().find(|(_, of)| is_it(*of)).map_or("preset", |(name, _)| name);
-    ComboBox::from_id_salt("glass").selected_text(now).show_ui(ui, |ui| {
+    let shown = ComboBox::from_id_salt("glass").selected_text(now).show_ui(ui, |ui| {
         for (name, ior) in GLASSES {
             if ui.selectable_label(is_it(*ior), *name).clicked() {
                 chosen = Some(*ior);
             }
         }
     });
+    spoken::next(ui, "glass");
+    spoken::name(ui, &shown.response);
     if let Some(ior) = chosen.filter(|ior| !is_it(*ior)) {
         let key = step_key("glass", worn.index(), "");
         put(viewer, material.with("ior", Value::Number(ior)), key, |glass| Edit::Material(worn, glass));

@@ -21,6 +21,7 @@ mod pictures;
 mod placement;
 mod question;
 mod readout;
+mod spoken;
 mod switches;
 mod textures;
 mod theme;

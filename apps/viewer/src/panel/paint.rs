@@ -5,7 +5,7 @@ use catoptra_core::{Field, FieldKind, TextureId, TextureUse, Textured, Value};
 use egui::{ComboBox, Ui};
 
 use super::fields::Offers;
-use super::widgets;
+use super::{spoken, widgets};
 
 /// The word for no texture.
 const NONE: &str = "none";
@@ -43,17 +43,17 @@ pub(super) fn choose(
 ) -> Option<Value> {
     ui.horizontal(|ui| {
         let mut new = None;
-        ComboBox::from_id_salt("texture").selected_text(name_of(by.texture, offers.textures)).show_ui(
-            ui,
-            |ui| {
+        let shown = ComboBox::from_id_salt("texture")
+            .selected_text(name_of(by.texture, offers.textures))
+            .show_ui(ui, |ui| {
                 if ui.selectable_label(false, NONE).clicked() {
                     new = Some(base.clone());
                 }
                 if let Some(texture) = list(ui, Some(by.texture), offers.textures) {
                     new = Some(base.clone().textured(TextureUse { texture, ..*by }));
                 }
-            },
-        );
+            });
+        spoken::name(ui, &shown.response);
         if field.kind == FieldKind::Fraction {
             let words = Channel::ALL.map(Channel::word);
             let now = by.channel.unwrap_or_default().word();
@@ -76,7 +76,9 @@ pub(super) fn pick(
 ) -> Option<TextureId> {
     let shown = now.map_or_else(|| NONE.to_owned(), |id| name_of(id, textures));
     let list = |ui: &mut Ui| list(ui, now, textures);
-    ComboBox::from_id_salt("texture").selected_text(shown).show_ui(ui, list).inner.flatten()
+    let shown = ComboBox::from_id_salt("texture").selected_text(shown).show_ui(ui, list);
+    spoken::name(ui, &shown.response);
+    shown.inner.flatten()
 }
 
 fn list(ui: &mut Ui, now: Option<TextureId>, textures: &[(TextureId, String)]) -> Option<TextureId> {

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use egui::{Align2, Area, DragValue, Frame, Id, Margin, Order, Rect, Ui};
 
-use super::theme;
+use super::{spoken, theme};
 use crate::arithmetic;
 use crate::pictures::{Colors, LARGEST_SIDE, Spec};
 use crate::viewer::Viewer;
@@ -18,9 +18,11 @@ const EVERY: Duration = Duration::from_millis(150);
 /// The fields for what a picture is to be like. Whether the keys have just left one of them.
 pub(super) fn spec(ui: &mut Ui, spec: &mut Spec) -> bool {
     let number = |ui: &mut Ui, name: &str, value: &mut u32, most: u32| {
-        let label = ui.label(name);
+        spoken::label(ui, name);
         let widget = DragValue::new(value).range(1..=most).speed(1.0).custom_parser(arithmetic::value);
-        ui.add(widget.update_while_editing(false)).labelled_by(label.id).lost_focus()
+        let number = ui.add(widget.update_while_editing(false));
+        spoken::name(ui, &number);
+        number.lost_focus()
     };
     let fields = ui.horizontal_wrapped(|ui| {
         let width = number(ui, "width", &mut spec.width, LARGEST_SIDE);

@@ -5,7 +5,7 @@ use catoptra_core::glam::{DQuat, DVec3, EulerRot};
 use egui::Ui;
 
 use super::number::Pace;
-use super::widgets;
+use super::{spoken, widgets};
 
 /// The order in which the three angles are applied.
 const ORDER: EulerRot = EulerRot::YXZ;
@@ -14,17 +14,17 @@ const ORDER: EulerRot = EulerRot::YXZ;
 pub(super) fn show(ui: &mut Ui, salt: u64, placement: &Placement) -> Option<Placement> {
     let mut changed = None;
     egui::Grid::new(("placement", salt)).num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
-        ui.label("move").on_hover_text("metres along x, y and z");
+        spoken::label(ui, "move").on_hover_text("metres along x, y and z");
         if let Some(to) = widgets::vector(ui, placement.translation(), Pace::Scene) {
             changed = Placement::new(placement.rotation(), to, placement.scale()).ok();
         }
         ui.end_row();
-        ui.label("turn").on_hover_text("degrees about x, y and z");
+        spoken::label(ui, "turn").on_hover_text("degrees about x, y and z");
         if let Some(degrees) = widgets::vector(ui, degrees(placement.rotation()), Pace::Angle) {
             changed = Placement::new(rotation(degrees), placement.translation(), placement.scale()).ok();
         }
         ui.end_row();
-        ui.label("scale").on_hover_text("alike in every direction");
+        spoken::label(ui, "scale").on_hover_text("alike in every direction");
         if let Some(scale) = widgets::number(ui, placement.scale(), "", Pace::Value) {
             changed = Placement::new(placement.rotation(), placement.translation(), scale).ok();
         }

@@ -3,10 +3,10 @@
 use catoptra_core::InvalidPart;
 use catoptra_core::scene::{Edit, Integrator, Settings};
 use catoptra_tracer::{Display, backends};
-use egui::{ComboBox, Slider, Ui};
+use egui::{ComboBox, Ui};
 
 use super::fields::{self, Offers, step_key};
-use super::looking;
+use super::{looking, spoken, widgets};
 use crate::input::Mode;
 use crate::viewer::Viewer;
 
@@ -15,23 +15,23 @@ pub(super) fn show(ui: &mut Ui, viewer: &mut Viewer) {
     egui::CollapsingHeader::new("View").default_open(true).show(ui, |ui| {
         mode(ui, viewer);
         egui::Grid::new("view").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
-            ui.label("show");
+            spoken::label(ui, "show");
             looking::pass(ui, viewer);
             ui.end_row();
-            ui.label("display");
+            spoken::label(ui, "display");
             display(ui, viewer);
             ui.end_row();
-            ui.label("exposure");
+            spoken::label(ui, "exposure");
             looking::exposure(ui, viewer);
             ui.end_row();
-            ui.label("sees")
+            spoken::label(ui, "sees")
                 .on_hover_text("From the lower to the upper edge of this view; a camera has its own.");
             looking::extent(ui, viewer);
             ui.end_row();
-            ui.label("backend");
+            spoken::label(ui, "backend");
             backend(ui, viewer);
             ui.end_row();
-            ui.label("frame time");
+            spoken::label(ui, "frame time");
             frame_time(ui, viewer);
             ui.end_row();
         });
@@ -54,17 +54,18 @@ fn mode(ui: &mut Ui, viewer: &mut Viewer) {
 
 fn display(ui: &mut Ui, viewer: &mut Viewer) {
     let before = viewer.settings.display;
-    ComboBox::from_id_salt("display").selected_text(before.name()).show_ui(ui, |ui| {
+    let shown = ComboBox::from_id_salt("display").selected_text(before.name()).show_ui(ui, |ui| {
         for display in Display::ALL {
             ui.selectable_value(&mut viewer.settings.display, *display, display.name());
         }
     });
+    spoken::name(ui, &shown.response);
     viewer.stale.overlay |= viewer.settings.display != before;
 }
 
 fn backend(ui: &mut Ui, viewer: &mut Viewer) {
     let now = viewer.settings.backend.name();
-    ComboBox::from_id_salt("backend").selected_text(now).show_ui(ui, |ui| {
+    let shown = ComboBox::from_id_salt("backend").selected_text(now).show_ui(ui, |ui| {
         for backend in backends() {
             if ui.selectable_label(backend.name() == now, backend.name()).clicked() {
                 viewer.settings.backend = *backend;
@@ -72,6 +73,7 @@ fn backend(ui: &mut Ui, viewer: &mut Viewer) {
             }
         }
     });
+    spoken::name(ui, &shown.response);
 }
 
 /// Milliseconds that a frame may take while something moves.
@@ -79,8 +81,11 @@ const FRAME_TIMES: std::ops::RangeInclusive<f64> = 8.0..=100.0;
 
 fn frame_time(ui: &mut Ui, viewer: &mut Viewer) {
     let told = "What a frame may take while something moves: more is sharper, less is smoother.";
-    let slider = Slider::new(&mut viewer.settings.frame_time, FRAME_TIMES).suffix(" ms").fixed_decimals(0);
-    ui.add(slider).on_hover_text(told);
+    let shown = ui.scope(|ui| widgets::slide(ui, viewer.settings.frame_time, FRAME_TIMES, " ms", 0));
+    shown.response.on_hover_text(told);
+    if let Some(time) = shown.inner {
+        viewer.settings.frame_time = time;
+    }
 }
 
 fn overlays(ui: &mut Ui, viewer: &mut Viewer) {

@@ -7,7 +7,7 @@ use std::ops::Range;
 use catoptra_core::scene::{EntityId, Flags, Role, Scene};
 use egui::{Button, Id, Rect, ScrollArea, Sense, TextEdit, Ui};
 
-use super::{menus, theme, tree_drag};
+use super::{menus, spoken, theme, tree_drag};
 use crate::lighting;
 use crate::making;
 use crate::selection::Picking;
@@ -68,7 +68,10 @@ fn search_field(ui: &mut Ui) -> String {
     let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_default();
     let field =
         TextEdit::singleline(&mut text).hint_text("filter by name or kind").desired_width(f32::INFINITY);
-    if ui.add(field).changed() {
+    let field = ui.add(field);
+    spoken::next(ui, "filter of the tree");
+    spoken::name(ui, &field);
+    if field.changed() {
         ui.data_mut(|data| data.insert_temp(id, text.clone()));
     }
     text

@@ -2,10 +2,10 @@
 
 use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::{Rgb, Rows};
-use egui::{ComboBox, DragValue, Slider, SliderClamping, Ui};
+use egui::{ComboBox, DragValue, Response, Slider, SliderClamping, Ui};
 
-use super::color;
 use super::number::{self, Pace};
+use super::{color, spoken};
 use crate::arithmetic;
 
 /// A number within a range.
@@ -15,16 +15,38 @@ pub(super) fn slider(
     range: std::ops::RangeInclusive<f64>,
     unit: &str,
 ) -> Option<f64> {
-    let mut v = value;
     let widest = if *range.end() > 1.0 { 1 } else { 3 };
-    let clamping = SliderClamping::Edits;
-    let slider = Slider::new(&mut v, range)
-        .suffix(unit)
-        .max_decimals(widest)
-        .clamping(clamping)
-        .custom_parser(arithmetic::value)
-        .update_while_editing(false);
-    ui.add(slider).changed().then_some(v)
+    slide(ui, value, range, unit, widest)
+}
+
+/// A slider to that many decimals, and its number beside it, which may lie outside until it is changed.
+pub(super) fn slide(
+    ui: &mut Ui,
+    value: f64,
+    range: std::ops::RangeInclusive<f64>,
+    unit: &str,
+    decimals: usize,
+) -> Option<f64> {
+    let (mut slid, mut typed) = (value, value);
+    ui.horizontal(|ui| {
+        let slider = Slider::new(&mut slid, range.clone()).max_decimals(decimals).show_value(false);
+        let slider = ui.add(slider.clamping(SliderClamping::Edits));
+        spoken::name(ui, &slider);
+        let number = DragValue::new(&mut typed)
+            .speed((range.end() - range.start()) / f64::from(ui.spacing().slider_width))
+            .suffix(unit)
+            .max_decimals(decimals)
+            .range(range)
+            .clamp_existing_to_range(false)
+            .custom_parser(arithmetic::value)
+            .update_while_editing(false);
+        if named(ui, number, "as a number").changed() {
+            Some(typed)
+        } else {
+            slider.changed().then_some(slid)
+        }
+    })
+    .inner
 }
 
 /// A whole number.
@@ -37,13 +59,15 @@ pub(super) fn count(ui: &mut Ui, value: f64) -> Option<f64> {
         .clamp_existing_to_range(false)
         .custom_parser(arithmetic::value)
         .update_while_editing(false);
-    ui.add(widget).changed().then_some(v.round())
+    let response = ui.add(widget);
+    spoken::name(ui, &response);
+    response.changed().then_some(v.round())
 }
 
 /// Any number; what the part does not take, it refuses.
 pub(super) fn number(ui: &mut Ui, value: f64, unit: &str, pace: Pace) -> Option<f64> {
     let suffix = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    number::edit(ui, value, pace, |ui, widget| ui.add(widget.suffix(suffix)))
+    number::edit(ui, value, pace, |ui, widget| named(ui, widget.suffix(suffix), ""))
 }
 
 /// Three numbers in a row.
@@ -74,9 +98,14 @@ fn drag_all(ui: &mut Ui, numbers: &mut [f64], pace: Pace) -> bool {
     let mut changed = false;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
-        for part in numbers {
+        for (part, name) in numbers.iter_mut().zip(["x", "y", "z"].into_iter().chain(std::iter::repeat(""))) {
             let size = [49.0, ui.spacing().interact_size.y];
-            if let Some(new) = number::edit(ui, *part, pace, |ui, widget| ui.add_sized(size, widget)) {
+            let shape = |ui: &mut Ui, widget: DragValue<'_>| {
+                let response = ui.add_sized(size, widget);
+                spoken::name_part(ui, &response, name);
+                response
+            };
+            if let Some(new) = number::edit(ui, *part, pace, shape) {
                 *part = new;
                 changed = true;
             }
@@ -93,7 +122,7 @@ pub(super) fn quantity(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
         // Of no light one picks a colour as strong as it is shown.
         let picked = color::swatch(ui, tint)
             .map(|tint| color::short(tint * if strength > 0.0 { strength } else { 1.0 }));
-        let typed = number::edit(ui, strength, Pace::Value, |ui, widget| ui.add(widget));
+        let typed = number::edit(ui, strength, Pace::Value, |ui, widget| named(ui, widget, "strength"));
         let tint = if strength > 0.0 { tint } else { Rgb::WHITE };
         typed.filter(|typed| *typed >= 0.0).map(|typed| tint * typed).or(picked)
     })
@@ -103,18 +132,28 @@ pub(super) fn quantity(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
 /// Yes or no.
 pub(super) fn flag(ui: &mut Ui, value: bool) -> Option<bool> {
     let mut on = value;
-    ui.checkbox(&mut on, "").changed().then_some(on)
+    let response = ui.checkbox(&mut on, "");
+    spoken::name(ui, &response);
+    response.changed().then_some(on)
+}
+
+/// Adds a number that is called as a part of what the last label says.
+fn named(ui: &mut Ui, widget: DragValue<'_>, part: &str) -> Response {
+    let response = ui.add(widget);
+    spoken::name_part(ui, &response, part);
+    response
 }
 
 /// One of a list of words; the new one, if another is picked.
 pub(super) fn choice(ui: &mut Ui, name: &str, words: &[&str], now: &str) -> Option<String> {
     let mut picked = None;
-    ComboBox::from_id_salt(name).selected_text(now).show_ui(ui, |ui| {
+    let shown = ComboBox::from_id_salt(name).selected_text(now).show_ui(ui, |ui| {
         for word in words {
             if ui.selectable_label(*word == now, *word).clicked() {
                 picked = Some((*word).to_owned());
             }
         }
     });
+    spoken::name(ui, &shown.response);
     picked.filter(|word| word != now)
 }

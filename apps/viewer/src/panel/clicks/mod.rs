@@ -1,6 +1,7 @@
 //! Do clicks in the panel do what they say? Tests that find a word in what egui shows and click on it.
 
 mod boxes;
+mod labels;
 mod materials;
 mod textures;
 mod things;
