@@ -123,7 +123,7 @@ fn leaving_rays(snapshot: &Snapshot, count: usize) -> RayList {
         let target = DVec3::new(2.0, 2.0, 1.0) + numbers.vector() * 2.5;
         let from = target + numbers.vector() * 9.0;
         let ray = Ray::new(from, target - from);
-        let Some(hit) = snapshot.nearest_of_all(&ray, Span::AHEAD, None) else { continue };
+        let Some(hit) = snapshot.nearest_of_all_in_frame(&ray, Span::AHEAD, None) else { continue };
         let along = hit.crossing.normal.cross(numbers.vector());
         let directions = [
             numbers.vector(),

@@ -69,7 +69,7 @@ fn every_backend_meets_what_the_search_without_trees_meets() {
     }
     let span = catoptra_core::Span::FROM_ORIGIN;
     let right: Vec<Option<Hit>> =
-        rays.iter().map(|ray| snapshot.nearest_of_all(&snapshot.own_ray(ray), span, None)).collect();
+        rays.iter().map(|ray| snapshot.nearest_of_all_in_frame(&snapshot.own_ray(ray), span, None)).collect();
     assert!(right.iter().flatten().count() > 12_000);
     for backend in backends() {
         let (mut hits, mut occluded) = (Default::default(), Vec::new());
@@ -139,7 +139,7 @@ fn a_changed_part_changes_the_whole_solid() {
     let ray = Ray::new(DVec3::new(-1.6, 9.0, 0.0), DVec3::NEG_Y);
     let span = catoptra_core::Span::AHEAD;
     let [cut, whole] =
-        [&earlier, &later].map(|snapshot| snapshot.nearest(&ray, span, None).unwrap().crossing.t);
+        [&earlier, &later].map(|snapshot| snapshot.nearest_in_frame(&ray, span, None).unwrap().crossing.t);
     assert!((cut - 7.8).abs() < 1e-12 && (whole - 6.9).abs() < 1e-12, "{cut} {whole}");
     scene.apply(back).unwrap();
     let open = catoptra_core::geometry::Disk::new(DVec3::ZERO, DVec3::Y, 1.0).unwrap();

@@ -185,12 +185,7 @@ fn verb(what: ChangeKind) -> &'static str {
         ChangeKind::Order => "reorder",
         ChangeKind::Name => "rename",
         ChangeKind::Finish => "change the finish of",
-        ChangeKind::Shape
-        | ChangeKind::Light
-        | ChangeKind::Camera
-        | ChangeKind::Operation
-        | ChangeKind::Value
-        | ChangeKind::Flags => "change",
+        _ => "change",
     }
 }
 

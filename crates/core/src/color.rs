@@ -5,6 +5,13 @@ use std::ops::{Add, AddAssign, Div, Mul, Sub};
 use crate::Triple;
 
 /// Linear Rec. 709 red, green and blue; a reflectance (0..=1) or an amount of light (any unit, ≥ 0).
+///
+/// ```
+/// use catoptra_core::Rgb;
+///
+/// let light = Rgb::new(1.0, 0.5, 0.25) * 2.0 + Rgb::grey(0.1);
+/// assert_eq!(light, Rgb::new(2.1, 1.1, 0.6));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Rgb {
     /// Red.

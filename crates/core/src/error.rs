@@ -5,7 +5,7 @@ use std::fmt;
 /// A value that a part refuses: which field, what is required of it, and what it was.
 ///
 /// Reads as a sentence: `radius must be greater than 0, not -1`.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{field} {requirement}, not {found}")]
 #[non_exhaustive]
 pub struct InvalidPart {

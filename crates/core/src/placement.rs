@@ -5,6 +5,15 @@ use glam::{DQuat, DVec3};
 use crate::InvalidPart;
 
 /// A similarity `p → rotation * (scale * p) + translation`. Shapes keep their kind under it.
+///
+/// ```
+/// use catoptra_core::{Placement, glam::DVec3};
+///
+/// let quarter = std::f64::consts::FRAC_PI_2;
+/// let placement = Placement::IDENTITY.scaled(2.0)?.turned(DVec3::ZERO, DVec3::Y, quarter)?.moved(DVec3::Y)?;
+/// assert!((placement.point(DVec3::X) - DVec3::new(0.0, 1.0, -2.0)).length() < 1e-15);
+/// # Ok::<(), catoptra_core::InvalidPart>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     rotation: DQuat,

@@ -9,6 +9,7 @@ use catoptra_core::scene::{Role, Scene};
 use crate::file::{SceneFile, parse_with};
 use crate::read::Files;
 use crate::report::SceneTextError;
+use crate::watch::Watch;
 use crate::write::{number, quoted};
 
 /// Vertical field of view of the added camera, in degrees.
@@ -24,11 +25,11 @@ const MARGIN: f64 = 1.15;
 ///
 /// # Errors
 /// A model that cannot be read, or whose name is no text.
-pub(crate) fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
+pub(crate) fn load(path: &Path, watch: &Watch) -> Result<(Scene, SceneFile), SceneTextError> {
     let unnamed = || SceneTextError::unusable(path, "has a name that scene text cannot spell".to_owned());
     let file = path.file_name().and_then(|name| name.to_str()).ok_or_else(unnamed)?;
     let name = path.file_stem().and_then(|name| name.to_str()).unwrap_or(file);
-    let mut files = Files::new(Some(path.parent().unwrap_or(Path::new(""))));
+    let mut files = Files::new(Some(path.parent().unwrap_or(Path::new("")))).watched(watch);
     if let Err(message) = files.model(file) {
         let prefix = format!("{}", path.display());
         let message = message.strip_prefix(&prefix).unwrap_or(&message).trim_start_matches([':', ' ', ',']);

@@ -55,9 +55,9 @@ impl Rgb8Image {
 }
 
 /// A picture file that cannot be written or read.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[derive(Debug, thiserror::Error)]
+#[cfg_attr(feature = "text", derive(miette::Diagnostic), diagnostic(code(catoptra::image)))]
 #[error("{}: {}", printable(&path.to_string_lossy()), printable(message))]
-#[diagnostic(code(catoptra::image))]
 pub struct ImageError {
     path: PathBuf,
     message: String,

@@ -46,7 +46,7 @@ pub fn irradiance_at(
             return Err(Cancelled);
         }
         let found = asked.irradiance(receiver.point() - snapshot.frame(), receiver.normal(), number as u32);
-        control.advance();
+        control.advance(1);
         Ok(found)
     };
     pool.run(|| {

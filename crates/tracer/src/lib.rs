@@ -26,7 +26,7 @@
 
 mod accel;
 pub mod backend;
-mod control;
+mod caster;
 mod cull;
 mod display;
 mod edges;
@@ -42,6 +42,7 @@ mod lanes;
 mod numeric;
 mod pattern;
 mod pick;
+mod picture;
 mod pool;
 pub mod query;
 #[cfg(test)]
@@ -61,7 +62,8 @@ mod view;
 
 pub use accel::{MeshTree, Preset};
 pub use backend::{Backend, backend_named, backends};
-pub use control::{Control, Progress};
+pub use caster::{Caster, CasterError, InvalidRay, InvalidRays, RayColumns, RayHits, WorldHit, WorldRay};
+pub use catoptra_core::{Cancelled, Control, Progress};
 pub use display::{Display, Tone};
 pub use film::{Film, NoRoom, StoredFilmError, Tile};
 pub use filter::Filter;
@@ -70,9 +72,10 @@ pub use instructions::Instructions;
 pub use irradiance::irradiance_at;
 pub use pattern::Pattern;
 pub use pick::{Pick, pick};
+pub use picture::{Render, RenderError};
 pub use pool::{NoPool, Pool};
 pub use receiver::{InvalidReceiver, Irradiance, ProbeOptions, Receiver};
-pub use render::{Cancelled, render};
+pub use render::render;
 pub use snapshot::{
     Changed, Extraction, Hit, Needs, PartDiff, Presence, Prim, ShapeDiff, Snapshot, SnapshotDiff, SurfaceId,
 };

@@ -1,15 +1,25 @@
 //! The thread pool that pictures are traced on.
 
+use std::sync::OnceLock;
+
 /// Threads that trace; made once and used for many pictures.
+///
+/// ```
+/// use catoptra_tracer::Pool;
+///
+/// assert_eq!(Pool::new(2)?.threads(), 2);
+/// assert!(Pool::shared()?.threads() >= 1);
+/// # Ok::<(), catoptra_tracer::NoPool>(())
+/// ```
 #[derive(Debug)]
 pub struct Pool {
     threads: rayon::ThreadPool,
 }
 
-/// The system gave no threads.
+/// The system gave no threads; it says why.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot start tracing threads: {0}")]
-pub struct NoPool(#[from] rayon::ThreadPoolBuildError);
+pub struct NoPool(String);
 
 impl Pool {
     /// With this many threads; 0 means one for every core.
@@ -20,8 +30,24 @@ impl Pool {
         let threads = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .thread_name(|i| format!("trace-{i}"))
-            .build()?;
+            .build()
+            .map_err(|cause| NoPool(cause.to_string()))?;
         Ok(Self { threads })
+    }
+
+    /// The pool of whoever names none: a thread for every core, started when it is first asked for, and kept.
+    ///
+    /// # Errors
+    /// When the system gives no threads.
+    pub fn shared() -> Result<&'static Self, NoPool> {
+        static SHARED: OnceLock<Pool> = OnceLock::new();
+        match SHARED.get() {
+            Some(pool) => Ok(pool),
+            None => {
+                let pool = Self::new(0)?;
+                Ok(SHARED.get_or_init(|| pool))
+            }
+        }
     }
 
     /// How many threads there are.

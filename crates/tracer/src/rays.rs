@@ -65,6 +65,14 @@ impl RayList {
         self.length == 0
     }
 
+    /// Takes all rays out and keeps the room.
+    pub(crate) fn clear(&mut self) {
+        self.length = 0;
+        self.blocks.clear();
+        self.prim.clear();
+        self.facet.clear();
+    }
+
     /// Appends a ray of the world to be searched on `min <= t <= max`. It may leave a surface, which it does not meet
     /// again at its origin.
     pub fn push(&mut self, ray: &Ray, [min, max]: [f64; 2], leaving: Option<SurfaceId>) {
@@ -202,13 +210,7 @@ impl RaySlice<'_> {
     ) -> Option<T> {
         let ray = self.ray(at);
         let (span, leaving) = (self.span(at)?, self.leaving(at));
-        if !ray.is_valid() {
-            return None;
-        }
-        match snapshot.exactly_own(&ray) {
-            Some(own) => search(&RaySegment::new(&own, span, leaving)),
-            None => search(&RaySegment { in_world: true, ..RaySegment::new(&ray, span, leaving) }),
-        }
+        if ray.is_valid() { snapshot.follow(&ray, span, leaving, search) } else { None }
     }
 
     /// Answers ray by ray whether anything is met.

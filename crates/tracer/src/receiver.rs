@@ -4,6 +4,14 @@ use catoptra_core::glam::DVec3;
 use catoptra_core::{Integrator, Rgb};
 
 /// A point of the world and the unit normal of the flat meter that stands there.
+///
+/// ```
+/// use catoptra_tracer::{InvalidReceiver, Receiver};
+///
+/// let meter = Receiver::new([0.0, 0.8, 0.0].into(), [0.0, 2.0, 0.0].into())?;
+/// assert_eq!(meter.normal().to_array(), [0.0, 1.0, 0.0]);
+/// # Ok::<(), InvalidReceiver>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Receiver {
     point: DVec3,
@@ -12,6 +20,7 @@ pub struct Receiver {
 
 /// A receiver that is none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum InvalidReceiver {
     /// A coordinate is infinite or no number.
     #[error("every number must be finite")]

@@ -5,19 +5,14 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::edges::EdgeList;
-use crate::{Backend, Control, Film, Frame, Pool, Snapshot, Stats, Tile, View};
-
-/// The render was asked to stop; the film holds some new tiles and some old ones.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the render was cancelled")]
-pub struct Cancelled;
+use crate::{Backend, Cancelled, Control, Film, Frame, Pool, Snapshot, Stats, Tile, View};
 
 /// Traces a picture into `film`, tile by tile, on the threads of `pool`.
 ///
 /// The result depends on neither the number of threads nor the size of the tiles.
 ///
 /// # Errors
-/// [`Cancelled`] when `control` said so before the last tile was begun.
+/// [`Cancelled`] when `control` said so before the last tile was begun; the film then holds some new tiles and some old ones.
 ///
 /// # Panics
 /// A film of another part of the picture than the view's, or without the samples that the view [goes on](View::range)
@@ -45,12 +40,12 @@ pub fn render(
             return Err(Cancelled);
         }
         if is_done(tile) {
-            control.advance();
+            control.advance(1);
             return Ok(Stats::default());
         }
         tile.begin(snapshot.entities(), view);
         let stats = Stats::with_exact(|| backend.trace(&frame, tile));
-        control.advance();
+        control.advance(1);
         Ok(stats)
     };
     let add = |mut a: Stats, b: Stats| {

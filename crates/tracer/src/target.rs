@@ -17,10 +17,11 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
-use crate::control::Progress;
 use crate::film::SEQUENCES;
 use crate::numeric::{AT_ONCE, MOST_GROWTH};
-use crate::{Backend, Cancelled, Control, Film, Frame, Pattern, Pool, Snapshot, Stats, Tile, Tone, View};
+use crate::{
+    Backend, Cancelled, Control, Film, Frame, Pattern, Pool, Progress, Snapshot, Stats, Tile, Tone, View,
+};
 
 /// Samples of a pixel before its error is first judged: four in each sequence, so that it is even in itself.
 const FIRST: u32 = 4 * SEQUENCES;
@@ -207,7 +208,7 @@ impl Passes<'_> {
             } else {
                 stats
             };
-            self.control.advance();
+            self.control.advance(1);
             Ok(stats)
         };
         let tiles = film.tiles_mut();

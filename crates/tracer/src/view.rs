@@ -67,6 +67,18 @@ impl From<Size> for Region {
 }
 
 /// One picture that is asked for.
+///
+/// ```
+/// use catoptra_core::{Camera, glam::DVec3};
+/// use catoptra_tracer::{Region, Size, View};
+///
+/// let camera = Camera::look_at(DVec3::Z * 4.0, DVec3::ZERO, DVec3::Y, 0.8)?;
+/// // The upper left quarter of a picture, four samples a pixel.
+/// let crop = Some(Region::new(0, 0, Size::new(320, 240)));
+/// let view = View { crop, samples: 4, ..View::new(camera, Size::new(640, 480)) };
+/// assert_eq!(view.region().size.pixels(), 320 * 240);
+/// # Ok::<(), catoptra_core::InvalidPart>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
     /// From where.

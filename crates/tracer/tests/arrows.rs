@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// The modules of the crate from top to bottom. Modules of one row stand side by side and do not use each other.
 const LAYERS: &[&[&str]] = &[
+    &["caster", "picture"],
     &["target", "irradiance"],
     &["render", "query", "pick"],
     &["backend"],
@@ -25,7 +26,7 @@ const LAYERS: &[&[&str]] = &[
     &["sample"],
     &["view", "receiver"],
     &["pattern", "filter"],
-    &["sampler", "instructions", "stats", "control", "pool"],
+    &["sampler", "instructions", "stats", "pool"],
     &["lanes", "random"],
     &["numeric"],
 ];

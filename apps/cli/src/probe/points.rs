@@ -91,9 +91,9 @@ fn line_of(text: &str) -> Result<Line, Fault> {
         return Err(Fault { at: text.trim_end().len(), message });
     }
     let receiver = Receiver::new(DVec3::new(x, y, z), DVec3::new(nx, ny, nz));
-    receiver.map(Line::Point).map_err(|error| match error {
-        InvalidReceiver::NoNormal => Fault { at: words[3].0, message: error.to_string() },
-        InvalidReceiver::NotFinite => Fault { at: words[0].0, message: error.to_string() },
+    receiver.map(Line::Point).map_err(|error| {
+        let word = if error == InvalidReceiver::NoNormal { 3 } else { 0 };
+        Fault { at: words[word].0, message: error.to_string() }
     })
 }
 

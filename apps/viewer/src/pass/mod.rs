@@ -145,7 +145,8 @@ impl Seen<'_> {
         let size = self.film.size();
         let (across, down) = (f64::from(x) + 0.5, f64::from(y) + 0.5);
         let ray = self.view.camera.ray(across, down, size.width, size.height);
-        let hit = self.snapshot.nearest(&self.snapshot.own_ray(&ray), catoptra_core::Span::AHEAD, None)?;
+        let hit =
+            self.snapshot.nearest_in_frame(&self.snapshot.own_ray(&ray), catoptra_core::Span::AHEAD, None)?;
         let leans_away = hit.crossing.normal.dot(ray.direction) > 0.0;
         let side = if leans_away { -1.0 } else { 1.0 };
         let entity = self.snapshot.entities()[hit.surface.prim as usize];

@@ -45,7 +45,7 @@ fn under(viewer: &Viewer, ids: &[EntityId], (x, y): (f64, f64)) -> Option<(DVec3
     let own = snapshot.own_ray(&ray);
     let mut span = Span::AHEAD;
     for _ in 0..MOST {
-        let hit = snapshot.nearest(&own, span, None)?;
+        let hit = snapshot.nearest_in_frame(&own, span, None)?;
         let entity = snapshot.entities()[hit.surface.prim as usize];
         if !ids.iter().any(|id| scene.lies_in(entity, *id)) {
             let normal = hit.crossing.normal;

@@ -17,6 +17,16 @@ use crate::{InvalidPart, Kind, Part, Placement, Ray};
 use part::{FOCUS, FOV, HEIGHT, LENS_RADIUS};
 
 /// A camera: every ray starts at the eye, on a lens round it or, for parallel rays, on the plane through it across the view.
+///
+/// ```
+/// use catoptra_core::{Camera, glam::DVec3};
+///
+/// let camera = Camera::look_at(DVec3::new(0.0, 2.0, 6.0), DVec3::Y, DVec3::Y, 40.0_f64.to_radians())?;
+/// // Through the middle of a picture of 640 x 480 pixels it looks at its target.
+/// let ray = camera.ray(320.0, 240.0, 640, 480);
+/// assert!((ray.direction.normalize() - (DVec3::Y - ray.origin).normalize()).length() < 1e-12);
+/// # Ok::<(), catoptra_core::InvalidPart>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
     eye: DVec3,

@@ -54,6 +54,26 @@ impl Polyhedron {
     }
 }
 
+impl Polyhedron {
+    /// The hull of points, at least four that do not lie in a plane.
+    ///
+    /// # Errors
+    /// Points that are not finite, and too few to enclose anything.
+    pub fn of_points(points: impl IntoIterator<Item = DVec3>) -> Result<Self, InvalidPart> {
+        let rows = Rows::of(points.into_iter().map(|point| point.to_array()));
+        crate::part::make(&Values::new().with(POINT, Value::Rows(rows)))
+    }
+
+    /// What lies behind all of some planes: for each its outward normal, and how far it lies along that, in lengths of the normal.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, and planes that enclose nothing.
+    pub fn of_planes(planes: impl IntoIterator<Item = (DVec3, f64)>) -> Result<Self, InvalidPart> {
+        let rows = Rows::of(planes.into_iter().map(|(normal, along)| normal.extend(along).to_array()));
+        crate::part::make(&Values::new().with(PLANE, Value::Rows(rows)))
+    }
+}
+
 impl Part for Polyhedron {
     const NAME: &'static str = "polyhedron";
     const DOC: &'static str = "The convex solid between points or planes.";

@@ -18,6 +18,20 @@ use crate::{Aabb, InvalidPart, Ray, Rgb};
 /// Triangles without area are kept (ids stay those of the file) and are never hit. The outer side is that from which corners
 /// run anticlockwise; where there are normals it is theirs: a triangle that is wound against the sum of its three is kept
 /// with two corners swapped, as files of mirrored things have them.
+///
+/// ```
+/// use std::sync::Arc;
+///
+/// use catoptra_core::{MeshSource, TriangleMesh, geometry::Mesh};
+///
+/// let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+/// let square = TriangleMesh::new(corners, vec![[0, 1, 2], [0, 2, 3]], None, None)?;
+/// assert!(square.open_edge().is_some(), "it encloses nothing");
+/// // A shape for scenes; several share the triangles.
+/// let shape = Mesh::new(MeshSource { path: String::new(), mesh: Arc::new(square) });
+/// # let _ = shape;
+/// # Ok::<(), catoptra_core::InvalidPart>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct TriangleMesh {
     positions: Vec<[f32; 3]>,

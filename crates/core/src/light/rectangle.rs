@@ -5,7 +5,7 @@ use super::{Arrival, Emitter, LightVisitor, nothing_arrives};
 use crate::geometry::{Geometry, Rectangle};
 use crate::lane::Constant3;
 use crate::part::Given;
-use crate::{Field, InvalidPart, Lane, Part, Placement, Triple, Value, Values};
+use crate::{Field, InvalidPart, Lane, Part, Placement, Rgb, Triple, Value, Values};
 
 /// A rectangle that shines along edge-u × edge-v.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +15,14 @@ pub struct RectangleLight {
 }
 
 impl RectangleLight {
+    /// A surface of one radiance, W/(m²·sr) per channel; [`with`](Part::with)`("power", …)` gives its power instead.
+    ///
+    /// # Errors
+    /// A channel that is negative or not finite.
+    pub fn new(surface: &Rectangle, radiance: Rgb) -> Result<Self, InvalidPart> {
+        crate::part::make(&surface.values().with("radiance", Value::Color(radiance)))
+    }
+
     /// Its surface.
     #[must_use]
     pub fn surface(&self) -> &Rectangle {

@@ -7,7 +7,7 @@ use super::{Arrival, Emitter, LightVisitor, nothing_arrives};
 use crate::geometry::{Geometry, Sphere};
 use crate::lane::Constant3;
 use crate::part::Given;
-use crate::{Field, InvalidPart, Lane, Part, Placement, Triple, Value, Values};
+use crate::{Field, InvalidPart, Lane, Part, Placement, Rgb, Triple, Value, Values};
 
 /// A sphere that shines to its outside.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +17,14 @@ pub struct SphereLight {
 }
 
 impl SphereLight {
+    /// A surface of one radiance, W/(m²·sr) per channel; [`with`](Part::with)`("power", …)` gives its power instead.
+    ///
+    /// # Errors
+    /// A channel that is negative or not finite.
+    pub fn new(surface: &Sphere, radiance: Rgb) -> Result<Self, InvalidPart> {
+        crate::part::make(&surface.values().with("radiance", Value::Color(radiance)))
+    }
+
     /// Its surface.
     #[must_use]
     pub fn surface(&self) -> &Sphere {

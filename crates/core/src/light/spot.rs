@@ -37,6 +37,44 @@ struct Bare {
 }
 
 impl SpotLight {
+    /// At `position`, its axis along `direction` (of any length), with an intensity in W/sr per channel that is full within
+    /// the inner cone and gone beyond the outer; `[inner, outer]` are their full angles, radians.
+    ///
+    /// ```
+    /// use catoptra_core::{Rgb, glam::DVec3, light::SpotLight};
+    ///
+    /// let light = SpotLight::new(DVec3::Y * 3.0, DVec3::NEG_Y, Rgb::grey(60.0), [0.4, 0.7])?.with_falloff(2.0)?;
+    /// assert_eq!(light.falloff(), 2.0);
+    /// # Ok::<(), catoptra_core::InvalidPart>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A position or direction that is not finite, a direction of zero, a channel that is negative or not finite, angles
+    /// that are negative, not in order, or more than a full turn.
+    pub fn new(
+        position: DVec3,
+        direction: DVec3,
+        intensity: Rgb,
+        [inner, outer]: [f64; 2],
+    ) -> Result<Self, InvalidPart> {
+        crate::part::make(
+            &Values::new()
+                .with("position", Value::Vector(position))
+                .with("direction", Value::Vector(direction))
+                .with("intensity", Value::Color(intensity))
+                .with("inner", Value::Number(inner))
+                .with("outer", Value::Number(outer)),
+        )
+    }
+
+    /// With another exponent of the falloff between the cones.
+    ///
+    /// # Errors
+    /// One that is negative or not finite.
+    pub fn with_falloff(&self, falloff: f64) -> Result<Self, InvalidPart> {
+        self.with("falloff", falloff)
+    }
+
     /// Full angle of the inner cone, radians.
     #[must_use]
     pub fn inner(&self) -> f64 {
@@ -255,14 +293,7 @@ mod tests {
     }
 
     fn spot(direction: DVec3, outer: f64) -> SpotLight {
-        let values = Values::new()
-            .with("position", Value::Vector(DVec3::ZERO))
-            .with("direction", Value::Vector(direction))
-            .with("intensity", Value::Color(crate::Rgb::WHITE))
-            .with("inner", Value::Number(0.0))
-            .with("outer", Value::Number(outer))
-            .with("falloff", Value::Number(1.0));
-        crate::part::make(&values).unwrap()
+        SpotLight::new(DVec3::ZERO, direction, Rgb::WHITE, [0.0, outer]).unwrap()
     }
 
     proptest! {

@@ -21,6 +21,16 @@ pub struct Glass {
     priority: u32,
 }
 
+impl Glass {
+    /// Clear, of an index of refraction; [`with`](Part::with) sets its `tint`, `tint-distance`, `roughness`, `thin` and `priority`.
+    ///
+    /// # Errors
+    /// An index that is not positive and finite.
+    pub fn new(ior: f64) -> Result<Self, InvalidPart> {
+        crate::part::make(&Values::new().with("ior", Value::Number(ior)))
+    }
+}
+
 impl Part for Glass {
     const NAME: &'static str = "glass";
     const DOC: &'static str = "Clear matter that mirrors, bends and absorbs light.";

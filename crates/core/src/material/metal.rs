@@ -77,6 +77,17 @@ impl Metal {
     }
 }
 
+impl Metal {
+    /// Of a reflectance at normal incidence; [`with`](Part::with) sets its `roughness` and `edge`, or a `preset` such as `"gold"` in place
+    /// of the colour.
+    ///
+    /// # Errors
+    /// A channel outside 0..=1.
+    pub fn new(color: Rgb) -> Result<Self, InvalidPart> {
+        crate::part::make(&Values::new().with("color", Value::Color(color)))
+    }
+}
+
 impl Part for Metal {
     const NAME: &'static str = "metal";
     const DOC: &'static str = "Metal, polished or rough, by colour or by name.";

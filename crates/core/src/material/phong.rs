@@ -21,6 +21,17 @@ const MODELS: [PhongModel; 2] = [PhongModel::Classic, PhongModel::Normalised];
 /// The words for them.
 const MODEL_WORDS: &[&str] = &["classic", "normalised"];
 
+impl Phong {
+    /// Of a diffuse albedo, with a white highlight; [`with`](Part::with) sets its `specular`, `shininess`, `ambient`,
+    /// `model` and `reflectiveness`.
+    ///
+    /// # Errors
+    /// A channel outside 0..=1.
+    pub fn new(diffuse: Rgb) -> Result<Self, InvalidPart> {
+        crate::part::make(&Values::new().with("diffuse", Value::Color(diffuse)))
+    }
+}
+
 impl Part for Phong {
     const NAME: &'static str = "phong";
     const DOC: &'static str = "A glossy surface with ambient, diffuse and specular parts.";

@@ -18,6 +18,16 @@ pub struct Plastic {
     roughness: Level,
 }
 
+impl Plastic {
+    /// Of a colour below its surface; [`with`](Part::with) sets its `ior` and `roughness`.
+    ///
+    /// # Errors
+    /// A channel outside 0..=1.
+    pub fn new(color: Rgb) -> Result<Self, InvalidPart> {
+        crate::part::make(&Values::new().with("color", Value::Color(color)))
+    }
+}
+
 impl Part for Plastic {
     const NAME: &'static str = "plastic";
     const DOC: &'static str = "Colour under a clear surface, shiny or satin.";

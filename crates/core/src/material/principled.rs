@@ -35,6 +35,16 @@ const fn color(name: &'static str, doc: &'static str) -> Field {
 const NONE: fn() -> Value = || Value::Number(0.0);
 const ALL: fn() -> Value = || Value::Number(1.0);
 
+impl Principled {
+    /// Of a base colour; [`with`](Part::with) sets all its other fields, which are those of scene text.
+    ///
+    /// # Errors
+    /// A channel outside 0..=1.
+    pub fn new(base_color: Rgb) -> Result<Self, InvalidPart> {
+        crate::part::make(&Values::new().with("base-color", Value::Color(base_color)))
+    }
+}
+
 impl Part for Principled {
     const NAME: &'static str = "principled";
     const DOC: &'static str = "Metal, glass, plastic or cloth, by the parameters of glTF and OpenPBR.";

@@ -21,6 +21,16 @@ pub struct Rubber {
 /// plastic.
 const IOR: f64 = 1.5;
 
+impl Rubber {
+    /// Of a colour below its surface; [`with`](Part::with) sets its `roughness`.
+    ///
+    /// # Errors
+    /// A channel outside 0..=1.
+    pub fn new(color: Rgb) -> Result<Self, InvalidPart> {
+        crate::part::make(&Values::new().with("color", Value::Color(color)))
+    }
+}
+
 impl Part for Rubber {
     const NAME: &'static str = "rubber";
     const DOC: &'static str = "A rough matte colour with a faint shine.";

@@ -129,6 +129,19 @@ impl<T> Kind<T> {
 }
 
 /// A part of a scene that describes itself.
+///
+/// Its constructors take what has no default; [`with`](Self::with) sets all else by the names of scene text:
+///
+/// ```
+/// use catoptra_core::{Part, Rgb, material::Phong};
+///
+/// let red = Phong::new(Rgb::new(0.8, 0.1, 0.1))?.with("shininess", 40.0)?.with("reflectiveness", 0.2)?;
+/// assert!(red.with("shinyness", 1.0).is_err(), "no such field");
+/// # Ok::<(), catoptra_core::InvalidPart>(())
+/// ```
+///
+/// Which kinds of parts there are is closed: shapes, materials, lights and textures are lists of this crate, since the tracer
+/// has code of its own for each in its inner loops. A new kind is one file and one line here, and none elsewhere.
 pub trait Part: Sized {
     /// Its word in scene text.
     const NAME: &'static str;
@@ -145,13 +158,33 @@ pub trait Part: Sized {
 
     /// Its values by name: what [`make`](Self::make) makes an equal part from.
     fn values(&self) -> Values;
+
+    /// The same part with one value changed, or given in place of the one that the field stands
+    /// [instead of](Field::instead_of).
+    ///
+    /// # Errors
+    /// A field that the part has not, or a value that it refuses.
+    fn with(&self, field: &'static str, value: impl Into<Value>) -> Result<Self, InvalidPart> {
+        let instead_of = Self::FIELDS.iter().find(|known| known.name == field).and_then(|f| f.instead_of);
+        let values = match instead_of {
+            Some(other) => self.values().without(other),
+            None => self.values(),
+        };
+        make(&values.with(field, value.into()))
+    }
 }
 
 /// Makes a part from values: the work of [`Kind::make`].
 ///
 /// # Errors
-/// A value that is missing, of the wrong sort, or refused.
+/// A value that is missing, of the wrong sort, or refused, and one whose name is that of no field.
 pub fn make<P: Part>(values: &Values) -> Result<P, InvalidPart> {
+    if let Some((name, _)) = values.iter().find(|(name, _)| P::FIELDS.iter().all(|field| field.name != *name))
+    {
+        let known: Vec<&str> = P::FIELDS.iter().map(|field| field.name).collect();
+        let unknown = InvalidPart::new(name, format!("must be a field of {}", P::NAME), "unknown");
+        return Err(unknown.with_hint(format!("its fields are: {}", known.join(", "))));
+    }
     P::make(&Given { fields: P::FIELDS, values })
 }
 
@@ -205,21 +238,16 @@ macro_rules! parts {
                 match self { $(Self::$variant(part) => $crate::Part::values(part)),+ }
             }
 
-            /// The same part with one value changed, or given in place of the one that the field stands
-            /// [instead of](crate::Field::instead_of).
+            /// See [`Part::with`]($crate::Part::with).
             ///
             /// # Errors
             /// A field that the kind has not, or a value that it refuses.
-            pub fn with(&self, field: &'static str, value: $crate::Value) -> Result<Self, $crate::InvalidPart> {
-                let kind = self.kind();
-                let Some(changed) = kind.field(field) else {
-                    return Err($crate::InvalidPart::new(field, format!("must be a field of {}", kind.name), "unknown"));
-                };
-                let values = match changed.instead_of {
-                    Some(other) => self.values().without(other),
-                    None => self.values(),
-                };
-                (kind.make)(&values.with(field, value))
+            pub fn with(
+                &self,
+                field: &'static str,
+                value: impl Into<$crate::Value>,
+            ) -> Result<Self, $crate::InvalidPart> {
+                match self { $(Self::$variant(part) => $crate::Part::with(part, field, value).map(Self::$variant)),+ }
             }
         }
 

@@ -129,6 +129,42 @@ pub enum Value {
     Textured(Box<Textured>),
 }
 
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<DVec3> for Value {
+    fn from(vector: DVec3) -> Self {
+        Self::Vector(vector)
+    }
+}
+
+impl From<DVec2> for Value {
+    fn from(pair: DVec2) -> Self {
+        Self::Pair(pair)
+    }
+}
+
+impl From<Rgb> for Value {
+    fn from(color: Rgb) -> Self {
+        Self::Color(color)
+    }
+}
+
+impl From<bool> for Value {
+    fn from(flag: bool) -> Self {
+        Self::Flag(flag)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(word: &str) -> Self {
+        Self::Word(word.to_owned())
+    }
+}
+
 impl Value {
     /// The same value, times a texture.
     #[must_use]

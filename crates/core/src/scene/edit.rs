@@ -6,6 +6,7 @@ use crate::{Camera, Finish, Light, Material, Operation, Placement, Shape, Textur
 /// One change to a [`Scene`](super::Scene). [`Scene::apply`](super::Scene::apply) does it and answers with the
 /// edit that takes it back.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Edit {
     /// Puts an entity with its members into the scene. Its inverse is `Remove` with the new entity's id.
     Insert(Box<Subtree>),
@@ -91,6 +92,7 @@ pub struct Change {
 
 /// What a [`Change`] is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Subject {
     /// A shape, light, camera or group. When a group is placed anew only the group is named: its members keep
     /// their own placements, yet stand elsewhere in the world.
@@ -105,6 +107,7 @@ pub enum Subject {
 
 /// What about something was changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum ChangeKind {
     /// It is new, or has come back. Members that came with their group have lines of their own.
     Added,

@@ -1,6 +1,7 @@
 //! Why is an edit of a scene refused?
 
 use super::{EntityId, MaterialId, Role, Scene, TextureId};
+use crate::InvalidPart;
 
 /// Why a [`Scene`] refused an edit; the scene is then exactly as it was before.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -88,6 +89,9 @@ pub enum SceneError {
     /// Groups inside groups inside groups, further than a scene allows.
     #[error("\"{0}\" would lie inside more than {max} groups", max = Scene::MAX_DEPTH)]
     TooDeep(String),
+    /// A place that nothing can be put at.
+    #[error(transparent)]
+    Placement(#[from] InvalidPart),
     /// A material that shapes still wear cannot be removed.
     #[error("the material \"{material}\" is in use by \"{shape}\"{}", and_others(*.others, "shape"))]
     MaterialInUse {

@@ -8,6 +8,18 @@ use super::{Edit, EntityId, MaterialId, Scene, SceneError, TextureId};
 ///
 /// A history belongs to one scene, and all edits to be undone go through it. Every state has a number of its own,
 /// by which the history knows whether the present one was saved.
+///
+/// ```
+/// use catoptra_core::{Edit, History, Rgb, Scene, Settings};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let (mut scene, mut history) = (Scene::new(), History::new());
+/// history.apply(&mut scene, Edit::Settings(Settings::new(Rgb::WHITE, 3)?))?;
+/// assert!(history.undo(&mut scene) && scene.settings().background() == Rgb::BLACK);
+/// assert!(history.redo(&mut scene) && scene.settings().background() == Rgb::WHITE);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct History {
     done: Vec<Step>,

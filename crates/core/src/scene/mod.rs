@@ -18,6 +18,7 @@ mod history;
 mod ids;
 mod integrator;
 mod library;
+mod moving;
 mod node;
 mod painting;
 mod query;
@@ -46,6 +47,25 @@ use library::Library;
 use painting::Worn;
 
 /// Shapes, lights, cameras, groups, materials, textures and settings, and a log of how they were changed.
+///
+/// ```
+/// use catoptra_core::{Edit, Rgb, Scene, geometry::Sphere, glam::DVec3, light::PointLight, material::Matte};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let mut scene = Scene::new();
+/// let clay = scene.add_material("clay", Matte::new(Rgb::new(0.8, 0.5, 0.3))?)?;
+/// let ball = scene.add_shape("ball", Sphere::new(DVec3::ZERO, 1.0)?, clay, None)?;
+/// scene.add_light("lamp", PointLight::new(DVec3::Y * 3.0, Rgb::grey(50.0))?, None)?;
+/// assert_eq!(scene.entity_named("ball"), Some(ball));
+///
+/// // Every change is an edit, and answers with the edit that takes it back.
+/// let back = scene.apply(Edit::Remove(ball))?;
+/// assert!(!scene.contains(ball));
+/// scene.apply(back)?;
+/// assert!(scene.contains(ball));
+/// # Ok(())
+/// # }
+/// ```
 pub struct Scene {
     world: hecs::World,
     entities: BTreeMap<EntityId, hecs::Entity>,

@@ -2,11 +2,11 @@
 
 use catoptra_core::geometry::{Plane, Sphere};
 use catoptra_core::glam::DVec3;
-use catoptra_core::light::{AmbientLight, DirectionalLight, PointLight};
+use catoptra_core::light::{AmbientLight, DirectionalLight, PointLight, SpotLight};
 use catoptra_core::material::Matte;
 use catoptra_core::{Camera, Edit, MaterialId, Node, Placement, Rgb, Scene, Shape};
 
-use super::{NoScene, ball_mesh, spot};
+use super::{NoScene, ball_mesh};
 
 /// How far the lights of [`many_lights`] reach.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,7 +39,7 @@ pub fn many_lights(count: u32, reach: Reach) -> Result<Scene, NoScene> {
             scene.add_light(&name, lamp, None)?;
         } else {
             let outer = 2.0 * (0.75 * cell / 4.0).atan();
-            let lamp = spot(above, -DVec3::Y, Rgb::grey(30.0), [0.8 * outer, outer])?;
+            let lamp = SpotLight::new(above, -DVec3::Y, Rgb::grey(30.0), [0.8 * outer, outer])?;
             scene.add_light(&name, lamp, None)?;
         }
     }

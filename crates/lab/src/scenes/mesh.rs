@@ -5,12 +5,11 @@ use std::sync::Arc;
 
 use catoptra_core::geometry::{Mesh, Plane};
 use catoptra_core::glam::DVec3;
-use catoptra_core::light::{AmbientLight, DirectionalLight, PointLight};
+use catoptra_core::light::{AmbientLight, DirectionalLight, PointLight, SpotLight};
 use catoptra_core::material::{Matte, Phong};
-use catoptra_core::part::make;
-use catoptra_core::{Camera, Edit, MeshSource, Node, Placement, Rgb, Scene, TriangleMesh, Value, Values};
+use catoptra_core::{Camera, Edit, MeshSource, Node, Part, Placement, Rgb, Scene, TriangleMesh};
 
-use super::{NoScene, spot};
+use super::NoScene;
 
 /// A ball of radius 1 with waves on it, of `2 * rings * rings` triangles, some thin and some nearly even; it is closed.
 ///
@@ -51,11 +50,8 @@ pub fn ball_mesh(rings: u32) -> Mesh {
 pub fn placed_mesh(rings: u32) -> Result<Scene, NoScene> {
     let mut scene = Scene::new();
     let clay = scene.add_material("clay", Matte::new(Rgb::new(0.7, 0.5, 0.4))?)?;
-    let shiny = Values::new()
-        .with("diffuse", Value::Color(Rgb::grey(0.5)))
-        .with("specular", Value::Color(Rgb::grey(0.5)))
-        .with("reflectiveness", Value::Number(0.3));
-    let shiny = scene.add_material("shiny", make::<Phong>(&shiny)?)?;
+    let shiny = Phong::new(Rgb::grey(0.5))?.with("specular", Rgb::grey(0.5))?.with("reflectiveness", 0.3)?;
+    let shiny = scene.add_material("shiny", shiny)?;
     let mesh = ball_mesh(rings);
     let turn = |by: DVec3, angle: f64, factor: f64| {
         let turned =
@@ -71,7 +67,7 @@ pub fn placed_mesh(rings: u32) -> Result<Scene, NoScene> {
     scene.add_light("sky", AmbientLight::new(Rgb::grey(0.1))?, None)?;
     scene.add_light("lamp", PointLight::new(DVec3::new(3.0, 6.0, 4.0), Rgb::grey(90.0))?, None)?;
     let (from, to) = (DVec3::new(-4.0, 5.0, 3.0), DVec3::new(-1.0, 1.4, 0.0));
-    scene.add_light("spot", spot(from, to - from, Rgb::grey(60.0), [0.4, 0.7])?, None)?;
+    scene.add_light("spot", SpotLight::new(from, to - from, Rgb::grey(60.0), [0.4, 0.7])?, None)?;
     let camera = Camera::look_at(DVec3::new(0.3, 2.6, 6.1), DVec3::new(0.1, 1.2, 0.0), DVec3::Y, 0.8)?;
     scene.add_camera("eye", camera, None)?;
     Ok(scene)

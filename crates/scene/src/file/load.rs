@@ -3,14 +3,17 @@
 use std::fs::{File, Metadata};
 use std::io::{IsTerminal, Read};
 use std::path::Path;
+use std::sync::Arc;
 
 use catoptra_core::scene::Scene;
+use catoptra_core::{Cancelled, Control};
 
 use super::{SceneFile, Wording};
 use crate::build::{self, Built};
 use crate::read::{self, Files, LONGEST};
 use crate::report::{Complaints, SceneTextError};
 use crate::slip::{self, Mended};
+use crate::watch::Watch;
 use crate::{atomic, bare, foreign, model};
 
 /// Reads a scene file, or a model file as a scene of its own: with a view of it and light where it has none, and with no
@@ -20,6 +23,35 @@ use crate::{atomic, bare, foreign, model};
 /// # Errors
 /// A file that cannot be read or is no valid scene, with all that is wrong in it.
 pub fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
+    load_watched(path, &Watch::default())
+}
+
+/// As [`load`], telling `control` which share of the text is read with the meshes, models and pictures that it names; a cancelled
+/// one stops before the next file.
+///
+/// # Errors
+/// As for [`load`], and [`LoadError::Cancelled`] when `control` said so.
+pub fn load_unless_cancelled(path: &Path, control: &Arc<Control>) -> Result<(Scene, SceneFile), LoadError> {
+    let loaded = load_watched(path, &Watch::by(control));
+    control.check()?;
+    let (scene, mut file) = loaded?;
+    file.files.watch = Watch::default();
+    Ok((scene, file))
+}
+
+/// Why there is no scene.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LoadError {
+    /// The file is no scene.
+    #[error(transparent)]
+    Scene(#[from] SceneTextError),
+    /// It was asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+fn load_watched(path: &Path, watch: &Watch) -> Result<(Scene, SceneFile), SceneTextError> {
     let unreadable = |cause| SceneTextError::unreadable(path, &cause);
     let found = std::fs::metadata(path).map_err(unreadable)?;
     if found.is_dir() {
@@ -32,11 +64,11 @@ pub fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
     let is_named_scene = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("kdl"));
     let is_model = model::is_named_so(path) || (!is_named_scene && model::begins_as_one(path));
     if found.is_file() && is_model {
-        return bare::load(path);
+        return bare::load(path, watch);
     }
     let lies_in_folder = found.is_file() && !atomic::is_descriptor(path);
     let base = path.parent().filter(|_| lies_in_folder).unwrap_or(Path::new(""));
-    let (scene, mut file) = load_from(input, path, base)?;
+    let (scene, mut file) = load_from_watched(input, path, base, watch)?;
     file.path = Some(path.to_owned());
     file.stored.clone_from(&file.now.text);
     Ok((scene, file))
@@ -48,6 +80,15 @@ pub fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
 /// # Errors
 /// As for [`load`].
 pub fn load_from(input: impl Read, name: &Path, base: &Path) -> Result<(Scene, SceneFile), SceneTextError> {
+    load_from_watched(input, name, base, &Watch::default())
+}
+
+fn load_from_watched(
+    input: impl Read,
+    name: &Path,
+    base: &Path,
+    watch: &Watch,
+) -> Result<(Scene, SceneFile), SceneTextError> {
     let mut bytes = Vec::new();
     let read = input.take(LONGEST as u64 + 1).read_to_end(&mut bytes);
     read.map_err(|cause| SceneTextError::unreadable(name, &cause))?;
@@ -60,7 +101,7 @@ pub fn load_from(input: impl Read, name: &Path, base: &Path) -> Result<(Scene, S
     }
     let name = name.display().to_string();
     let text = String::from_utf8(bytes).map_err(|e| not_utf8(&e, &name))?;
-    parse(&text, &name, Some(base))
+    parse_with(&text, &name, Files::new(Some(base)).watched(watch))
 }
 
 #[cfg(unix)]
@@ -79,6 +120,20 @@ fn is_device(_found: &Metadata) -> bool {
 ///
 /// # Errors
 /// Text that is no valid scene, with all that is wrong in it.
+///
+/// ```
+/// let text = r#"
+/// matte "red" { color 0.8 0.1 0.1 }
+/// sphere "ball" material="red" { radius 1 }
+/// "#;
+/// let (scene, _) = catoptra_scene::parse(text, "example", None)?;
+/// assert!(scene.entity_named("ball").is_some());
+///
+/// // What is wrong is told with its place and what to write instead.
+/// let error = catoptra_scene::parse("spere \"ball\"", "example", None).err().ok_or("no error")?;
+/// assert!(error.to_string().contains("spere"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn parse(text: &str, name: &str, base: Option<&Path>) -> Result<(Scene, SceneFile), SceneTextError> {
     parse_with(text, name, Files::new(base))
 }

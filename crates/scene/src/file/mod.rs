@@ -19,7 +19,7 @@ use crate::printable;
 use crate::read::Files;
 use crate::repeated::Repeated;
 pub(crate) use load::parse_with;
-pub use load::{load, load_from, parse};
+pub use load::{LoadError, load, load_from, load_unless_cancelled, parse};
 
 /// The text of a scene, kept so that saving changes only what has changed.
 ///

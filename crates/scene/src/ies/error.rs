@@ -18,9 +18,9 @@ pub struct Place {
 }
 
 /// An IES file that cannot be used. Reads `lamp.ies:12:7: …`, or `lamp.ies: …` where the whole file is meant.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[derive(Debug, thiserror::Error)]
+#[cfg_attr(feature = "text", derive(miette::Diagnostic), diagnostic(code(catoptra::ies)))]
 #[error("{}{}: {}", printable(&path.to_string_lossy()), at(*place), brief(message, LONGEST))]
-#[diagnostic(code(catoptra::ies))]
 pub struct ProfileError {
     path: PathBuf,
     place: Option<Place>,

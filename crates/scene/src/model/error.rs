@@ -21,9 +21,9 @@ pub enum Place {
 }
 
 /// A model file that cannot be used. Reads `bunny.ply:12: …` or `bunny.ply, byte 1024: …`.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[derive(Debug, thiserror::Error)]
+#[cfg_attr(feature = "text", derive(miette::Diagnostic), diagnostic(code(catoptra::model)))]
 #[error("{}{}: {}", printable(&path.to_string_lossy()), place, brief(message, LONGEST))]
-#[diagnostic(code(catoptra::model))]
 pub struct ModelError {
     path: PathBuf,
     place: Place,

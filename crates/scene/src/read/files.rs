@@ -7,6 +7,7 @@ use std::sync::Arc;
 use catoptra_core::{Image, ImageSource, IntensityProfile, MeshSource, ProfileSource, TriangleMesh, Value};
 
 use crate::instance::{self, ModelSource};
+use crate::watch::Watch;
 use crate::{ies, image, model};
 
 /// The files of one scene, by the path that the text names, and why some cannot be had.
@@ -19,6 +20,8 @@ pub(crate) struct Files {
     models: Known<model::Model>,
     /// What of meshes is not shown as their files mean it.
     mesh_warnings: HashMap<String, Vec<model::Warning>>,
+    /// Asked before each file is read.
+    pub(crate) watch: Watch,
 }
 
 /// What is known of files of one kind.
@@ -35,6 +38,11 @@ impl Files {
         self.base.as_deref().unwrap_or(Path::new(""))
     }
 
+    /// The same files, read under somebody's eyes.
+    pub(crate) fn watched(self, watch: &Watch) -> Self {
+        Self { watch: watch.clone(), ..self }
+    }
+
     /// The mesh at `path`, read now or before.
     pub(crate) fn mesh(&mut self, path: &str) -> Result<MeshSource, String> {
         if !self.meshes.contains_key(path)
@@ -45,7 +53,7 @@ impl Files {
             self.meshes.insert(path.to_owned(), Ok(found));
         }
         let mut warnings = Vec::new();
-        let mesh = get(&mut self.meshes, self.base.as_deref(), path, |file| {
+        let mesh = get(&mut self.meshes, (self.base.as_deref(), &self.watch), path, |file| {
             let (mesh, found) = model::read_mesh_with_warnings(file)?;
             warnings = found;
             Ok::<_, model::ModelError>(Arc::new(mesh))
@@ -58,8 +66,9 @@ impl Files {
 
     /// The intensity profile at `path`, read now or before.
     pub(crate) fn profile(&mut self, path: &str) -> Result<ProfileSource, String> {
-        let profile =
-            get(&mut self.profiles, self.base.as_deref(), path, |file| ies::read(file).map(Arc::new))?;
+        let profile = get(&mut self.profiles, (self.base.as_deref(), &self.watch), path, |file| {
+            ies::read(file).map(Arc::new)
+        })?;
         Ok(ProfileSource { path: path.to_owned(), profile })
     }
 
@@ -72,14 +81,15 @@ impl Files {
             let found = instance::image_named(&source.model, name).map_err(|e| format!("{file}: {e}"))?;
             self.images.insert(path.to_owned(), Ok(found));
         }
-        let image = get(&mut self.images, self.base.as_deref(), path, image::load)?;
+        let image = get(&mut self.images, (self.base.as_deref(), &self.watch), path, image::load)?;
         Ok(ImageSource { path: path.to_owned(), image })
     }
 
     /// The model at `path`, read now or before.
     pub(crate) fn model(&mut self, path: &str) -> Result<ModelSource, String> {
-        let model =
-            get(&mut self.models, self.base.as_deref(), path, |file| model::read(file).map(Arc::new))?;
+        let model = get(&mut self.models, (self.base.as_deref(), &self.watch), path, |file| {
+            model::read(file).map(Arc::new)
+        })?;
         Ok(ModelSource { path: path.to_owned(), model })
     }
 
@@ -151,7 +161,7 @@ impl Files {
 
 fn get<T, E: ToString>(
     known: &mut Known<T>,
-    base: Option<&Path>,
+    (base, watch): (Option<&Path>, &Watch),
     path: &str,
     read: impl FnOnce(&Path) -> Result<Arc<T>, E>,
 ) -> Result<Arc<T>, String> {
@@ -161,6 +171,7 @@ fn get<T, E: ToString>(
     let Some(file) = place(base, path) else {
         return Err(format!("{path}: the scene lies in no folder from which to find it"));
     };
+    watch.check()?;
     let found = read(&file).map_err(|e| e.to_string());
     known.insert(path.to_owned(), found.clone());
     found

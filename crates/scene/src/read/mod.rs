@@ -53,9 +53,12 @@ pub(crate) fn read(
         Ok(document) => {
             let textures = textures.unwrap_or_else(|| paint::textures_of(&document, files));
             outline.textures.clone_from(&textures);
+            let watch = files.watch.clone();
+            watch.start(text.len());
             let mut reader = Reader { text, files, complaints, textures: &textures, outline: &mut outline };
             for node in document.nodes() {
                 reader.read_node(node, None);
+                watch.advance(node.span().len());
             }
         }
         Err(error) => syntax(text, &error, complaints),

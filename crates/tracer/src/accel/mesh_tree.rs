@@ -6,8 +6,8 @@ use catoptra_core::TriangleMesh;
 
 use super::grow::grow;
 use super::{Preset, WideTree};
-use crate::Pool;
 use crate::numeric::magnitude_of;
+use crate::{Control, Pool};
 
 /// A triangle mesh and a tree of boxes over its triangles, in the mesh's own space.
 #[derive(Debug)]
@@ -22,8 +22,18 @@ impl MeshTree {
     /// Builds the tree on the threads of `pool`; it does not depend on how many there are.
     #[must_use]
     pub fn build(mesh: &Arc<TriangleMesh>, preset: Preset, pool: &Pool) -> Self {
+        Self::build_unless_cancelled(mesh, preset, pool, &Control::default())
+    }
+
+    /// As [`build`](Self::build), telling `control` of each triangle; what comes of it once that is cancelled holds none.
+    pub(crate) fn build_unless_cancelled(
+        mesh: &Arc<TriangleMesh>,
+        preset: Preset,
+        pool: &Pool,
+        control: &Control,
+    ) -> Self {
         let reach = mesh.bounds().corners().map(magnitude_of).into_iter().fold(0.0, f32::max);
-        Self { mesh: Arc::clone(mesh), tree: grow(mesh, preset, pool), reach }
+        Self { mesh: Arc::clone(mesh), tree: grow(mesh, preset, pool, control), reach }
     }
 
     /// The mesh.

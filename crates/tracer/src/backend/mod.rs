@@ -6,11 +6,17 @@ mod oracle;
 mod scalar;
 mod wide;
 
+use sealed::Sealed;
+
 use crate::rays::{HitSlice, RaySlice};
 use crate::{Frame, Snapshot, Stats, Tile, View};
 
 /// Traces tiles of a frame.
-pub trait Backend: Send + Sync {
+///
+/// Backends are those of this crate: the trait is sealed, since a backend works on the tracer's own columns and writes tiles
+/// that keep promises to each other. [`query`](crate::query) and [`Caster`](crate::Caster) answer single rays for
+/// integrators that live elsewhere.
+pub trait Backend: sealed::Sealed + Send + Sync {
     /// Its name on the command line.
     fn name(&self) -> &'static str;
 
@@ -34,6 +40,12 @@ pub trait Backend: Send + Sync {
     fn find_occluded(&self, snapshot: &Snapshot, rays: RaySlice<'_>, occluded: &mut [bool]) -> Stats {
         rays.ask(snapshot, occluded, |segment| snapshot.is_occluded_on(segment))
     }
+}
+
+/// Keeps the trait to this crate.
+mod sealed {
+    /// What only this crate's backends are.
+    pub trait Sealed {}
 }
 
 const BACKENDS: &[&dyn Backend] = &[&wide::Wide, &scalar::Scalar, &oracle::Oracle];

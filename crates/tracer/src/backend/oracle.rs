@@ -1,12 +1,14 @@
 //! The reference backend: every ray against every shape and triangle, in `f64`, without trees.
 
-use super::Backend;
+use super::{Backend, Sealed};
 use crate::integrator::{Exhaustive, trace_pixels};
 use crate::rays::{HitSlice, RaySlice};
 use crate::{Frame, Snapshot, Stats, Tile};
 
 /// Tries everything.
 pub(super) struct Oracle;
+
+impl Sealed for Oracle {}
 
 impl Backend for Oracle {
     fn name(&self) -> &'static str {

@@ -1,11 +1,13 @@
 //! One ray after another in `f64`, by the trees.
 
-use super::Backend;
+use super::{Backend, Sealed};
 use crate::integrator::{Trees, trace_pixels};
 use crate::{Frame, Stats, Tile};
 
 /// Walks the trees.
 pub(super) struct Scalar;
+
+impl Sealed for Scalar {}
 
 impl Backend for Scalar {
     fn name(&self) -> &'static str {

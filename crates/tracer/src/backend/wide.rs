@@ -1,6 +1,6 @@
 //! Packets of rays at the CPU's native SIMD width: `f32` kernels propose hits, `f64` decides what they leave open.
 
-use super::Backend;
+use super::{Backend, Sealed};
 use crate::integrator::trace_packets;
 use crate::rays::{HitSlice, RaySlice};
 use crate::search::query::{Answers, answer};
@@ -8,6 +8,8 @@ use crate::{Frame, Instructions, Snapshot, Stats, Tile, View};
 
 /// The default backend.
 pub(super) struct Wide;
+
+impl Sealed for Wide {}
 
 impl Backend for Wide {
     fn name(&self) -> &'static str {

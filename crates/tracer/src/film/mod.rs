@@ -43,6 +43,15 @@ pub struct NoRoom {
 }
 
 /// A picture in linear Rec. 709 light, with depth and surface of every pixel.
+///
+/// ```
+/// use catoptra_tracer::{Display, Film, Size};
+///
+/// let film = Film::new(Size::new(4, 3));
+/// assert_eq!((film.radiance(0, 0), film.surface(0, 0), film.samples(0, 0)), ([0.0; 3], None, 0));
+/// // As bytes for a display, two stops brighter.
+/// assert_eq!(Display::Srgb.exposed(2.0).rgb8(&film).len(), 3 * 4 * 3);
+/// ```
 #[derive(Debug, Clone)]
 pub struct Film {
     region: Region,

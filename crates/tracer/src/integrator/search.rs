@@ -29,11 +29,11 @@ pub(crate) struct Trees;
 
 impl Search for Trees {
     fn nearest(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
-        snapshot.nearest(ray, span, leaving)
+        snapshot.nearest_in_frame(ray, span, leaving)
     }
 
     fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool {
-        snapshot.occluded(ray, span, leaving)
+        snapshot.occluded_in_frame(ray, span, leaving)
     }
 
     fn find_blockers(
@@ -52,11 +52,11 @@ pub(crate) struct Exhaustive;
 
 impl Search for Exhaustive {
     fn nearest(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
-        snapshot.nearest_of_all(ray, span, leaving)
+        snapshot.nearest_of_all_in_frame(ray, span, leaving)
     }
 
     fn occluded(&self, snapshot: &Snapshot, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool {
-        snapshot.nearest_of_all(ray, span, leaving).is_some()
+        snapshot.nearest_of_all_in_frame(ray, span, leaving).is_some()
     }
 
     fn find_blockers(&self, snapshot: &Snapshot, lamp: &LampRow, _: &PointBounds, blockers: &mut Vec<u32>) {

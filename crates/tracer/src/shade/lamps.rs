@@ -310,7 +310,7 @@ impl<'a, S: Simd> Shader<'a, S> {
         let shone = follow_picked(rays, &shading, &lobes, |PickedRay { lamp, ray }| {
             lamp.shadow && {
                 stats.rays.lamp += 1;
-                snapshot.occluded(&ray.ray, ray.span, lit.surface)
+                snapshot.occluded_in_frame(&ray.ray, ray.span, lit.surface)
             }
         });
         add_in_lane(&mut self.chunk.irradiance[at.slot], lane, shone.irradiance);

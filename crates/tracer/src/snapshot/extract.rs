@@ -10,8 +10,8 @@ use super::index::{Index, MeshTrees};
 use super::lamps::Shining;
 use super::origin::{frame_for, origin_for, relative};
 use super::{Extraction, Lamps, LightRow, MaterialRow, Matter, Prim, Snapshot, SnapshotDiff};
-use crate::Pool;
 use crate::accel::Preset;
+use crate::{Cancelled, Control, Pool};
 
 impl Snapshot {
     /// Freezes a scene. Trees are built on the threads of `pool`; the snapshot does not depend on how many there are.
@@ -23,7 +23,20 @@ impl Snapshot {
     /// As [`extract`](Self::extract), with trees over meshes as `preset` says.
     #[must_use]
     pub fn extract_with(scene: &Scene, preset: Preset, pool: &Pool) -> Self {
-        Extraction::of(scene).build(MeshTrees::new(preset, pool), None)
+        unwatched(|control| Self::extract_unless_cancelled(scene, preset, pool, control))
+    }
+
+    /// As [`extract_with`](Self::extract_with), telling `control` how many of the meshes' triangles have found their leaf.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when `control` said so before the last tree was built.
+    pub fn extract_unless_cancelled(
+        scene: &Scene,
+        preset: Preset,
+        pool: &Pool,
+        control: &Control,
+    ) -> Result<Self, Cancelled> {
+        Extraction::of(scene).build(MeshTrees::new(preset, pool, control), None)
     }
 
     /// Freezes a scene, taking over from an earlier snapshot what is still the same, and returns what is not. The
@@ -38,7 +51,7 @@ impl Extraction {
     /// The snapshot, as [`Snapshot::extract`] makes it.
     #[must_use]
     pub fn snapshot(&self, pool: &Pool) -> Snapshot {
-        self.build(MeshTrees::new(Preset::default(), pool), None)
+        unwatched(|control| self.build(MeshTrees::new(Preset::default(), pool, control), None))
     }
 
     /// The snapshot and what it changes, as [`Snapshot::after`] makes them.
@@ -47,16 +60,18 @@ impl Extraction {
     /// are the tree over all shapes and the columns of the kernels.
     #[must_use]
     pub fn after(&self, earlier: &Snapshot, pool: &Pool) -> (Snapshot, SnapshotDiff) {
-        let snapshot = self.build(MeshTrees::after(earlier, pool), Some(earlier));
+        let snapshot =
+            unwatched(|control| self.build(MeshTrees::after(earlier, pool, control), Some(earlier)));
         let diff = SnapshotDiff::between(earlier, &snapshot);
         (snapshot, diff)
     }
 
-    fn build(&self, mut trees: MeshTrees<'_>, earlier: Option<&Snapshot>) -> Snapshot {
+    fn build(&self, mut trees: MeshTrees<'_>, earlier: Option<&Snapshot>) -> Result<Snapshot, Cancelled> {
         let shapes = self.shapes.iter().map(|(shape, _)| &shape.part);
+        trees.announce(shapes.clone());
         let origin = origin_for(shapes.clone().filter_map(Shape::bounds), self.eye);
         let frame = frame_for(shapes, origin);
-        let prims = self.prims(frame, &mut trees);
+        let prims = self.prims(frame, &mut trees)?;
         let same =
             earlier.filter(|e| same_bits([e.origin, e.frame], [origin, frame]) && self.keeps_shapes(e));
         let preset = trees.preset();
@@ -75,7 +90,7 @@ impl Extraction {
         let material_rows: Vec<_> = materials.iter().map(MaterialRow::new).collect();
         let background = self.parts.settings.background();
         let lamps = self.lamps(&prims, frame, origin);
-        Snapshot {
+        Ok(Snapshot {
             lamps,
             matter: self.matter(&prims, origin),
             origin,
@@ -95,18 +110,16 @@ impl Extraction {
             lights,
             background,
             parts: Arc::clone(&self.parts),
-        }
+        })
     }
 
-    fn prims(&self, frame: DVec3, trees: &mut MeshTrees<'_>) -> Vec<Prim> {
-        let prim = |((shape, material), body): (&(Placed<Shape>, u32), u32)| Prim {
-            shape: relative(&shape.part, frame).into_owned(),
-            material: *material,
-            mesh: trees.of(&shape.part),
-            member: None,
-            body,
+    fn prims(&self, frame: DVec3, trees: &mut MeshTrees<'_>) -> Result<Vec<Prim>, Cancelled> {
+        let prim = |((shape, material), body): (&(Placed<Shape>, u32), u32)| {
+            let mesh = trees.of(&shape.part)?;
+            let shape = relative(&shape.part, frame).into_owned();
+            Ok(Prim { shape, material: *material, mesh, member: None, body })
         };
-        let mut prims: Vec<Prim> = self.shapes.iter().zip(0..).map(prim).collect();
+        let mut prims: Vec<Prim> = self.shapes.iter().zip(0..).map(prim).collect::<Result<_, _>>()?;
         let to_frame = Placement::IDENTITY.moved(-frame).ok().filter(|_| frame != DVec3::ZERO);
         for (solid, places) in &self.solids {
             let solid = to_frame.map_or_else(|| Arc::clone(solid), |moved| Arc::new(solid.placed(&moved)));
@@ -118,7 +131,7 @@ impl Extraction {
                 prim.body = places[0];
             }
         }
-        prims
+        Ok(prims)
     }
 
     fn lamps(&self, prims: &[Prim], frame: DVec3, origin: DVec3) -> Lamps {
@@ -157,6 +170,14 @@ impl Extraction {
     fn keeps_shapes(&self, earlier: &Snapshot) -> bool {
         let before = earlier.entities.iter().copied().zip(earlier.touched.iter().copied());
         self.shapes.iter().map(|(shape, _)| (shape.id, shape.touched)).eq(before)
+    }
+}
+
+/// Does work that nobody can cancel.
+fn unwatched<T>(work: impl FnOnce(&Control) -> Result<T, Cancelled>) -> T {
+    match work(&Control::default()) {
+        Ok(done) => done,
+        Err(Cancelled) => unreachable!("nobody else has the control"),
     }
 }
 

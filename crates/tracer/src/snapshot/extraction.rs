@@ -59,7 +59,7 @@ pub(crate) struct OwnShape {
 }
 
 impl OwnShape {
-    fn of(scene: &Scene, id: EntityId) -> Option<Self> {
+    pub(crate) fn of(scene: &Scene, id: EntityId) -> Option<Self> {
         let to_world = scene.world_placement(id)?;
         Some(Self { shape: scene.shape(id)?, to_world, to_own: to_world.inverse() })
     }

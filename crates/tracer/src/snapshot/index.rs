@@ -3,13 +3,14 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use catoptra_core::geometry::Mesh;
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Aabb, Shape, TriangleMesh};
 
 use super::{Columns, Prim, Snapshot};
-use crate::Pool;
 use crate::accel::{Box32, MeshTree, Preset, Tree};
 use crate::numeric::BOUNDS_ERROR;
+use crate::{Cancelled, Control, Pool};
 
 /// What depends on the shapes alone, not on lights or materials.
 #[derive(Debug)]
@@ -74,20 +75,22 @@ pub(super) struct MeshTrees<'a> {
     earlier: HashMap<*const TriangleMesh, &'a Arc<MeshTree>>,
     preset: Preset,
     pool: &'a Pool,
+    control: &'a Control,
     meshes: Vec<Arc<MeshTree>>,
     places: HashMap<*const TriangleMesh, u32>,
 }
 
 impl<'a> MeshTrees<'a> {
     /// All built anew.
-    pub(super) fn new(preset: Preset, pool: &'a Pool) -> Self {
-        Self { earlier: HashMap::new(), preset, pool, meshes: Vec::new(), places: HashMap::new() }
+    pub(super) fn new(preset: Preset, pool: &'a Pool, control: &'a Control) -> Self {
+        let (earlier, places) = (HashMap::new(), HashMap::new());
+        Self { earlier, preset, pool, control, meshes: Vec::new(), places }
     }
 
     /// Those of a snapshot are taken over, and others built as they were.
-    pub(super) fn after(earlier: &'a Snapshot, pool: &'a Pool) -> Self {
+    pub(super) fn after(earlier: &'a Snapshot, pool: &'a Pool, control: &'a Control) -> Self {
         let trees = earlier.index.meshes.iter().map(|tree| (Arc::as_ptr(tree.mesh()), tree)).collect();
-        Self { earlier: trees, ..Self::new(earlier.preset, pool) }
+        Self { earlier: trees, ..Self::new(earlier.preset, pool, control) }
     }
 
     /// How trees are built.
@@ -95,14 +98,37 @@ impl<'a> MeshTrees<'a> {
         self.preset
     }
 
+    /// Tells whoever watches of how many triangles there are to be trees.
+    pub(super) fn announce<'s>(&self, shapes: impl Iterator<Item = &'s Shape>) {
+        let meshes = shapes.filter_map(|shape| Some(shape.as_mesh()?.triangles()));
+        let anew: HashMap<_, usize> = meshes
+            .map(|mesh| (Arc::as_ptr(mesh), mesh.triangles().len()))
+            .filter(|(mesh, _)| !self.earlier.contains_key(mesh))
+            .collect();
+        self.control.start(anew.into_values().sum());
+    }
+
     /// The index of a shape's mesh tree; `None` for shapes that are not meshes.
-    pub(super) fn of(&mut self, shape: &Shape) -> Option<u32> {
-        let mesh = shape.as_mesh()?.triangles();
-        Some(*self.places.entry(Arc::as_ptr(mesh)).or_insert_with(|| {
-            let known = self.earlier.get(&Arc::as_ptr(mesh)).map(|tree| Arc::clone(tree));
-            let tree = known.unwrap_or_else(|| Arc::new(MeshTree::build(mesh, self.preset, self.pool)));
-            self.meshes.push(tree);
-            self.meshes.len() as u32 - 1
-        }))
+    ///
+    /// # Errors
+    /// [`Cancelled`] when whoever watches said so.
+    pub(super) fn of(&mut self, shape: &Shape) -> Result<Option<u32>, Cancelled> {
+        let Some(mesh) = shape.as_mesh().map(Mesh::triangles) else { return Ok(None) };
+        let address = Arc::as_ptr(mesh);
+        if let Some(place) = self.places.get(&address) {
+            return Ok(Some(*place));
+        }
+        let tree = match self.earlier.get(&address) {
+            Some(known) => Arc::clone(known),
+            None => {
+                let built = MeshTree::build_unless_cancelled(mesh, self.preset, self.pool, self.control);
+                self.control.check()?;
+                Arc::new(built)
+            }
+        };
+        let place = self.meshes.len() as u32;
+        self.meshes.push(tree);
+        self.places.insert(address, place);
+        Ok(Some(place))
     }
 }

@@ -2,6 +2,7 @@
 
 mod columns;
 mod diff;
+mod every;
 mod extract;
 mod extraction;
 mod held;
@@ -23,6 +24,7 @@ use catoptra_core::{Aabb, Constant3, EntityId, Light, Material, Member, Ray, Rgb
 pub(crate) use columns::{Affine, Ball, Columns, Instance};
 pub use diff::{Changed, PartDiff, Presence, ShapeDiff, SnapshotDiff};
 pub use extraction::Extraction;
+pub(crate) use extraction::OwnShape;
 pub(crate) use lamp_tree::LampTree;
 pub(crate) use lamps::{FlatLamp, LampRow, Lamps};
 pub(crate) use lighting::{LightRow, MaterialRow};
@@ -60,6 +62,22 @@ impl Prim {
 }
 
 /// A scene frozen for tracing. Never changes; share it by `Arc`.
+///
+/// ```
+/// use catoptra_core::{Rgb, Scene, geometry::Sphere, glam::DVec3, material::Matte};
+/// use catoptra_tracer::{Pool, Snapshot};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let (mut scene, pool) = (Scene::new(), Pool::new(1)?);
+/// let clay = scene.add_material("clay", Matte::new(Rgb::grey(0.5))?)?;
+/// let before = Snapshot::extract(&scene, &pool);
+/// scene.add_shape("ball", Sphere::new(DVec3::ZERO, 1.0)?, clay, None)?;
+/// // What no edit touched is taken over, and what differs is told.
+/// let (after, difference) = Snapshot::after(&scene, &before, &pool);
+/// assert_eq!((before.prims().len(), after.prims().len(), difference.shapes.len()), (0, 1, 1));
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug)]
 pub struct Snapshot {
     origin: DVec3,

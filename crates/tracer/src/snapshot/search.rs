@@ -34,19 +34,19 @@ pub struct Hit {
 impl Snapshot {
     /// What a ray in the snapshot's frame meets first, found by the trees; ties go to the shape with the lower id.
     #[must_use]
-    pub fn nearest(&self, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
+    pub fn nearest_in_frame(&self, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
         self.nearest_on(&RaySegment::new(ray, span, self.left_by(leaving)))
     }
 
     /// Whether a ray in the snapshot's frame meets anything on the stretch, found by the trees.
     #[must_use]
-    pub fn occluded(&self, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool {
+    pub fn occluded_in_frame(&self, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> bool {
         self.is_occluded_on(&RaySegment::new(ray, span, self.left_by(leaving)))
     }
 
     /// What a ray in the snapshot's frame meets first, found by trying every shape and every triangle.
     #[must_use]
-    pub fn nearest_of_all(&self, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
+    pub fn nearest_of_all_in_frame(&self, ray: &Ray, span: Span, leaving: Option<SurfaceId>) -> Option<Hit> {
         self.nearest_of_all_on(&RaySegment::new(ray, span, self.left_by(leaving)))
     }
 
@@ -55,7 +55,21 @@ impl Snapshot {
         is_exact(ray.origin, self.frame).then(|| self.own_ray(ray))
     }
 
-    /// As [`nearest`](Self::nearest).
+    /// Asks about a ray of the world: in the snapshot's frame, or where that rounds it, in the world.
+    pub(crate) fn follow<T>(
+        &self,
+        ray: &Ray,
+        span: Span,
+        leaving: Option<SurfaceId>,
+        search: impl FnOnce(&RaySegment<'_>) -> T,
+    ) -> T {
+        match self.exactly_own(ray) {
+            Some(own) => search(&RaySegment::new(&own, span, leaving)),
+            None => search(&RaySegment { in_world: true, ..RaySegment::new(ray, span, leaving) }),
+        }
+    }
+
+    /// As [`nearest_in_frame`](Self::nearest_in_frame).
     pub(crate) fn nearest_on(&self, segment: &RaySegment<'_>) -> Option<Hit> {
         let mut best = None;
         for &prim in &self.index.unbounded {
@@ -69,7 +83,7 @@ impl Snapshot {
         best
     }
 
-    /// As [`occluded`](Self::occluded).
+    /// As [`occluded_in_frame`](Self::occluded_in_frame).
     pub(crate) fn is_occluded_on(&self, segment: &RaySegment<'_>) -> bool {
         self.any_in_the_way(segment, |prim| self.cross(prim, segment).is_some())
     }
@@ -91,7 +105,7 @@ impl Snapshot {
         found
     }
 
-    /// As [`nearest_of_all`](Self::nearest_of_all).
+    /// As [`nearest_of_all_in_frame`](Self::nearest_of_all_in_frame).
     pub(crate) fn nearest_of_all_on(&self, segment: &RaySegment<'_>) -> Option<Hit> {
         (0..self.prims.len() as u32)
             .filter(|&prim| self.first_in_place(prim) == prim)
@@ -99,26 +113,26 @@ impl Snapshot {
     }
 
     /// The ray of a segment relative to the origin, rounded: for boxes, which are wide enough for that.
-    fn box_ray(&self, segment: &RaySegment<'_>) -> Ray {
+    pub(super) fn box_ray(&self, segment: &RaySegment<'_>) -> Ray {
         let zero = if segment.in_world { self.origin } else { self.origin_in_frame() };
         Ray::new(segment.ray.origin - zero, segment.ray.direction)
     }
 
     /// A shape in the space that a segment's ray is given in.
-    fn shape(&self, segment: &RaySegment<'_>, prim: u32) -> Cow<'_, Shape> {
+    pub(super) fn shape(&self, segment: &RaySegment<'_>, prim: u32) -> Cow<'_, Shape> {
         let shape = &self.prims[prim as usize].shape;
         if segment.in_world { relative(shape, -self.frame) } else { Cow::Borrowed(shape) }
     }
 
     /// A part of a solid in the space that a segment's ray is given in; `None` for other shapes.
-    fn member(&self, segment: &RaySegment<'_>, prim: u32) -> Option<Cow<'_, Member>> {
+    pub(super) fn member(&self, segment: &RaySegment<'_>, prim: u32) -> Option<Cow<'_, Member>> {
         let member = self.prims[prim as usize].member.as_ref()?;
         let moved = Placement::IDENTITY.moved(self.frame).ok().filter(|_| segment.in_world);
         Some(moved.map_or(Cow::Borrowed(member), |moved| Cow::Owned(member.placed(&moved))))
     }
 
     /// The surface of its solid that a ray leaves, as parts of the solid name it.
-    fn left(&self, prim: u32, leaving: Option<SurfaceId>) -> Option<Left> {
+    pub(super) fn left(&self, prim: u32, leaving: Option<SurfaceId>) -> Option<Left> {
         let surface = leaving?;
         let left = &self.prims[surface.prim as usize];
         let same = left.body == self.prims[prim as usize].body;
@@ -175,7 +189,11 @@ impl Snapshot {
         first.meets_together(a.facet, (second, b.facet), &first.own_ray(segment.ray))
     }
 
-    fn root<N: Number>(&self, segment: &RaySegment<'_>, surface: SurfaceId) -> Verdict<Option<Root<N>>> {
+    pub(super) fn root<N: Number>(
+        &self,
+        segment: &RaySegment<'_>,
+        surface: SurfaceId,
+    ) -> Verdict<Option<Root<N>>> {
         if let Some(member) = self.member(segment, surface.prim) {
             return member.root(segment.ray, segment.span, self.left(surface.prim, segment.leaving));
         }
@@ -283,7 +301,7 @@ impl<'a> RaySegment<'a> {
 }
 
 /// Whether one surface comes before another on a ray: by the order of their roots, or by their numbers if that is equal.
-fn comes_first(order: Ordering, a: SurfaceId, b: SurfaceId) -> bool {
+pub(super) fn comes_first(order: Ordering, a: SurfaceId, b: SurfaceId) -> bool {
     order.then((a.prim, a.facet).cmp(&(b.prim, b.facet))).is_lt()
 }
 
@@ -308,6 +326,6 @@ fn cross_mesh(mesh: &Mesh, tree: &WideTree, own: &Ray, span: Span, leaving: Opti
     best
 }
 
-fn leaving_facet(prim: u32, leaving: Option<SurfaceId>) -> Option<u32> {
+pub(super) fn leaving_facet(prim: u32, leaving: Option<SurfaceId>) -> Option<u32> {
     leaving.filter(|surface| surface.prim == prim).map(|surface| surface.facet)
 }

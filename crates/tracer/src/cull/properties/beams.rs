@@ -112,7 +112,7 @@ fn what_mirrored_rays_cross_is_reachable() {
         let sent: Vec<Sent> = camera
             .iter()
             .filter_map(|(ray, _)| {
-                let hit = snapshot.nearest(ray, Span::AHEAD, None)?;
+                let hit = snapshot.nearest_in_frame(ray, Span::AHEAD, None)?;
                 Some((mirrored(ray, hit.crossing.t, hit.crossing.normal), Some(hit.surface)))
             })
             .collect();

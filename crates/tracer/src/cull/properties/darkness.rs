@@ -30,13 +30,13 @@ type Sent = (Ray, Option<SurfaceId>);
 /// Rays sent on by what is met are checked against a plan; returns them.
 fn send_on(snapshot: &Snapshot, plan: &TilePlan, rays: &[Sent]) -> Vec<Sent> {
     let meet = |(ray, leaving): &Sent| -> Option<(Ray, Hit)> {
-        let hit = snapshot.nearest(ray, Span::AHEAD, *leaving)?;
+        let hit = snapshot.nearest_in_frame(ray, Span::AHEAD, *leaving)?;
         Some((mirrored(ray, hit.crossing.t, hit.crossing.normal), hit))
     };
     let sent: Vec<(Ray, Hit)> = rays.iter().filter_map(meet).collect();
     for (ray, hit) in &sent {
         if plan.dark.contains(&hit.surface.prim) {
-            let next = snapshot.nearest(ray, Span::AHEAD, Some(hit.surface));
+            let next = snapshot.nearest_in_frame(ray, Span::AHEAD, Some(hit.surface));
             let prims = snapshot.prims();
             assert!(
                 next.is_none(),
@@ -59,7 +59,7 @@ fn dark_ones(plan: &TilePlan, sent: &[Sent]) -> u32 {
 /// Mirrors of which only one of the rays tried meets anything.
 fn nearly_dark(snapshot: &Snapshot, sent: &[Sent]) -> u32 {
     let prims = 0..snapshot.prims().len() as u32;
-    let meets = |(ray, surface): &&Sent| snapshot.nearest(ray, Span::AHEAD, *surface).is_some();
+    let meets = |(ray, surface): &&Sent| snapshot.nearest_in_frame(ray, Span::AHEAD, *surface).is_some();
     let own = |prim: u32| {
         sent.iter().filter(move |(_, surface)| surface.is_some_and(|surface| surface.prim == prim))
     };

@@ -121,7 +121,7 @@ fn what_keeps_light_from_what_is_seen_is_among_its_occluders() {
         let region = *one_of(stage.random, &stage.stand.regions);
         let rays = stage.rays(&frame, &region).into_iter();
         let seen = rays.filter_map(|ray| {
-            let hit = snapshot.nearest(&ray, Span::AHEAD, None)?;
+            let hit = snapshot.nearest_in_frame(&ray, Span::AHEAD, None)?;
             Some((ray.at(hit.crossing.t), Some(hit.surface)))
         });
         let seen: Vec<Seen> = seen.collect();

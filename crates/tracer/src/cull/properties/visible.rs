@@ -43,7 +43,7 @@ impl Look<'_> {
     /// What a ray through a place meets, which must be among what may be seen.
     fn meet(&mut self, [x, y]: [f64; 2]) -> Option<Hit> {
         let ray = self.frame.raster.ray(x, y);
-        let hit = self.snapshot.nearest(&ray, Span::AHEAD, None);
+        let hit = self.snapshot.nearest_in_frame(&ray, Span::AHEAD, None);
         if let Some(hit) = &hit {
             let Region { x: left, y: top, size } = self.region;
             let off = |x: f64, from: u32, length: u32| {

@@ -145,7 +145,7 @@ impl FoundHit {
         let surface = SurfaceId { prim: self.prim, facet: self.facet };
         snapshot
             .cross_part(surface.prim, Some(surface.facet), &path.ray, Span::AHEAD, path.leaving)
-            .or_else(|| snapshot.nearest(&path.ray, Span::AHEAD, path.leaving))
+            .or_else(|| snapshot.nearest_in_frame(&path.ray, Span::AHEAD, path.leaving))
     }
 }
 

@@ -1,0 +1,81 @@
+//! What is asked about: a ray of the world, how much of it counts, and what it leaves.
+
+use catoptra_core::glam::DVec3;
+use catoptra_core::{Ray, Span};
+
+use super::InvalidRay;
+use crate::SurfaceId;
+
+/// A ray of the world that has been checked. All that lies in front of its origin counts, but not the origin itself.
+///
+/// ```
+/// use catoptra_tracer::{InvalidRay, WorldRay};
+///
+/// let ray = WorldRay::new([0.0, 0.0, 5.0], [0.0, 0.0, -2.0])?.within([0.0, 1.0])?;
+/// assert_eq!(ray.at(1.0).z, 3.0);
+/// assert_eq!(WorldRay::new([0.0; 3], [0.0; 3]), Err(InvalidRay::NoDirection));
+/// # Ok::<(), InvalidRay>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WorldRay {
+    ray: Ray,
+    span: Span,
+    leaving: Option<SurfaceId>,
+}
+
+impl WorldRay {
+    /// From a point in metres, along a direction of any length but zero; `t` counts in that length.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, and a direction of zero.
+    pub fn new(origin: impl Into<DVec3>, direction: impl Into<DVec3>) -> Result<Self, InvalidRay> {
+        let ray = Ray::new(origin.into(), direction.into());
+        if ray.is_valid() {
+            return Ok(Self { ray, span: Span::AHEAD, leaving: None });
+        }
+        let is_finite = ray.origin.is_finite() && ray.direction.is_finite();
+        Err(if is_finite { InvalidRay::NoDirection } else { InvalidRay::NotFinite })
+    }
+
+    /// The same ray, of which only `min <= t <= max` counts; what lies behind the origin never does.
+    ///
+    /// # Errors
+    /// Ends that are no numbers, not in order, or both behind the origin.
+    pub fn within(self, [min, max]: [f64; 2]) -> Result<Self, InvalidRay> {
+        if !(min <= max && max >= 0.0) {
+            return Err(InvalidRay::Ends(min, max));
+        }
+        Ok(Self { span: Span { min: min.max(0.0), max }, ..self })
+    }
+
+    /// The same ray, leaving the surface that its origin lies on but for rounding: it does not meet that again there. A ball or
+    /// another convex solid that it leaves outwards it does not meet at all.
+    #[must_use]
+    pub fn leaving(self, surface: SurfaceId) -> Self {
+        Self { leaving: Some(surface), ..self }
+    }
+
+    /// The point at `t`, metres.
+    #[must_use]
+    pub fn at(&self, t: f64) -> DVec3 {
+        self.ray.at(t)
+    }
+
+    /// Its line.
+    #[must_use]
+    pub fn ray(&self) -> Ray {
+        self.ray
+    }
+
+    /// What of it counts.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        self.span
+    }
+
+    /// The surface that it leaves.
+    #[must_use]
+    pub fn surface_left(&self) -> Option<SurfaceId> {
+        self.leaving
+    }
+}
