@@ -117,7 +117,8 @@ impl Caster {
         self.follow(ray, |segment| self.snapshot.is_occluded_on(segment))
     }
 
-    /// All that a ray meets, nearest first; of surfaces in one place that with the lower number first.
+    /// All that a ray meets, nearest first; of surfaces in one place that with the lower number first. Of triangles with the same
+    /// corners, and of meshes of the same triangles in one place, only the first is met.
     ///
     /// A ray through an edge or a corner meets every triangle there. Of one round surface, meetings that lie closer together
     /// than `f64` tells apart, as those of a ray that grazes it, are one.

@@ -14,8 +14,8 @@ struct Found<'a> {
 }
 
 impl Snapshot {
-    /// Everything that a segment meets, nearest first; where surfaces lie in one place, in the order of their numbers. A ray
-    /// through an edge that triangles share meets all of them. Of one round surface, meetings that lie closer together than
+    /// Everything that a segment meets, nearest first; where surfaces lie in one place, in the order of their numbers, and what
+    /// lies there [twice](catoptra_core::TriangleMesh::firsts_in_place) once. A ray through an edge that triangles share meets all of them. Of one round surface, meetings that lie closer together than
     /// `f64` tells apart, as those of a ray that grazes it, are one.
     pub(crate) fn all_on(&self, segment: &RaySegment<'_>) -> Vec<Hit> {
         let mut found: Vec<Found<'_>> = Vec::new();
@@ -45,6 +45,7 @@ impl Snapshot {
     fn comes_first(&self, a: &Found<'_>, b: &Found<'_>) -> bool {
         let order = a.hit.crossing.order(
             &b.hit.crossing,
+            || self.are_met_together(&a.segment, a.hit.surface, b.hit.surface),
             || [a, b].map(|found| self.root(&found.segment, found.hit.surface)),
             || [a, b].map(|found| self.root(&found.segment, found.hit.surface)),
         );

@@ -63,6 +63,7 @@ impl Snapshot {
         leaving: Option<SurfaceId>,
         search: impl FnOnce(&RaySegment<'_>) -> T,
     ) -> T {
+        let leaving = self.left_by(leaving);
         match self.exactly_own(ray) {
             Some(own) => search(&RaySegment::new(&own, span, leaving)),
             None => search(&RaySegment { in_world: true, ..RaySegment::new(ray, span, leaving) }),
@@ -176,7 +177,7 @@ impl Snapshot {
     }
 
     /// Whether two triangles of meshes, both met, are seen to be met at one point.
-    fn are_met_together(&self, segment: &RaySegment<'_>, a: SurfaceId, b: SurfaceId) -> bool {
+    pub(super) fn are_met_together(&self, segment: &RaySegment<'_>, a: SurfaceId, b: SurfaceId) -> bool {
         let is_mesh = |of: SurfaceId| {
             let prim = &self.prims[of.prim as usize];
             prim.mesh.is_some() && prim.member.is_none()
