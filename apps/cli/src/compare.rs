@@ -1,13 +1,52 @@
 //! `catoptra compare`: how far is a picture from its reference, and is that within the limits?
 
+use std::path::PathBuf;
+
 use catoptra_lab::{METRICS, Metric, Pair, Picture, Viewing};
+use clap::Args;
 use miette::{Result, miette};
 use serde_json::{Map, Value, json};
 
 use crate::Outcome;
-use crate::args::{CompareArgs, LimitArgs};
+use crate::args::limit;
 use crate::console::print;
 use crate::input::{Stored, read_picture};
+
+#[derive(Args)]
+pub(crate) struct CompareArgs {
+    /// Picture taken as right (.png or .exr)
+    pub(crate) reference: PathBuf,
+    /// Picture that is judged
+    pub(crate) test: PathBuf,
+    /// Answer with a JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// A pixel counts as differing past this difference of a channel (a step of a .png is 0.00393)
+    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = limit)]
+    pub(crate) threshold: f64,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
+}
+
+/// Limits past which a comparison ends with exit code 1.
+#[derive(Args)]
+pub(crate) struct LimitArgs {
+    /// Largest root mean squared error allowed
+    #[arg(long, value_name = "X", value_parser = limit)]
+    pub(crate) max_rmse: Option<f64>,
+    /// Largest relative mean squared error allowed
+    #[arg(long, value_name = "X", value_parser = limit)]
+    pub(crate) max_relmse: Option<f64>,
+    /// Largest difference of a channel allowed; the bytes of a .png count as 0 to 1, so a step is 0.00393
+    #[arg(long, value_name = "X", value_parser = limit)]
+    pub(crate) max_difference: Option<f64>,
+    /// Largest mean FLIP allowed
+    #[arg(long, value_name = "X", value_parser = limit)]
+    pub(crate) max_flip: Option<f64>,
+    /// Most differing pixels allowed
+    #[arg(long, value_name = "N")]
+    pub(crate) max_differing: Option<u64>,
+}
 
 /// Compares two picture files.
 pub(crate) fn run(args: &CompareArgs) -> Result<Outcome> {

@@ -7,7 +7,8 @@ use serde_json::{Map, Value, json};
 
 use crate::args::ExplainArgs;
 use crate::console::{check_heard, print_answer};
-use crate::job::{Job, Means};
+use crate::job::{Job, Means, Resources, find_camera};
+use crate::loaded::Loaded;
 use crate::words::{bytes, counted, list, percent, thousands};
 use crate::{Outcome, interrupt, progress};
 
@@ -15,7 +16,10 @@ use crate::{Outcome, interrupt, progress};
 pub(crate) fn run(args: &ExplainArgs) -> Result<Outcome> {
     let means = Means::of(&args.job)?;
     check_heard()?;
-    let mut job = Job::new(&args.job, means, &[])?;
+    let resources = Resources::claim(&args.job, |_| 0)?;
+    let loaded = Loaded::read(&args.scene)?;
+    let camera = find_camera(&loaded.scene, args.job.camera.as_deref())?;
+    let mut job = Job::new(&args.job, means, &resources, loaded, camera)?;
     // A frame tells the same of the work for a sample as many do.
     job.view.samples = args.job.samples.unwrap_or(1);
     job.warn_of_idle(&args.job);

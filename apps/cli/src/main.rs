@@ -13,17 +13,21 @@ mod input;
 mod interrupt;
 mod job;
 mod lab;
+mod layers;
+mod loaded;
 mod memory;
 mod names;
 mod output;
 mod pool;
 mod probe;
+mod processor;
 mod progress;
 mod render;
 #[cfg(unix)]
 mod signals;
 mod stats;
 mod suggest;
+mod surfaces;
 mod words;
 
 use std::io::IsTerminal;
@@ -33,7 +37,7 @@ use clap::Parser;
 use miette::{IntoDiagnostic, MietteHandlerOpts, Result};
 
 use args::{Cli, Command};
-use console::{print_answer, say};
+use console::{Talk, complain, print_answer, set_talk};
 
 /// How a command that was understood has ended.
 enum Outcome {
@@ -48,10 +52,17 @@ fn main() -> ExitCode {
     // Long paths stay in one piece, so that tools can find them in the message.
     let plain = |_: &_| Box::new(MietteHandlerOpts::new().wrap_lines(false).build()) as Box<_>;
     if let Err(report) = miette::set_hook(Box::new(plain)) {
-        say(&report.to_string());
+        complain(&report.to_string());
     }
     let outcome = match Cli::try_parse() {
-        Ok(cli) => run(cli.command),
+        Ok(cli) => {
+            match (cli.quiet, cli.verbose) {
+                (true, _) => set_talk(Talk::Quiet),
+                (false, true) => set_talk(Talk::Verbose),
+                (false, false) => {}
+            }
+            run(cli.command)
+        }
         Err(told) if told.use_stderr() => {
             let _ = told.print();
             return BAD.into();
@@ -63,7 +74,7 @@ fn main() -> ExitCode {
         Ok(Outcome::Differs) => ExitCode::from(1),
         Ok(Outcome::Interrupted) => interrupt::CODE.into(),
         Err(report) => {
-            say(&format!("{report:?}"));
+            complain(&format!("{report:?}"));
             BAD.into()
         }
     }

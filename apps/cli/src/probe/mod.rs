@@ -17,8 +17,8 @@ use miette::{Result, miette};
 
 use crate::args::STANDARD;
 use crate::console::{check_heard, print_answer, say, warn};
-use crate::destination::{Input, Output, check_apart, check_writable};
-use crate::job::{file_name, load, scene_input};
+use crate::destination::{Output, check_apart, check_writable};
+use crate::loaded::{Loaded, file_name, scene_input};
 use crate::names::find_integrator;
 use crate::output::{Format, write_map};
 use crate::pool::new_pool;
@@ -67,11 +67,7 @@ pub(crate) fn run(args: &ProbeArgs) -> Result<Outcome> {
     check(args)?;
     let pool = new_pool(args.threads)?;
     let points = args.points.as_deref().map(points::read).transpose()?;
-    let (scene, file) = load(&args.scene)?;
-    let meshes = file.mesh_paths().chain(file.model_paths()).map(|path| ("the mesh", path));
-    let profiles = file.profile_paths().map(|path| ("the profile", path));
-    let pictures = file.image_paths().map(|path| ("the picture", path));
-    let inputs: Vec<Input> = meshes.chain(profiles).chain(pictures).collect();
+    let Loaded { scene, inputs, .. } = Loaded::read(&args.scene)?;
     check_apart(&outputs(args), &inputs)?;
     let receivers = match (&points, &args.plane) {
         (Some(points), _) => points.receivers(),

@@ -7,6 +7,8 @@ mod files;
 mod film;
 mod input;
 mod lab;
+mod layers;
+mod outputs;
 #[cfg(unix)]
 mod printing;
 mod probe;

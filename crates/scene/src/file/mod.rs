@@ -106,6 +106,11 @@ impl SceneFile {
         self.files.model_paths()
     }
 
+    /// Where the files lie that its models and meshes name: materials, pictures, buffers.
+    pub fn companion_paths(&self) -> impl Iterator<Item = PathBuf> {
+        self.files.companion_paths()
+    }
+
     /// What of the models is not shown as their files mean it: a line for each.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
