@@ -1,13 +1,16 @@
 //! The binary `catoptra`: what does the user ask for, and with which exit code does it end?
 //!
-//! 0: done. 1: pictures differ past a limit. 2: bad usage or input, said on stderr. 130: interrupted.
+//! 0: done. 1: pictures differ past a limit, or a check found something. 2: bad usage or input, said on stderr. 130: interrupted.
 
 mod args;
+mod cast;
+mod check;
 mod compare;
 mod console;
 mod destination;
 mod explain;
 mod film;
+mod fmt;
 mod info;
 mod input;
 mod interrupt;
@@ -17,12 +20,16 @@ mod layers;
 mod loaded;
 mod memory;
 mod names;
+mod numbers;
 mod output;
+mod pick;
 mod pool;
 mod probe;
 mod processor;
 mod progress;
 mod render;
+mod rows;
+mod shells;
 #[cfg(unix)]
 mod signals;
 mod stats;
@@ -88,7 +95,13 @@ fn run(command: Command) -> Result<Outcome> {
         Command::Render(args) => render::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Info(args) => info::run(&args),
+        Command::Check(args) => check::run(&args),
+        Command::Fmt(args) => fmt::run(&args),
+        Command::Completions(args) => shells::complete(&args),
+        Command::Man(args) => shells::write_pages(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Pick(args) => pick::run(&args),
+        Command::Cast(args) => cast::run(&args),
         Command::Probe(args) => probe::run(&args),
         Command::Lab(args) => lab::run(&args),
     }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use catoptra_core::glam::{DVec2, DVec3};
-use catoptra_core::{EntityId, Placement, Ray, Scene, Shape};
+use catoptra_core::{EntityId, Placement, Ray, Scene, Shape, Span};
 use catoptra_tracer::query::{HitList, RayList, find_nearest};
 use catoptra_tracer::{Backend, Pool, Region, Size, Snapshot, SurfaceId, View};
 
@@ -24,11 +24,18 @@ pub(crate) struct Met {
     pub(crate) shading_normal: DVec3,
 }
 
+/// How far from where a solid is known to be met its surface is looked for, as a share.
+const NEAR: f64 = 1e-9;
+
 impl Met {
     /// What a ray of the world is known to meet on a surface of a snapshot.
     pub(crate) fn on(snapshot: &Snapshot, ray: &Ray, surface: SurfaceId, t: f64) -> Option<Self> {
         let prim = snapshot.prims().get(surface.prim as usize)?;
-        let crossing = prim.shape.crossing(&snapshot.own_ray(ray), t, surface.facet)?;
+        let own = snapshot.own_ray(ray);
+        // Which side of a part of a solid is the outer one is for the solid to say.
+        let near = Span { min: t - NEAR * t.abs(), max: t + NEAR * t.abs() };
+        let of_solid = prim.member.as_ref().and_then(|member| member.cross(&own, near, None));
+        let crossing = of_solid.or_else(|| prim.shape.crossing(&own, t, surface.facet))?;
         let entity = *snapshot.entities().get(surface.prim as usize)?;
         Some(Self {
             entity,
@@ -140,6 +147,14 @@ impl<'a> Surfaces<'a> {
     /// Metres from the ray's start to it; infinite where it meets nothing.
     pub(crate) fn distance(&self, x: u32, y: u32) -> f64 {
         self.t[self.at(x, y)] * self.ray(x, y).direction.length()
+    }
+
+    /// All rays that meet something, with what and where.
+    pub(crate) fn sightings(&self) -> impl Iterator<Item = (Ray, SurfaceId, f64)> {
+        let width = self.region.size.width.max(1) as usize;
+        let met =
+            self.surface.iter().zip(&self.t).enumerate().filter(|(_, (surface, _))| **surface != NOTHING);
+        met.map(move |(at, (surface, t))| (self.ray((at % width) as u32, (at / width) as u32), *surface, *t))
     }
 
     /// All things that are met, each once, in the order of their ids.

@@ -4,6 +4,7 @@
 //!   [`Scene`](catoptra_core::scene::Scene) and a [`SceneFile`] that keeps the text; [`SceneFile::save`] writes back
 //!   only what has changed. The grammar follows the lists of kinds in the core: a new shape, light or material is
 //!   read and written without a change here.
+//! * [`format()`] lays scene text out by rule.
 //! * [`fragment`] makes text of parts of a scene, and adds such text to another.
 //! * [`model`] reads models and meshes, [`ies`] how luminaires shine, [`image`] reads and writes PNG pictures.
 //! * [`atomic`] writes any file whole or not at all, and says beforehand whether it can, and [`words`] finds the word that a misspelt one was meant to be.
@@ -20,6 +21,7 @@ mod excerpt;
 mod file;
 mod flags;
 mod foreign;
+mod format;
 pub mod fragment;
 pub mod ies;
 pub mod image;
@@ -38,6 +40,7 @@ mod write;
 
 pub use disk::OnDisk;
 pub use file::{SaveError, SceneFile, load, load_from, parse};
+pub use format::format;
 pub use fragment::PasteError;
 pub use printable::printable;
 pub use report::{Complaint, SceneTextError};

@@ -13,6 +13,7 @@ mod outputs;
 mod printing;
 mod probe;
 mod program;
+mod rays;
 mod render;
 mod targets;
 mod usage;

@@ -6,7 +6,8 @@ mod models;
 
 use std::path::{Path, PathBuf};
 
-use catoptra_core::scene::Scene;
+use catoptra_core::TextureId;
+use catoptra_core::scene::{EntityId, MaterialId, Scene};
 
 use crate::atomic;
 use crate::build::Id;
@@ -137,6 +138,30 @@ impl SceneFile {
     #[must_use]
     pub fn text(&self) -> String {
         self.text.clone()
+    }
+
+    /// The line of the text, counted from 1, on which an entity has a node of its own.
+    #[must_use]
+    pub fn line_of_entity(&self, id: EntityId) -> Option<usize> {
+        self.line_of(Id::Entity(id))
+    }
+
+    /// The line of the text, counted from 1, on which a material has a node of its own; one of a model has none.
+    #[must_use]
+    pub fn line_of_material(&self, id: MaterialId) -> Option<usize> {
+        self.line_of(Id::Material(id))
+    }
+
+    /// The line of the text, counted from 1, on which a texture has a node of its own; one of a model has none.
+    #[must_use]
+    pub fn line_of_texture(&self, id: TextureId) -> Option<usize> {
+        self.line_of(Id::Texture(id))
+    }
+
+    fn line_of(&self, wanted: Id) -> Option<usize> {
+        let place = self.ids.iter().position(|id| *id == wanted)?;
+        let before = self.text.get(..self.outline.items.get(place)?.span.start)?;
+        Some(1 + before.matches('\n').count())
     }
 
     /// Makes the text say what the scene holds, changing only what has changed. Comments, order, blank lines and the
