@@ -3,9 +3,11 @@
 use std::collections::HashMap;
 
 use catoptra_core::glam::{DVec2, DVec3};
-use catoptra_core::{EntityId, Placement, Ray, Scene, Shape, Span};
+use catoptra_core::material::Matte;
+use catoptra_core::{EntityId, Placement, Ray, Rgb, Scene, Shape, Span};
 use catoptra_tracer::query::{HitList, RayList, find_nearest};
 use catoptra_tracer::{Backend, Pool, Region, Size, Snapshot, SurfaceId, View};
+use miette::{IntoDiagnostic, Result};
 
 /// What a ray meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,6 +72,15 @@ impl OwnShapes {
     }
 }
 
+/// A snapshot of one shape.
+pub(crate) fn snapshot_of(shape: Shape, pool: &Pool) -> Result<Snapshot> {
+    let mut scene = Scene::new();
+    let grey = Matte::new(Rgb::grey(0.5)).into_diagnostic()?;
+    let grey = scene.add_material("grey", grey).into_diagnostic()?;
+    scene.add_shape("shape", shape, grey, None).into_diagnostic()?;
+    Ok(Snapshot::extract(&scene, pool))
+}
+
 /// What the rays through the middles of a picture's pixels meet first.
 pub(crate) struct Surfaces<'a> {
     snapshot: &'a Snapshot,
@@ -95,11 +106,11 @@ impl<'a> Surfaces<'a> {
         snapshot: &'a Snapshot,
         view: &'a View,
         pool: &Pool,
-    ) -> Result<Self, std::collections::TryReserveError> {
+    ) -> Result<Self> {
         let region = view.region();
         let mut found = Self { snapshot, view, region, surface: Vec::new(), t: Vec::new() };
-        found.surface.try_reserve_exact(region.size.pixels())?;
-        found.t.try_reserve_exact(region.size.pixels())?;
+        found.surface.try_reserve_exact(region.size.pixels()).into_diagnostic()?;
+        found.t.try_reserve_exact(region.size.pixels()).into_diagnostic()?;
         let rows = (AT_ONCE / (region.size.width.max(1) as usize)).max(1);
         for first in (0..region.size.height).step_by(rows) {
             let last = region.size.height.min(first.saturating_add(rows as u32));

@@ -1,11 +1,10 @@
 //! What does a ray meet in all, and in which order? Shape by shape, so that of surfaces that lie in one place each is told.
 
-use catoptra_core::material::Matte;
-use catoptra_core::{Aabb, EntityId, Ray, Rgb, Scene, Shape, Span};
+use catoptra_core::{Aabb, EntityId, Ray, Scene, Span};
 use catoptra_tracer::{Pool, Snapshot, SurfaceId};
-use miette::{IntoDiagnostic, Result};
+use miette::Result;
 
-use crate::surfaces::Met;
+use crate::surfaces::{Met, snapshot_of};
 
 /// A scene that is asked for all hits.
 pub(super) struct AllHits<'a> {
@@ -70,15 +69,6 @@ impl<'a> AllHits<'a> {
         let surface = SurfaceId { prim, facet: crossing.facet };
         Some((Met::on(self.snapshot, ray, surface, crossing.t)?, crossing.latest()))
     }
-}
-
-/// A snapshot of one shape.
-fn snapshot_of(shape: Shape, pool: &Pool) -> Result<Snapshot> {
-    let mut scene = Scene::new();
-    let grey = Matte::new(Rgb::grey(0.5)).into_diagnostic()?;
-    let grey = scene.add_material("grey", grey).into_diagnostic()?;
-    scene.add_shape("shape", shape, grey, None).into_diagnostic()?;
-    Ok(Snapshot::extract(&scene, pool))
 }
 
 /// Whether the line of a ray certainly misses a box: one round it that is larger by more than what is rounded here.

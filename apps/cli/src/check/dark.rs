@@ -32,7 +32,8 @@ fn find(stage: &Stage<'_>) -> Vec<Finding> {
         if gives_nothing(&light.part) {
             found.push(told("gives no light"));
         } else if !reaches(stage, light.id, &light.part) {
-            found.push(told("reaches nothing"));
+            let is_point = light.part.position().is_some() && light.part.lamp().is_none();
+            found.push(told(if is_point { "reaches nothing" } else { "reaches nothing that a camera sees" }));
         }
     }
     found
@@ -54,6 +55,9 @@ fn reaches(stage: &Stage<'_>, id: EntityId, light: &Light) -> bool {
     let frame = stage.snapshot.frame();
     if light.environment().is_some() || light.ambient() != Rgb::BLACK {
         return !stage.snapshot.prims().is_empty();
+    }
+    if stage.cameras.is_empty() && (light.lamp().is_some() || light.position().is_none()) {
+        return true;
     }
     if light.lamp().is_some() {
         return lamp_reaches(stage, id);

@@ -5,7 +5,7 @@ use catoptra_core::scene::Edit;
 use catoptra_core::{Camera, EntityId, Ray, Rgb, Role, Scene};
 use catoptra_scene::SceneFile;
 use catoptra_tracer::{Backend, Pool, Size, Snapshot, SurfaceId, View, backends};
-use miette::{Result, miette};
+use miette::Result;
 
 use crate::surfaces::Surfaces;
 
@@ -37,8 +37,7 @@ impl<'a> Stage<'a> {
         let mut seen = Vec::new();
         for camera in &cameras {
             let view = View::new(camera.clone(), size);
-            let surfaces = Surfaces::seen(backend, &snapshot, &view, pool)
-                .map_err(|_| miette!("there is no memory for so many rays"))?;
+            let surfaces = Surfaces::seen(backend, &snapshot, &view, pool)?;
             seen.extend(surfaces.sightings().map(|(ray, surface, t)| Sighting { ray, surface, t }));
         }
         Ok(Self { scene, file, snapshot, pool, size, cameras, seen })

@@ -3,7 +3,7 @@
 use catoptra_core::Integrator;
 use catoptra_scene::image::{Channel, Numbers, Samples};
 use catoptra_tracer::{Control, Film, Size, Snapshot, View, render};
-use miette::{Result, miette};
+use miette::Result;
 use serde_json::{Map, Value, json};
 
 use super::even_light::evenly_lit;
@@ -38,8 +38,7 @@ impl<'a> Seen<'a> {
     ) -> Result<Option<Self>> {
         let surfaces = need(layers, Need::Surfaces)
             .then(|| Surfaces::seen(job.backend, &job.snapshot, &job.view, &job.pool))
-            .transpose()
-            .map_err(|_| miette!("there is no memory for the layers"))?;
+            .transpose()?;
         let even = if need(layers, Need::EvenLight) {
             let Some(even) = in_even_light(job, control)? else { return Ok(None) };
             Some(even)

@@ -77,7 +77,7 @@ fn every_layer_has_its_channels_and_numbers_their_names() {
     let low = 39 * 60 + 30;
     assert_eq!((name("id.entity", low), name("id.material", low)), ("floor".into(), "grey".into()));
     assert_eq!((all["id.entity"][0], all["id.material"][0]), (0, 0));
-    let about: Value = serde_json::from_str(&text(&image.attributes.other, "catoptra")).unwrap();
+    let about: Value = serde_json::from_str(&text(&layer.attributes.other, "catoptra")).unwrap();
     assert_eq!((&about["scene"], &about["camera"]), (&"scene.kdl".into(), &"front".into()));
     assert_eq!(about["version"], env!("CARGO_PKG_VERSION"));
     assert_eq!(about["scene_hash"].as_str().unwrap().len(), 8);

@@ -1,5 +1,6 @@
 //! Does the program `catoptra` keep what it promises to scripts: exit codes, messages, whole files?
 
+mod checks;
 mod compare;
 mod explain;
 #[cfg(unix)]

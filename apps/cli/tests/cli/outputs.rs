@@ -184,7 +184,7 @@ fn a_part_of_a_picture_is_kept_where_that_is_asked_for() {
     }
     let line = |more: &str| {
         format!(
-            "timeout --preserve-status -s INT 2 $catoptra render scene.kdl -o a.png --size 1500x1500 --samples 40000 \
+            "timeout --preserve-status -s INT 2 $catoptra render scene.kdl -o a.png --size 1500x1500 --samples 400 \
              --threads 2 {more}"
         )
     };

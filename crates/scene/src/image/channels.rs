@@ -227,7 +227,7 @@ mod tests {
                 panic!("ids are whole");
             };
             assert_eq!((numbers[0], numbers[33 * 21 - 1]), (7 << 16 | 9, 39 << 16 | 29));
-            let made = &image.attributes.other[&text("made")];
+            let made = &layer.attributes.other[&text("made")];
             assert_eq!(*made, AttributeValue::Text(text("größer")), "{compression:?}");
         }
     }
