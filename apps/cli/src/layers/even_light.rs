@@ -17,10 +17,11 @@ pub(super) fn evenly_lit(scene: &Scene) -> Result<Scene> {
         };
         lit.apply(edit).into_diagnostic()?;
     }
-    for (id, _, material) in scene.materials().filter(|(.., material)| material.emission().is_some()) {
-        let kind = material.kind();
-        if let Ok(dark) = (kind.make)(&without_light(kind.fields, &material.values())) {
-            lit.apply(Edit::Material(id, dark)).into_diagnostic()?;
+    for (id, _, material) in scene.materials() {
+        let (kind, values) = (material.kind(), material.values());
+        let shown = with_own_color(&without_light(kind.fields, &values));
+        if let Some(shown) = (kind.make)(&shown).ok().filter(|shown| shown != material) {
+            lit.apply(Edit::Material(id, shown)).into_diagnostic()?;
         }
     }
     let name = lit.free_name("even light");
@@ -43,6 +44,18 @@ fn without_light(fields: &[Field], values: &Values) -> Values {
     })
 }
 
+/// The same where even light is answered as all other is: some materials have a colour of its own for it.
+fn with_own_color(values: &Values) -> Values {
+    match (values.get(AMBIENT), values.get(DIFFUSE)) {
+        (Some(_), Some(diffuse)) => values.clone().with(AMBIENT, diffuse.clone()),
+        _ => values.clone(),
+    }
+}
+
+/// The fields of such materials for even light and for all other.
+const AMBIENT: &str = "ambient";
+const DIFFUSE: &str = "diffuse";
+
 #[cfg(test)]
 mod tests {
     use catoptra_core::Material;
@@ -52,6 +65,7 @@ mod tests {
     #[test]
     fn one_light_is_left() {
         let text = "emissive \"glow\" { radiance 2 }\nsphere \"ball\" material=\"glow\" { radius 1 }\n\
+            phong \"red\" { ambient 1; diffuse 0.8 0.1 0.1 }\n\
             point-light \"point\" { intensity 1 }\nambient-light \"sky\" { radiance 3 }\n\
             rectangle-light \"panel\" { corner 0 0 0; edge-u 1 0 0; edge-v 0 1 0; radiance 3 }\n";
         let (scene, _) = catoptra_scene::parse(text, "text", None).unwrap();
@@ -62,5 +76,7 @@ mod tests {
             |material: &Material| material.emission().map_or(0.0, |light| light.radiance.max_channel());
         assert!(lit.materials().all(|(.., material)| glow(material) == 0.0));
         assert_eq!(lit.entities_of(Role::Light).count(), 4);
+        let red = lit.material(lit.material_named("red").unwrap()).values();
+        assert_eq!(red.get(AMBIENT), Some(&Value::Color(Rgb::new(0.8, 0.1, 0.1))));
     }
 }
