@@ -1,16 +1,64 @@
 //! `catoptra compare`: how far is a picture from its reference, and is that within the limits?
 
+use std::path::{Path, PathBuf};
+
 use catoptra_lab::{METRICS, Metric, Pair, Picture, Viewing};
-use miette::{Result, miette};
+use catoptra_scene::image::false_color::{Scale, color};
+use catoptra_scene::image::write_png;
+use clap::Args;
+use miette::{IntoDiagnostic, Result, miette};
 use serde_json::{Map, Value, json};
 
 use crate::Outcome;
-use crate::args::{CompareArgs, LimitArgs};
+use crate::args::limit;
 use crate::console::print;
+use crate::destination::{check_apart, check_writable};
 use crate::input::{Stored, read_picture};
+use crate::output::Format;
+
+#[derive(Args)]
+pub(crate) struct CompareArgs {
+    /// Picture taken as right (.png or .exr)
+    pub(crate) reference: PathBuf,
+    /// Picture that is judged
+    pub(crate) test: PathBuf,
+    /// Answer with a JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// A pixel counts as differing past this difference of a channel (a step of a .png is 0.00393)
+    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = limit)]
+    pub(crate) threshold: f64,
+    /// Picture of the differences to write (.png): the largest difference of a channel in false colours, dark for none, bright for the
+    /// largest of all
+    #[arg(long, value_name = "FILE")]
+    pub(crate) diff: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
+}
+
+/// Limits past which a comparison ends with exit code 1.
+#[derive(Args)]
+pub(crate) struct LimitArgs {
+    /// Largest root mean squared error allowed
+    #[arg(long, value_name = "X", value_parser = limit)]
+    pub(crate) max_rmse: Option<f64>,
+    /// Largest relative mean squared error allowed
+    #[arg(long, value_name = "X", value_parser = limit)]
+    pub(crate) max_relmse: Option<f64>,
+    /// Largest difference of a channel allowed; the bytes of a .png count as 0 to 1, so a step is 0.00393
+    #[arg(long, value_name = "X", value_parser = limit)]
+    pub(crate) max_difference: Option<f64>,
+    /// Largest mean FLIP allowed
+    #[arg(long, value_name = "X", value_parser = limit)]
+    pub(crate) max_flip: Option<f64>,
+    /// Most differing pixels allowed
+    #[arg(long, value_name = "N")]
+    pub(crate) max_differing: Option<u64>,
+}
 
 /// Compares two picture files.
 pub(crate) fn run(args: &CompareArgs) -> Result<Outcome> {
+    check_difference(args)?;
     let (reference, test) = (read_picture(&args.reference)?, read_picture(&args.test)?);
     if reference.is_encoded() != test.is_encoded() {
         return Err(miette!(
@@ -21,6 +69,9 @@ pub(crate) fn run(args: &CompareArgs) -> Result<Outcome> {
         ));
     }
     let measured = measure(&reference, &test, args.threshold)?;
+    if let Some(path) = &args.diff {
+        write_difference(path, &reference.values, &test.values)?;
+    }
     let passed = |(metric, value): &(&Metric, f64)| {
         limit_of(metric.name, &args.limits).is_none_or(|limit| *value <= limit)
     };
@@ -32,6 +83,27 @@ pub(crate) fn run(args: &CompareArgs) -> Result<Outcome> {
     };
     print(&answer)?;
     Ok(if within { Outcome::Done } else { Outcome::Differs })
+}
+
+/// Refuses a picture of differences that cannot be written.
+fn check_difference(args: &CompareArgs) -> Result<()> {
+    let Some(path) = args.diff.as_deref() else { return Ok(()) };
+    if Format::of(path)? != Format::Png {
+        return Err(miette!(help = "give it the ending .png", "the picture of differences is a .png"));
+    }
+    let inputs = [("the reference", args.reference.clone()), ("the test", args.test.clone())];
+    check_apart(&[("--diff", path)], &inputs)?;
+    check_writable(&[("--diff", path)])
+}
+
+/// Writes the largest difference of a channel of each pixel, as a share of the largest of all, in false colours.
+fn write_difference(path: &Path, reference: &Picture, test: &Picture) -> Result<()> {
+    let channels =
+        |(a, b): (&[f32; 3], &[f32; 3])| (0..3).map(|i| f64::from((a[i] - b[i]).abs())).fold(0.0, f64::max);
+    let differences: Vec<f64> = reference.pixels().iter().zip(test.pixels()).map(channels).collect();
+    let scale = Scale::of([0.0, differences.iter().copied().fold(0.0, f64::max)]);
+    let bytes: Vec<u8> = differences.iter().flat_map(|difference| color(scale.share(*difference))).collect();
+    write_png(path, reference.width(), reference.height(), &bytes).into_diagnostic()
 }
 
 /// Every metric of two pictures: over the values as they are stored, except FLIP, which judges the light a display emits.

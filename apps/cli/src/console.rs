@@ -3,6 +3,7 @@
 
 use std::fs::File;
 use std::io::{self, ErrorKind, Write};
+use std::sync::atomic::{AtomicU8, Ordering};
 
 use miette::{Result, miette};
 
@@ -32,9 +33,47 @@ pub(crate) fn check_heard() -> Result<()> {
     }
 }
 
-/// Says something on standard error.
-pub(crate) fn say(text: &str) {
+/// How much is said that is no answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Talk {
+    /// Errors.
+    Quiet,
+    /// Notes and warnings too.
+    Usual,
+    /// How the work goes on, too.
+    Verbose,
+}
+
+/// The [`Talk`] that was asked for.
+static TALK: AtomicU8 = AtomicU8::new(Talk::Usual as u8);
+
+/// Sets how much is said from now on.
+pub(crate) fn set_talk(talk: Talk) {
+    TALK.store(talk as u8, Ordering::Relaxed);
+}
+
+/// Whether so much is to be said.
+pub(crate) fn talks(talk: Talk) -> bool {
+    TALK.load(Ordering::Relaxed) >= talk as u8
+}
+
+/// Says on standard error why a command fails.
+pub(crate) fn complain(text: &str) {
     let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
+/// Says something on standard error, unless nothing but errors is to be said.
+pub(crate) fn say(text: &str) {
+    if talks(Talk::Usual) {
+        complain(text);
+    }
+}
+
+/// Says how the work goes on, where that is asked for.
+pub(crate) fn detail(text: &str) {
+    if talks(Talk::Verbose) {
+        complain(text);
+    }
 }
 
 /// Says that something was asked for which changes nothing.

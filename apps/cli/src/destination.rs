@@ -20,17 +20,20 @@ pub(crate) fn check_writable(outputs: &[Output<'_>]) -> Result<()> {
 
 /// Refuses a file to be written that is another such file or is read, however the names are spelt and linked.
 pub(crate) fn check_apart(outputs: &[Output<'_>], inputs: &[Input]) -> Result<()> {
-    for (at, (option, path)) in outputs.iter().enumerate() {
+    let inputs: Vec<_> = inputs.iter().map(|input| (atomic::identity(&input.1), input)).collect();
+    let mut before: Vec<(atomic::FileId, &Output<'_>)> = Vec::new();
+    for output in outputs {
+        let (option, path) = output;
         let Some(file) = atomic::identity(path) else { continue };
-        let same = |other: &Path| atomic::identity(other).as_ref() == Some(&file);
-        if let Some((what, input)) = inputs.iter().find(|(_, input)| same(input)) {
+        if let Some((_, (what, input))) = inputs.iter().find(|(input, _)| input.as_ref() == Some(&file)) {
             let help = "write to another file";
             return Err(miette!(help = help, "{option} would overwrite {what} {}", input.display()));
         }
-        if let Some((other, _)) = outputs[..at].iter().find(|(_, other)| same(other)) {
+        if let Some((_, (other, _))) = before.iter().find(|(other, _)| *other == file) {
             let help = "give each a file of its own";
             return Err(miette!(help = help, "{other} and {option} both write {}", path.display()));
         }
+        before.push((file, output));
     }
     Ok(())
 }

@@ -130,16 +130,24 @@ fn label(job: &Job) -> Result<String> {
         ("clamp", clamp.to_string()),
         ("seed", seed.to_string()),
     ];
-    Ok(lines.map(|(name, value)| format!("{name} {}\n", printable(&value))).concat())
+    let turned = job.turned.iter().map(|turned| ("turn", turned.clone()));
+    Ok(lines
+        .into_iter()
+        .chain(turned)
+        .map(|(name, value)| format!("{name} {}\n", printable(&value)))
+        .collect())
 }
 
-/// A checksum of the scene's text and of all files that it names.
-fn digest(job: &Job) -> Result<String> {
+/// A checksum of the scene's text and of all files that it names, but for those that are not there.
+pub(crate) fn digest(job: &Job) -> Result<String> {
     let mut sum = Hasher::new();
     sum.update(job.scene_text.as_bytes());
     for path in &job.files {
-        let bytes = std::fs::read(path);
-        sum.update(&bytes.map_err(|error| miette!("{} cannot be read: {error}", path.display()))?);
+        match std::fs::read(path) {
+            Ok(bytes) => sum.update(&bytes),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Err(error) => return Err(miette!("{} cannot be read: {error}", path.display())),
+        }
     }
     Ok(format!("{:08x}", sum.finalize()))
 }

@@ -15,7 +15,7 @@ use serde_json::json;
 
 use crate::Outcome;
 use crate::console::print_answer;
-use crate::job::read;
+use crate::loaded::read;
 use crate::words::{bytes, counted, list};
 
 #[derive(Args)]

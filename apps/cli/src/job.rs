@@ -1,26 +1,24 @@
 //! What is to be traced? A scene file, a camera of it, a backend and threads, ready for frames.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
 use catoptra_core::{Camera, EntityId, Integrator, Role, Scene};
-use catoptra_scene::SceneFile;
 use catoptra_tracer::{
     Backend, Cancelled, Control, Edges, Film, Filter, Instructions, Pattern, Pool, Reached, Region, Size,
-    Snapshot, Stats, Target, View, render, render_until,
+    Snapshot, Stats, Target, Tone, View, render, render_until,
 };
 use miette::{IntoDiagnostic, Report, Result, WrapErr, miette};
 
-use crate::args::{JobArgs, STANDARD};
-use crate::console::{say, warn};
-use crate::destination::{Input, Output, check_apart};
+use crate::args::JobArgs;
+use crate::console::{detail, warn};
+use crate::loaded::Loaded;
 use crate::memory;
 use crate::names::{find_backend, find_edges, find_filter, find_instructions, find_integrator, find_pattern};
 use crate::pool::{milliseconds_since, new_pool};
 use crate::suggest::unknown;
 use crate::words::thousands;
-use catoptra_scene::printable;
 
 /// How frames are made, whatever they show: the names that need no scene to be looked up.
 #[derive(Clone, Copy)]
@@ -45,6 +43,24 @@ impl Means {
     }
 }
 
+/// What must be there before a scene is read: threads, and room for the picture.
+#[derive(Clone)]
+pub(crate) struct Resources {
+    pub(crate) pool: Arc<Pool>,
+    crop: Option<Region>,
+}
+
+impl Resources {
+    /// Takes them; `beside` are bytes that are needed beside a film.
+    pub(crate) fn claim(args: &JobArgs, beside: impl Fn(Size) -> u64) -> Result<Self> {
+        let crop = args.crop.map(|crop| check_crop(crop, args.size)).transpose()?;
+        let pool = Arc::new(new_pool(args.threads)?);
+        let size = crop.map_or(args.size, |crop| crop.size);
+        memory::check_room(size, beside(size))?;
+        Ok(Self { pool, crop })
+    }
+}
+
 /// All that frames are made from.
 pub(crate) struct Job {
     pub(crate) scene: Scene,
@@ -53,27 +69,35 @@ pub(crate) struct Job {
     /// All other files that it was made from.
     pub(crate) files: Vec<PathBuf>,
     pub(crate) camera_name: String,
+    /// How far the camera is turned from where it stands in the scene, in words.
+    pub(crate) turned: Option<String>,
     pub(crate) snapshot: Arc<Snapshot>,
+    /// How long it took to read the scene.
+    pub(crate) load_ms: f64,
     /// How long it took to make the snapshot from the scene, trees included.
     pub(crate) build_ms: f64,
     pub(crate) view: View,
+    /// How light becomes the bytes of a display.
+    pub(crate) tone: Tone,
     /// How sure its pixels are to be, where that says how many samples they get.
     pub(crate) target: Option<Target>,
     /// Edge of the film's tiles, pixels.
     tile: u32,
     pub(crate) backend: &'static dyn Backend,
-    pub(crate) pool: Pool,
+    pub(crate) pool: Arc<Pool>,
 }
 
 impl Job {
-    /// Reads the scene, from whose meshes these outputs must differ.
-    pub(crate) fn new(args: &JobArgs, means: Means, outputs: &[Output<'_>]) -> Result<Self> {
-        let crop = args.crop.map(|crop| check_crop(crop, args.size)).transpose()?;
-        let pool = new_pool(args.threads)?;
-        memory::check_room(crop.map_or(args.size, |crop| crop.size))?;
-        let (scene, file) = load(&args.scene)?;
-        let camera_id = find_camera(&scene, args.camera.as_deref())?;
-        let view = View::of(&scene, placed_camera(&scene, camera_id)?, args.size);
+    /// Looks at a scene through one of its cameras.
+    pub(crate) fn new(
+        args: &JobArgs,
+        means: Means,
+        resources: &Resources,
+        loaded: Loaded,
+        camera: EntityId,
+    ) -> Result<Self> {
+        let Loaded { scene, name: scene_name, text: scene_text, inputs, milliseconds: load_ms } = loaded;
+        let view = View::of(&scene, placed_camera(&scene, camera)?, args.size);
         let named = args.integrator.as_deref().map(find_integrator).transpose()?;
         let view = View {
             integrator: named.unwrap_or(view.integrator),
@@ -81,7 +105,7 @@ impl Job {
             path_depth: args.max_depth.unwrap_or(view.path_depth),
             clear_shadows: !args.opaque_glass,
             samples: args.samples.unwrap_or(view.samples),
-            crop,
+            crop: resources.crop,
             pattern: means.pattern,
             filter: means.filter,
             clamp: args.clamp.unwrap_or(f32::INFINITY),
@@ -91,18 +115,14 @@ impl Job {
             ..view
         };
         check_grid(&view)?;
-        let meshes = file.mesh_paths().chain(file.model_paths()).map(|path| ("the mesh", path));
-        let profiles = file.profile_paths().map(|path| ("the profile", path));
-        let pictures = file.image_paths().map(|path| ("the picture", path));
-        let inputs: Vec<Input> = meshes.chain(profiles).chain(pictures).collect();
-        check_apart(outputs, &inputs)?;
+        let pool = Arc::clone(&resources.pool);
         let started = Instant::now();
         let snapshot = Arc::new(Snapshot::extract(&scene, &pool));
         let build_ms = milliseconds_since(started);
+        detail(&format!("made the snapshot of {scene_name} in {build_ms:.1} ms"));
         warn_of_lamps(&scene, &snapshot);
-        let camera_name = scene.name(camera_id).unwrap_or_default();
-        let (scene_name, scene_text) = (file_name(&args.scene), file.text());
-        let files = inputs.into_iter().map(|(_, path)| path).collect();
+        let camera_name = scene.name(camera).unwrap_or_default();
+        let files = inputs.into_iter().skip(1).map(|(_, path)| path).collect();
         let (tile, backend) = (args.tile, means.backend);
         Ok(Self {
             scene,
@@ -110,14 +130,25 @@ impl Job {
             scene_text,
             files,
             camera_name,
+            turned: None,
             snapshot,
+            load_ms,
             build_ms,
             view,
+            tone: Tone::default(),
             target: None,
             tile,
             backend,
             pool,
         })
+    }
+
+    /// Looks through another of the scene's cameras from now on.
+    pub(crate) fn look_through(&mut self, camera: EntityId) -> Result<()> {
+        self.view.camera = placed_camera(&self.scene, camera)?;
+        self.camera_name = self.scene.name(camera).unwrap_or_default();
+        self.turned = None;
+        Ok(())
     }
 
     /// Says which options change nothing.
@@ -176,31 +207,6 @@ pub(crate) struct Frame {
     pub(crate) reached: Option<Reached>,
 }
 
-/// Reads a scene, and says what was added to it or passed over; the meshes of one from standard input lie in the current folder.
-pub(crate) fn load(path: &Path) -> Result<(Scene, SceneFile)> {
-    let (scene, file) = read(path)?;
-    if let Some(added) = file.added() {
-        say(&printable(added));
-    }
-    file.warnings().iter().for_each(|warning| warn(&printable(warning)));
-    Ok((scene, file))
-}
-
-/// The same without a word about it.
-pub(crate) fn read(path: &Path) -> Result<(Scene, SceneFile)> {
-    Ok(if path == Path::new(STANDARD) {
-        catoptra_scene::load_from(std::io::stdin().lock(), Path::new("<stdin>"), Path::new(""))?
-    } else {
-        catoptra_scene::load(path)?
-    })
-}
-
-/// The file that a scene is read from.
-pub(crate) fn scene_input(scene: &Path) -> Input {
-    let scene = if scene == Path::new(STANDARD) { Path::new("/dev/stdin") } else { scene };
-    ("the scene", scene.to_owned())
-}
-
 /// Refuses a grid of samples that is no square.
 fn check_grid(view: &View) -> Result<()> {
     let side = view.samples.isqrt();
@@ -234,10 +240,6 @@ fn warn_of_lamps(scene: &Scene, snapshot: &Snapshot) {
     }
 }
 
-pub(crate) fn file_name(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
-}
-
 /// A crop that lies within the picture.
 fn check_crop(crop: Region, picture: Size) -> Result<Region> {
     if crop.within(picture) == crop {
@@ -254,23 +256,42 @@ fn check_crop(crop: Region, picture: Size) -> Result<Region> {
     ))
 }
 
-fn find_camera(scene: &Scene, name: Option<&str>) -> Result<EntityId> {
-    let Some(name) = name else {
-        return scene.main_camera().ok_or_else(|| {
-            miette!(
-                help = "add one, such as:  camera \"eye\" { eye 0 1 5; target 0 1 0 }",
-                "the scene has no camera to look through"
-            )
-        });
-    };
-    let cameras: Vec<String> = scene.entities_of(Role::Camera).filter_map(|id| scene.name(id)).collect();
-    let known: Vec<&str> = cameras.iter().map(String::as_str).collect();
-    let found = scene.entity_named(name).filter(|id| scene.role(*id) == Some(Role::Camera));
-    found.ok_or_else(|| unknown("camera", name, &known))
+/// The word for all cameras of a scene.
+const ALL: &str = "all";
+
+/// The cameras of that name, in the order of the scene: one, or for `all` every one; without a name, the first.
+pub(crate) fn find_cameras(scene: &Scene, name: Option<&str>) -> Result<Vec<EntityId>> {
+    let first = scene.main_camera().ok_or_else(|| {
+        miette!(
+            help = "add one, such as:  camera \"eye\" { eye 0 1 5; target 0 1 0 }",
+            "the scene has no camera to look through"
+        )
+    });
+    let Some(name) = name else { return Ok(vec![first?]) };
+    let is_camera = |id: &EntityId| scene.role(*id) == Some(Role::Camera);
+    if let Some(id) = scene.entity_named(name).filter(is_camera) {
+        return Ok(vec![id]);
+    }
+    let cameras: Vec<EntityId> = scene.walk().into_iter().filter(is_camera).collect();
+    if name == ALL {
+        first?;
+        return Ok(cameras);
+    }
+    let names: Vec<String> = cameras.iter().filter_map(|id| scene.name(*id)).collect();
+    let known: Vec<&str> = names.iter().map(String::as_str).collect();
+    Err(unknown("camera", name, &known))
+}
+
+/// The camera of that name, or the first.
+pub(crate) fn find_camera(scene: &Scene, name: Option<&str>) -> Result<EntityId> {
+    match find_cameras(scene, name)?[..] {
+        [camera] => Ok(camera),
+        _ => Err(miette!(help = "name one of them with --camera", "one camera is looked through at a time")),
+    }
 }
 
 /// The camera where its groups put it.
-fn placed_camera(scene: &Scene, id: EntityId) -> Result<Camera> {
+pub(crate) fn placed_camera(scene: &Scene, id: EntityId) -> Result<Camera> {
     let missing = || -> Report { miette!("the scene has no camera to look through") };
     let camera = scene.camera(id).ok_or_else(missing)?;
     let placement = scene.world_placement(id).ok_or_else(missing)?;

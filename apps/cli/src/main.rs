@@ -1,29 +1,40 @@
 //! The binary `catoptra`: what does the user ask for, and with which exit code does it end?
 //!
-//! 0: done. 1: pictures differ past a limit. 2: bad usage or input, said on stderr. 130: interrupted.
+//! 0: done. 1: pictures differ past a limit, or a check found something. 2: bad usage or input, said on stderr. 130: interrupted.
 
 mod args;
+mod cast;
+mod check;
 mod compare;
 mod console;
 mod destination;
 mod explain;
 mod film;
+mod fmt;
 mod info;
 mod input;
 mod interrupt;
 mod job;
 mod lab;
+mod layers;
+mod loaded;
 mod memory;
 mod names;
+mod numbers;
 mod output;
+mod pick;
 mod pool;
 mod probe;
+mod processor;
 mod progress;
 mod render;
+mod rows;
+mod shells;
 #[cfg(unix)]
 mod signals;
 mod stats;
 mod suggest;
+mod surfaces;
 mod words;
 
 use std::io::IsTerminal;
@@ -33,7 +44,7 @@ use clap::Parser;
 use miette::{IntoDiagnostic, MietteHandlerOpts, Result};
 
 use args::{Cli, Command};
-use console::{print_answer, say};
+use console::{Talk, complain, print_answer, set_talk};
 
 /// How a command that was understood has ended.
 enum Outcome {
@@ -48,10 +59,17 @@ fn main() -> ExitCode {
     // Long paths stay in one piece, so that tools can find them in the message.
     let plain = |_: &_| Box::new(MietteHandlerOpts::new().wrap_lines(false).build()) as Box<_>;
     if let Err(report) = miette::set_hook(Box::new(plain)) {
-        say(&report.to_string());
+        complain(&report.to_string());
     }
     let outcome = match Cli::try_parse() {
-        Ok(cli) => run(cli.command),
+        Ok(cli) => {
+            match (cli.quiet, cli.verbose) {
+                (true, _) => set_talk(Talk::Quiet),
+                (false, true) => set_talk(Talk::Verbose),
+                (false, false) => {}
+            }
+            run(cli.command)
+        }
         Err(told) if told.use_stderr() => {
             let _ = told.print();
             return BAD.into();
@@ -63,7 +81,7 @@ fn main() -> ExitCode {
         Ok(Outcome::Differs) => ExitCode::from(1),
         Ok(Outcome::Interrupted) => interrupt::CODE.into(),
         Err(report) => {
-            say(&format!("{report:?}"));
+            complain(&format!("{report:?}"));
             BAD.into()
         }
     }
@@ -77,7 +95,13 @@ fn run(command: Command) -> Result<Outcome> {
         Command::Render(args) => render::run(&args),
         Command::Explain(args) => explain::run(&args),
         Command::Info(args) => info::run(&args),
+        Command::Check(args) => check::run(&args),
+        Command::Fmt(args) => fmt::run(&args),
+        Command::Completions(args) => shells::complete(&args),
+        Command::Man(args) => shells::write_pages(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Pick(args) => pick::run(&args),
+        Command::Cast(args) => cast::run(&args),
         Command::Probe(args) => probe::run(&args),
         Command::Lab(args) => lab::run(&args),
     }

@@ -9,9 +9,10 @@ use crate::words::bytes;
 /// What tracing needs beside the film, and writing the picture.
 const BESIDE: u64 = 16 << 20;
 
-/// Refuses a picture that memory cannot hold: by what the system says is free, and by asking for as much at once.
-pub(crate) fn check_room(size: Size) -> Result<()> {
-    check_bytes(size, Film::bytes_of(size))
+/// Refuses a picture that memory cannot hold, with bytes that are needed beside its film: by what the system says is free, and by
+/// asking for as much at once.
+pub(crate) fn check_room(size: Size, beside: u64) -> Result<()> {
+    check_bytes(size, Film::bytes_of(size).saturating_add(beside))
 }
 
 /// Refuses a picture whose film takes more bytes than there are.
@@ -50,8 +51,8 @@ mod tests {
 
     #[test]
     fn more_than_there_is_is_told_with_what_it_needs() {
-        let error = check_room(Size::new(1 << 29, 1 << 29)).unwrap_err().to_string();
+        let error = check_room(Size::new(1 << 29, 1 << 29), 0).unwrap_err().to_string();
         assert!(error.contains("needs 5368709120.0 GiB of memory"), "{error}");
-        assert!(check_room(Size::new(64, 64)).is_ok());
+        assert!(check_room(Size::new(64, 64), 0).is_ok());
     }
 }

@@ -4,11 +4,11 @@ use std::io::Write;
 use std::path::Path;
 
 use catoptra_scene::atomic;
-use catoptra_scene::image::{write_exr, write_png, write_png_rows};
-use catoptra_tracer::{Film, Size, Tone};
+use catoptra_scene::image::write_png;
 use miette::{IntoDiagnostic, Report, Result, miette};
 
 use crate::probe::Map;
+use crate::suggest::unknown;
 
 /// Kinds of picture files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +20,23 @@ pub(crate) enum Format {
 }
 
 impl Format {
+    /// The format of that name on the command line.
+    pub(crate) fn named(name: &str) -> Result<Self> {
+        match name {
+            "png" => Ok(Self::Png),
+            "exr" => Ok(Self::Exr),
+            other => Err(unknown("picture format", other, &["png", "exr"])),
+        }
+    }
+
+    /// What names of its files end in.
+    pub(crate) fn ending(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Exr => "exr",
+        }
+    }
+
     /// The format that the ending of a file's name says.
     pub(crate) fn of(path: &Path) -> Result<Self> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
@@ -40,18 +57,6 @@ impl Format {
     }
 }
 
-/// Writes a film as the picture that the name asks for.
-pub(crate) fn write_film(path: &Path, film: &Film, tone: Tone) -> Result<()> {
-    let Size { width, height } = film.size();
-    match Format::of(path)? {
-        Format::Png => {
-            write_png_rows(path, width, height, |y, row| tone.rgb8_row(film, y, row)).into_diagnostic()
-        }
-        Format::Exr => write_exr(path, [width, height], |x, y| film.radiance(x, y))
-            .map_err(|error| unwritable(path, &error)),
-    }
-}
-
 /// Writes a drawn picture as a PNG.
 pub(crate) fn write_map(path: &Path, map: &Map) -> Result<()> {
     write_png(path, map.width as u32, map.height as u32, &map.bytes).into_diagnostic()
@@ -62,7 +67,7 @@ pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<()> {
     atomic::write(path, |out| out.write_all(bytes)).map_err(|error| unwritable(path, &error))
 }
 
-fn unwritable(path: &Path, reason: &dyn std::fmt::Display) -> Report {
+pub(crate) fn unwritable(path: &Path, reason: &dyn std::fmt::Display) -> Report {
     miette!("{} cannot be written: {reason}", path.display())
 }
 
@@ -76,5 +81,8 @@ mod tests {
         assert_eq!(Format::of(Path::new("b/c.exr")).unwrap(), Format::Exr);
         assert!(Format::of(Path::new("a.jpg")).is_err());
         assert!(Format::of(Path::new("png")).is_err());
+        for format in [Format::Png, Format::Exr] {
+            assert_eq!(Format::named(format.ending()).unwrap(), format);
+        }
     }
 }

@@ -7,6 +7,8 @@ use catoptra_tracer::{Control, Progress};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 
+use crate::console::{Talk, talks};
+
 /// Renders shorter than this show nothing.
 const PATIENCE: Duration = Duration::from_secs(1);
 
@@ -18,7 +20,7 @@ const STEPS: u64 = 1000;
 
 /// Runs `work` and shows the progress of `control` meanwhile.
 pub(crate) fn while_showing<T>(control: &Control, work: impl FnOnce() -> T) -> T {
-    if !std::io::stderr().is_terminal() {
+    if !std::io::stderr().is_terminal() || !talks(Talk::Usual) {
         return work();
     }
     let (finished, watch) = channel::<()>();

@@ -2,13 +2,15 @@
 
 use std::path::Path;
 
+use catoptra_scene::memory::peak_bytes;
 use catoptra_tracer::Reached;
 use miette::{IntoDiagnostic, Result};
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::job::{Frame, Job};
 use crate::output::write_file;
-use catoptra_scene::memory::peak_bytes;
+use crate::processor;
 
 /// Milliseconds of the timed frames.
 pub(crate) struct FrameTimes {
@@ -27,11 +29,28 @@ impl FrameTimes {
     }
 }
 
+/// Milliseconds of what is done for a picture, in order.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub(crate) struct Stages {
+    /// Reading the scene and its files.
+    pub(crate) load: f64,
+    /// Making the snapshot, with its trees.
+    pub(crate) snapshot: f64,
+    /// From snapshot to film.
+    pub(crate) trace: f64,
+    /// Asking for what layers show beside light.
+    pub(crate) layers: f64,
+    /// Writing the picture.
+    pub(crate) write: f64,
+}
+
 /// The object that `--stats` writes.
 ///
 /// `frame_ms` is the time from snapshot to film, `build_ms` that from scene to snapshot; counts are of one frame.
-fn as_json(job: &Job, times: &FrameTimes, frame: &Frame) -> Result<Value> {
+fn as_json(job: &Job, (times, stages): (&FrameTimes, &Stages), frame: &Frame) -> Result<Value> {
     let mut object = json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "processor": processor::as_json(),
         "scene": job.scene_name,
         "camera": job.camera_name,
         "backend": job.backend.name(),
@@ -49,6 +68,8 @@ fn as_json(job: &Job, times: &FrameTimes, frame: &Frame) -> Result<Value> {
         "frames": times.frames,
         "frame_ms": { "min": times.min, "median": times.median },
         "build_ms": job.build_ms,
+        "stages_ms": stages,
+        "turned": job.turned,
         "peak_memory_bytes": peak_bytes(),
     });
     if let (Value::Object(object), Value::Object(counts)) =
@@ -73,7 +94,12 @@ fn reached_as_json(job: &Job, reached: &Reached) -> Value {
 }
 
 /// Writes the object, whole or not at all.
-pub(crate) fn write_stats(path: &Path, job: &Job, times: &FrameTimes, frame: &Frame) -> Result<()> {
+pub(crate) fn write_stats(
+    path: &Path,
+    job: &Job,
+    times: (&FrameTimes, &Stages),
+    frame: &Frame,
+) -> Result<()> {
     let mut text = serde_json::to_string_pretty(&as_json(job, times, frame)?).into_diagnostic()?;
     text.push('\n');
     write_file(path, text.as_bytes())

@@ -158,7 +158,7 @@ impl Bench {
         match self.viewer.wanted.take() {
             Some(Wanted::Copy(text)) => self.clipboard = text,
             Some(Wanted::Paste) => making::paste(&mut self.viewer, &self.clipboard.clone()),
-            Some(Wanted::Model(_)) | None => {}
+            Some(Wanted::Model(_) | Wanted::DesktopDialog) | None => {}
         }
         self.viewer.follow_scene();
         self.viewer.latest.follow(&self.viewer.extraction, &self.pool);

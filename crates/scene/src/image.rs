@@ -1,5 +1,6 @@
-//! How pictures go out to PNG files and come in from them, and from JPEG, WebP, OpenEXR and Radiance files.
+//! How pictures go out to PNG and OpenEXR files and come in from them, and from JPEG, WebP and Radiance files.
 
+mod channels;
 pub mod false_color;
 mod jpeg;
 mod load;
@@ -13,6 +14,7 @@ use std::io::{self, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use crate::{atomic, printable};
+pub use channels::{Channel, ChannelPicture, Compression, Numbers, Samples};
 pub use load::{load, load_bytes};
 pub use openexr::write_exr;
 

@@ -4,6 +4,7 @@
 //!   [`Scene`](catoptra_core::scene::Scene) and a [`SceneFile`] that keeps the text; [`SceneFile::save`] writes back
 //!   only what has changed. The grammar follows the lists of kinds in the core: a new shape, light or material is
 //!   read and written without a change here.
+//! * [`format()`] lays scene text out by rule.
 //! * [`fragment`] makes text of parts of a scene, and adds such text to another.
 //! * [`model`] reads models and meshes, [`ies`] how luminaires shine, [`image`] reads pictures, and writes PNG and OpenEXR.
 //! * [`memory`] tells how much there is for a picture.
@@ -31,6 +32,8 @@ mod file;
 mod flags;
 #[cfg(feature = "text")]
 mod foreign;
+#[cfg(feature = "text")]
+mod format;
 #[cfg(feature = "text")]
 pub mod fragment;
 pub mod ies;
@@ -64,6 +67,8 @@ mod write;
 pub use disk::OnDisk;
 #[cfg(feature = "text")]
 pub use file::{LoadError, SaveError, SceneFile, load, load_from, load_unless_cancelled, parse};
+#[cfg(feature = "text")]
+pub use format::format;
 #[cfg(feature = "text")]
 pub use fragment::PasteError;
 pub use printable::printable;

@@ -3,8 +3,8 @@
 use catoptra_scene::image::false_color::{Scale, color};
 
 use super::digits;
-use super::numbers::rounded;
 use super::plane::Plan;
+use crate::numbers::rounded;
 
 /// A picture of bytes, row by row from the top left, red, green and blue.
 pub(crate) struct Map {

@@ -2,7 +2,6 @@
 
 mod digits;
 mod map;
-mod numbers;
 mod plane;
 mod points;
 
@@ -17,15 +16,15 @@ use miette::{Result, miette};
 
 use crate::args::STANDARD;
 use crate::console::{check_heard, print_answer, say, warn};
-use crate::destination::{Input, Output, check_apart, check_writable};
-use crate::job::{file_name, load, scene_input};
+use crate::destination::{Output, check_apart, check_writable};
+use crate::loaded::{Loaded, file_name, scene_input};
 use crate::names::find_integrator;
 use crate::output::{Format, write_map};
 use crate::pool::new_pool;
+use crate::rows::Rows;
 use crate::{Outcome, interrupt, progress};
 pub(crate) use map::Map;
 use plane::{Plan, Plane};
-use points::Points;
 
 #[derive(Args)]
 pub(crate) struct ProbeArgs {
@@ -66,15 +65,11 @@ pub(crate) struct ProbeArgs {
 pub(crate) fn run(args: &ProbeArgs) -> Result<Outcome> {
     check(args)?;
     let pool = new_pool(args.threads)?;
-    let points = args.points.as_deref().map(points::read).transpose()?;
-    let (scene, file) = load(&args.scene)?;
-    let meshes = file.mesh_paths().chain(file.model_paths()).map(|path| ("the mesh", path));
-    let profiles = file.profile_paths().map(|path| ("the profile", path));
-    let pictures = file.image_paths().map(|path| ("the picture", path));
-    let inputs: Vec<Input> = meshes.chain(profiles).chain(pictures).collect();
+    let points = args.points.as_deref().map(|path| Rows::read(path, &points::POINT)).transpose()?;
+    let Loaded { scene, inputs, .. } = Loaded::read(&args.scene)?;
     check_apart(&outputs(args), &inputs)?;
     let receivers = match (&points, &args.plane) {
-        (Some(points), _) => points.receivers(),
+        (Some(points), _) => points.iter().copied().collect(),
         (None, Some(plane)) => plane.receivers()?,
         (None, None) => Vec::new(),
     };
@@ -145,7 +140,7 @@ fn worst(found: &[Irradiance]) -> f64 {
 /// Prints what was found and writes the picture of a plane.
 fn answer(
     args: &ProbeArgs,
-    points: Option<&Points>,
+    points: Option<&Rows<Receiver>>,
     receivers: &[Receiver],
     found: &[Irradiance],
     control: &Arc<Control>,
@@ -168,7 +163,7 @@ fn answer(
         (Some(plan), _, true) => format!("{}\n", plan.as_json(&scene)),
         (Some(plan), _, false) => plan.as_text(),
         (None, _, true) => format!("{}\n", points::as_json(&scene, receivers, found)),
-        (None, points, false) => points.map_or_else(String::new, |points| points.as_text(found)),
+        (None, points, false) => points.map_or_else(String::new, |points| points::as_text(points, found)),
     };
     print_answer(&text)?;
     Ok(Outcome::Done)

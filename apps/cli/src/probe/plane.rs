@@ -8,7 +8,7 @@ use catoptra_tracer::{Irradiance, Receiver};
 use miette::{IntoDiagnostic, Result};
 use serde_json::{Value, json};
 
-use super::numbers::{in_full, rounded};
+use crate::numbers::{in_full, rounded};
 
 /// A parallelogram in equal cells.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -66,6 +66,24 @@ fn the_threshold_forgives_small_differences() {
 }
 
 #[test]
+fn a_picture_of_the_differences_is_bright_where_they_are() {
+    let folder = folder();
+    write(folder.path(), "a.png", 100, 100);
+    write(folder.path(), "b.png", 100, 151);
+    let ran = catoptra(folder.path(), &["compare", "a.png", "b.png", "--diff", "d.png"]);
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+    let image = catoptra_scene::image::read_png(&folder.path().join("d.png")).unwrap();
+    let light = |x, y| image.pixel(x, y).unwrap().map(u32::from).iter().sum::<u32>();
+    assert!(light(0, 0) > 2 * light(1, 0) && light(1, 0) == light(3, 3));
+    let refused = |name: &str, words: &[&str]| {
+        assert_refused(folder.path(), &["compare", "a.png", "b.png", "--diff", name], words);
+    };
+    refused("d.exr", &[".png"]);
+    refused("b.png", &["--diff would overwrite the test"]);
+    refused("no/d.png", &["no does not exist"]);
+}
+
+#[test]
 fn pictures_of_different_sizes_are_refused() {
     let folder = folder();
     write(folder.path(), "a.png", 1, 1);

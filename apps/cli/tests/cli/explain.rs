@@ -16,6 +16,34 @@ fn parts_are_counted_by_kind_and_skipped_work_by_reason() {
 }
 
 #[test]
+fn what_takes_how_long_is_told_with_names_and_advice() {
+    let folder = folder();
+    let text = std::fs::read_to_string(folder.path().join("scene.kdl")).unwrap();
+    let glass =
+        "glass \"crystal\" { ior 1.5 }\nsphere \"lens\" material=\"crystal\" { center 1 1 2; radius 0.5 }\n";
+    std::fs::write(folder.path().join("glass.kdl"), text + glass).unwrap();
+    let ran = catoptra(folder.path(), &["explain", "glass.kdl", "--size", "96x64"]);
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""));
+    for words in [
+        " ms  reading the scene",
+        " ms  making the snapshot",
+        " ms  tracing the frame",
+        "of that where \"lens\" is seen",
+        "What would help",
+        "materials such as \"crystal\" make every point be shaded by itself",
+    ] {
+        assert!(ran.out.contains(words), "no `{words}` in\n{}", ran.out);
+    }
+    assert!(!ran.out.contains("before"), "{}", ran.out);
+    let ran = catoptra(folder.path(), &["explain", "scene.kdl", "--size", "96x64", "--json"]);
+    let found: Value = serde_json::from_str(&ran.out).unwrap();
+    let pixels: u64 =
+        found["slow"].as_array().unwrap().iter().map(|thing| thing["pixels"].as_u64().unwrap()).sum();
+    assert_eq!((pixels, &found["advice"][0]), (96 * 64, &"nothing stands out".into()));
+    assert!(found["stages_ms"]["trace"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
 fn json_has_the_same_counts() {
     let folder = folder();
     let ran = catoptra(folder.path(), &["explain", "scene.kdl", "--size", "64x48", "--json"]);

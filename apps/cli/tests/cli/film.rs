@@ -9,7 +9,7 @@ fn run(folder: &Path, line: &str) -> Ran {
 }
 
 fn picture(folder: &Path, line: &str) -> Vec<u8> {
-    let ran = run(folder, &format!("{line} -o a.exr"));
+    let ran = run(folder, &format!("{line} -o a.exr --reproducible"));
     assert_eq!(ran.code, 0, "{line} {}", ran.err);
     std::fs::read(folder.join("a.exr")).expect("a picture")
 }
@@ -22,7 +22,7 @@ fn a_film_goes_on_to_the_bits_of_all_samples_at_once() {
     let folder = folder.path();
     let first = picture(folder, &format!("{LINE} --samples 5 --film a.film"));
     assert_eq!(first, picture(folder, &format!("{LINE} --samples 5")));
-    let ran = run(folder, &format!("{LINE} --samples 12 --film a.film -o a.exr"));
+    let ran = run(folder, &format!("{LINE} --samples 12 --film a.film -o a.exr --reproducible"));
     assert!(ran.code == 0 && ran.err.contains("a.film holds 5 samples a pixel"), "{}", ran.err);
     assert_eq!(
         std::fs::read(folder.join("a.exr")).unwrap(),
@@ -85,7 +85,9 @@ fn an_interrupted_film_goes_on_to_the_same_bits() {
     loop {
         let ran = shell(
             folder,
-            &format!("timeout --preserve-status -s INT 0.4 $catoptra {line} --film a.film -o b.exr"),
+            &format!(
+                "timeout --preserve-status -s INT 0.4 $catoptra {line} --film a.film -o b.exr --reproducible"
+            ),
         );
         match ran.code {
             0 => break,

@@ -70,7 +70,8 @@ fn integrators_are_chosen_by_name_or_by_the_scene_and_seeds_repeat() {
     .unwrap();
     let picture = |scene: &str, options: &[&str]| {
         let arguments = [
-            &["render", scene, "-o", "a.exr", "--size", "32x32", "--samples", "3", "--pattern", "sobol"],
+            &["render", scene, "-o", "a.exr", "--size", "32x32", "--samples", "3"],
+            &["--pattern", "sobol", "--reproducible"][..],
             options,
         ]
         .concat();
@@ -126,6 +127,11 @@ fn stats_are_one_json_object() {
     assert!(stats["rays"]["shadow"].as_u64().unwrap() > 0);
     assert!(stats["rays"]["reflection"].as_u64().unwrap() > 0);
     assert!(stats["frame_ms"]["min"].as_f64().unwrap() <= stats["frame_ms"]["median"].as_f64().unwrap());
+    let stages = &stats["stages_ms"];
+    assert_eq!(stages["trace"], stats["frame_ms"]["median"]);
+    assert!(stages["load"].as_f64().unwrap() > 0.0 && stages["snapshot"] == stats["build_ms"], "{stages}");
+    assert_eq!(stats["version"], env!("CARGO_PKG_VERSION"));
+    assert!(stats["processor"]["threads"].as_u64().unwrap() > 0);
     for key in ["simd", "build_ms", "tests", "skipped", "settled", "exact", "peak_memory_bytes"] {
         assert!(!stats[key].is_null() || key == "peak_memory_bytes", "{key} in {stats}");
     }
@@ -162,12 +168,6 @@ fn the_scene_of_the_readme_renders() {
     std::fs::write(folder.path().join("readme.kdl"), readme_scene()).unwrap();
     let ran = catoptra(folder.path(), &["render", "readme.kdl", "-o", "a.png", "--size", "45x45"]);
     assert_eq!((ran.code, ran.err.as_str()), (0, ""));
-}
-
-#[test]
-fn nothing_to_do_is_refused() {
-    let folder = folder();
-    assert_refused(folder.path(), &["render", "scene.kdl"], &["--output", "--repeat", "--stats"]);
 }
 
 #[test]
@@ -259,7 +259,19 @@ fn every_kind_of_instructions_writes_the_same_file() {
         let simd = instructions.name();
         let ran = catoptra(
             folder.path(),
-            &["render", "scene.kdl", "-o", "a.exr", "--size", "40x30", "--simd", simd, "--repeat", "1"],
+            &[
+                "render",
+                "scene.kdl",
+                "-o",
+                "a.exr",
+                "--size",
+                "40x30",
+                "--simd",
+                simd,
+                "--repeat",
+                "1",
+                "--reproducible",
+            ],
         );
         assert!(ran.code == 0 && ran.out.contains(&format!(" wide {simd}:")), "{}{}", ran.out, ran.err);
         files.push(std::fs::read(folder.path().join("a.exr")).unwrap());

@@ -29,7 +29,8 @@ fn a_scene_sets_samples_and_a_target_and_options_count_before_it() {
     write("own.kdl", "samples 3; exposure 1");
     write("target.kdl", "max-error 0.1");
     let picture = |line: &str| {
-        let line = format!("render {line} --size 8x8");
+        let reproducible = if line.contains("a.exr") { " --reproducible" } else { "" };
+        let line = format!("render {line} --size 8x8{reproducible}");
         let ran = catoptra(folder.path(), &line.split(' ').collect::<Vec<_>>());
         assert_eq!(ran.code, 0, "{line} {}", ran.err);
         let name = if line.contains("a.png") { "a.png" } else { "a.exr" };

@@ -8,7 +8,8 @@ mod relocated;
 
 use std::path::{Path, PathBuf};
 
-use catoptra_core::scene::Scene;
+use catoptra_core::TextureId;
+use catoptra_core::scene::{EntityId, MaterialId, Scene};
 
 use crate::atomic;
 use crate::build::Id;
@@ -111,6 +112,11 @@ impl SceneFile {
         self.files.model_paths()
     }
 
+    /// Where the files lie that its models and meshes name: materials, pictures, buffers.
+    pub fn companion_paths(&self) -> impl Iterator<Item = PathBuf> {
+        self.files.companion_paths()
+    }
+
     /// What of the models is not shown as their files mean it: a line for each.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
@@ -151,6 +157,30 @@ impl SceneFile {
     #[must_use]
     pub fn text(&self) -> String {
         self.now.text.clone()
+    }
+
+    /// The line of the text, counted from 1, on which an entity has a node of its own.
+    #[must_use]
+    pub fn line_of_entity(&self, id: EntityId) -> Option<usize> {
+        self.line_of(Id::Entity(id))
+    }
+
+    /// The line of the text, counted from 1, on which a material has a node of its own; one of a model has none.
+    #[must_use]
+    pub fn line_of_material(&self, id: MaterialId) -> Option<usize> {
+        self.line_of(Id::Material(id))
+    }
+
+    /// The line of the text, counted from 1, on which a texture has a node of its own; one of a model has none.
+    #[must_use]
+    pub fn line_of_texture(&self, id: TextureId) -> Option<usize> {
+        self.line_of(Id::Texture(id))
+    }
+
+    fn line_of(&self, wanted: Id) -> Option<usize> {
+        let place = self.now.ids.iter().position(|id| *id == wanted)?;
+        let before = self.now.text.get(..self.now.outline.items.get(place)?.span.start)?;
+        Some(1 + before.matches('\n').count())
     }
 
     /// Makes the text say what the scene holds, changing only what has changed since it was read. Comments, order, blank

@@ -1,5 +1,6 @@
 //! What does a model file hold, whatever its format?
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use catoptra_core::geometry::Mesh;
@@ -26,6 +27,8 @@ pub struct Model {
     pub nodes: Vec<Node>,
     /// What of the file is not shown as the file means it, each kind of thing once.
     pub warnings: Vec<Warning>,
+    /// Where the other files lie that it names: materials, pictures, buffers.
+    pub files: Vec<PathBuf>,
 }
 
 /// A material of a model file.

@@ -1,19 +1,23 @@
 //! Where does a model file find the files that it names: pictures, materials, buffers?
 
+use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
+use std::sync::{Arc, Mutex};
 
 /// The folder of a model file.
 #[derive(Debug, Clone, Default)]
 pub struct Folder {
     path: Option<PathBuf>,
     is_bare: bool,
+    /// All files that were asked for; its clones share it.
+    asked: Arc<Mutex<BTreeSet<PathBuf>>>,
 }
 
 impl Folder {
     /// The folder that a file lies in.
     #[must_use]
     pub fn of(file: &Path) -> Self {
-        Self { path: Some(file.parent().unwrap_or(Path::new("")).to_owned()), is_bare: false }
+        Self { path: Some(file.parent().unwrap_or(Path::new("")).to_owned()), ..Self::default() }
     }
 
     /// No folder: nothing is found in it. For files that came as bytes.
@@ -44,7 +48,19 @@ impl Folder {
         };
         let name = PathBuf::from(name.replace('\\', "/"));
         let is_plain = !name.components().any(|part| matches!(part, Component::Prefix(_)));
-        Ok(if is_plain { folder.join(name) } else { name })
+        Ok(self.noted(if is_plain { folder.join(name) } else { name }))
+    }
+
+    /// Where all files lie that were asked for so far.
+    pub(super) fn asked(&self) -> Vec<PathBuf> {
+        self.asked.lock().map_or_else(|_| Vec::new(), |asked| asked.iter().cloned().collect())
+    }
+
+    fn noted(&self, place: PathBuf) -> PathBuf {
+        if let Ok(mut asked) = self.asked.lock() {
+            asked.insert(place.clone());
+        }
+        place
     }
 
     /// Where a file lies that may have been named on another machine: as it is named, or else in other case, or else by its
@@ -61,7 +77,7 @@ impl Folder {
         let name_parts = name.split(['/', '\\']).filter(|part| !part.is_empty());
         let last = name_parts.clone().next_back().into_iter().collect();
         let found = in_any_case(&folder, name_parts.collect()).or_else(|| in_any_case(&folder, last));
-        found.ok_or_else(|| format!("{name} is not there"))
+        found.map(|place| self.noted(place)).ok_or_else(|| format!("{name} is not there"))
     }
 
     /// The bytes of a file that is named relative to the folder.
@@ -120,6 +136,7 @@ mod tests {
             assert!(folder.find(name).is_err(), "{name}");
         }
         assert!(Folder::none().find("stone.png").is_err());
+        assert!(folder.asked().contains(&inner.join("Wood.PNG")), "{:?}", folder.asked());
     }
 
     #[test]

@@ -23,7 +23,7 @@ mod text;
 mod warnings;
 
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use catoptra_core::TriangleMesh;
 
@@ -106,6 +106,7 @@ fn read_in(path: &Path, folder: &Folder) -> Result<Model, ModelError> {
 pub fn read_bytes(bytes: &[u8], name: &Path, folder: &Folder) -> Result<Model, ModelError> {
     let format = of_content(bytes).map_or_else(|| format_of(name), Ok);
     let read = format.and_then(|format| (format.read)(bytes, folder));
+    let read = read.map(|model| Model { files: folder.asked(), ..model });
     read.map_err(|fault| ModelError::new(name, fault))
 }
 
@@ -114,9 +115,16 @@ pub fn read_bytes(bytes: &[u8], name: &Path, folder: &Folder) -> Result<Model, M
 /// # Errors
 /// As for [`read_mesh`].
 pub fn read_mesh_with_warnings(path: &Path) -> Result<(TriangleMesh, Vec<Warning>), ModelError> {
+    read_mesh_and_more(path).map(|(mesh, warnings, _)| (mesh, warnings))
+}
+
+/// The same, and where the other files lie that it names.
+pub(crate) fn read_mesh_and_more(
+    path: &Path,
+) -> Result<(TriangleMesh, Vec<Warning>, Vec<PathBuf>), ModelError> {
     let mut model = read_in(path, &Folder::of(path).for_shapes_alone())?;
-    let warnings = std::mem::take(&mut model.warnings);
-    merged::mesh_of(model).map(|mesh| (mesh, warnings)).map_err(|fault| ModelError::new(path, fault))
+    let (warnings, files) = (std::mem::take(&mut model.warnings), std::mem::take(&mut model.files));
+    merged::mesh_of(model).map(|mesh| (mesh, warnings, files)).map_err(|fault| ModelError::new(path, fault))
 }
 
 /// Reads all triangles of a model as one mesh: shapes where the file places them, without lights and materials.

@@ -1,6 +1,6 @@
 //! How the meshes, profiles and pictures that a scene names are found and read, each once.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -22,6 +22,8 @@ pub(crate) struct Files {
     mesh_warnings: HashMap<String, Vec<model::Warning>>,
     /// Asked before each file is read.
     pub(crate) watch: Watch,
+    /// Files that meshes name.
+    mesh_files: BTreeSet<PathBuf>,
 }
 
 /// What is known of files of one kind.
@@ -52,10 +54,11 @@ impl Files {
             let found = instance::mesh_named(&source.model, name).map_err(|e| format!("{file}: {e}"))?;
             self.meshes.insert(path.to_owned(), Ok(found));
         }
-        let mut warnings = Vec::new();
+        let (mut warnings, files) = (Vec::new(), &mut self.mesh_files);
         let mesh = get(&mut self.meshes, (self.base.as_deref(), &self.watch), path, |file| {
-            let (mesh, found) = model::read_mesh_with_warnings(file)?;
+            let (mesh, found, named) = model::read_mesh_and_more(file)?;
             warnings = found;
+            files.extend(named);
             Ok::<_, model::ModelError>(Arc::new(mesh))
         })?;
         if !warnings.is_empty() {
@@ -120,6 +123,12 @@ impl Files {
         let mut seen = HashSet::new();
         all.retain(|line| seen.insert(line.clone()));
         all
+    }
+
+    /// Where the files lie that models and meshes name.
+    pub(crate) fn companion_paths(&self) -> impl Iterator<Item = PathBuf> {
+        let of_models = self.models.values().flatten().flat_map(|model| &model.files);
+        of_models.chain(&self.mesh_files).cloned()
     }
 
     /// Takes a model as read.

@@ -40,30 +40,38 @@ pub(crate) fn read(
     complaints: &mut Complaints,
 ) -> Outline {
     let mut outline = Outline::default();
+    if let Some(document) = document(text, complaints) {
+        let textures = textures.unwrap_or_else(|| paint::textures_of(&document, files));
+        outline.textures.clone_from(&textures);
+        let watch = files.watch.clone();
+        watch.start(text.len());
+        let mut reader = Reader { text, files, complaints, textures: &textures, outline: &mut outline };
+        for node in document.nodes() {
+            reader.read_node(node, None);
+            watch.advance(node.span().len());
+        }
+    }
+    outline
+}
+
+/// The text as nodes, whatever they say; what is wrong with it goes to `complaints`.
+pub(crate) fn document(text: &str, complaints: &mut Complaints) -> Option<KdlDocument> {
     if text.len() > LONGEST {
         complaints.add(0..0, format!("the text is longer than {} MiB", LONGEST >> 20));
-        return outline;
+        return None;
     }
     if let Some(at) = scan::too_deep(text) {
         let message = format!("blocks or comments lie more than {} deep inside each other", scan::DEEPEST);
         complaints.add(at..at + 1, message);
-        return outline;
+        return None;
     }
     match parse_kdl(&scan::without_comments(text)) {
-        Ok(document) => {
-            let textures = textures.unwrap_or_else(|| paint::textures_of(&document, files));
-            outline.textures.clone_from(&textures);
-            let watch = files.watch.clone();
-            watch.start(text.len());
-            let mut reader = Reader { text, files, complaints, textures: &textures, outline: &mut outline };
-            for node in document.nodes() {
-                reader.read_node(node, None);
-                watch.advance(node.span().len());
-            }
+        Ok(document) => Some(document),
+        Err(error) => {
+            syntax(text, &error, complaints);
+            None
         }
-        Err(error) => syntax(text, &error, complaints),
     }
-    outline
 }
 
 /// Parses on a stack of its own where there is room for one: the parser calls itself for every error that it meets.

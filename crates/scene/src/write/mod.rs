@@ -22,4 +22,5 @@ pub(crate) use splice::{Splice, apply};
 pub(crate) use tree::{Brought, arrange, remove};
 
 pub(crate) use edit::edit;
+pub(crate) use layout::INDENT;
 pub(crate) use value::{number, quoted};

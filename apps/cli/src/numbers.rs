@@ -1,7 +1,7 @@
 //! How are measured numbers written?
 
 /// All digits that tell the number from its neighbours; with an exponent where it is far from 1.
-pub(super) fn in_full(number: f64) -> String {
+pub(crate) fn in_full(number: f64) -> String {
     match number.abs() {
         0.0 => "0".to_owned(),
         1e-4..1e15 => format!("{number}"),
@@ -10,7 +10,7 @@ pub(super) fn in_full(number: f64) -> String {
 }
 
 /// So many digits, without zeros at the end; with an exponent where the number is far from 1.
-pub(super) fn rounded(number: f64, digits: usize) -> String {
+pub(crate) fn rounded(number: f64, digits: usize) -> String {
     let rounded = format!("{number:.*e}", digits.max(1) - 1).parse().unwrap_or(number);
     in_full(rounded)
 }

@@ -1,31 +1,52 @@
-//! `catoptra explain`: what does a scene need, what runs for it, and which work was skipped as it could not matter?
+//! `catoptra explain`: what does a scene need, what runs for it, what takes how long, and which work was skipped as it could not
+//! matter?
+
+mod advice;
+mod reasons;
+mod slow;
 
 use catoptra_core::{Integrator, Light};
-use catoptra_tracer::{EdgePixels, Edges, LampStats, Needs, Skipped, Stats};
+use catoptra_tracer::{EdgePixels, Edges, Needs, Stats};
 use miette::Result;
 use serde_json::{Map, Value, json};
 
 use crate::args::ExplainArgs;
 use crate::console::{check_heard, print_answer};
-use crate::job::{Job, Means};
+use crate::job::{Job, Means, Resources, find_camera};
+use crate::loaded::Loaded;
+use crate::processor;
 use crate::words::{bytes, counted, list, percent, thousands};
 use crate::{Outcome, interrupt, progress};
+use reasons::{
+    LAMP_CLASSES, LampClass, NO_OCCLUSION_RAY, NO_PRIMARY_RAY, NO_REFLECTION_RAY, NO_SHADOW_RAY, Reason,
+};
+use slow::Slow;
 
 /// Traces one frame to count its work, and says what was found.
 pub(crate) fn run(args: &ExplainArgs) -> Result<Outcome> {
     let means = Means::of(&args.job)?;
     check_heard()?;
-    let mut job = Job::new(&args.job, means, &[])?;
+    let resources = Resources::claim(&args.job, |_| 0)?;
+    let loaded = Loaded::read(&args.scene)?;
+    let camera = find_camera(&loaded.scene, args.job.camera.as_deref())?;
+    let mut job = Job::new(&args.job, means, &resources, loaded, camera)?;
     // A frame tells the same of the work for a sample as many do.
     job.view.samples = args.job.samples.unwrap_or(1);
     job.warn_of_idle(&args.job);
     let control = interrupt::control();
     let mut film = job.film()?;
-    let Ok((_, frame)) = progress::while_showing(&control, || job.frame(&mut film, &control)) else {
+    let Ok((frame_ms, frame)) = progress::while_showing(&control, || job.frame(&mut film, &control)) else {
         return Ok(Outcome::Interrupted);
     };
-    let found =
-        Found { needs: job.snapshot.needs(), ambient: ambient_lights(&job), job: &job, stats: frame.stats };
+    let Ok(slow) = Slow::measured(&job, frame_ms, &control) else { return Ok(Outcome::Interrupted) };
+    let found = Found {
+        needs: job.snapshot.needs(),
+        ambient: ambient_lights(&job),
+        job: &job,
+        stats: frame.stats,
+        frame_ms,
+        slow,
+    };
     print_answer(&if args.json { format!("{}\n", found.as_json()) } else { found.as_text() })?;
     Ok(Outcome::Done)
 }
@@ -35,53 +56,15 @@ fn ambient_lights(job: &Job) -> usize {
     lights.filter(|light| matches!(light, Light::AmbientLight(_))).count()
 }
 
-/// A reason for which rays were not traced: its words, and how many rays.
-type Reason = (&'static str, fn(&Skipped) -> u64);
-
-/// Why a camera ray was not traced.
-const NO_PRIMARY_RAY: &[Reason] =
-    &[("no shape can be seen through their part of the picture", |skipped| skipped.nothing_seen)];
-
-/// Reasons against shadow rays.
-const NO_SHADOW_RAY: &[Reason] = &[
-    ("the surface faces away from the light", |skipped| skipped.facing_away),
-    ("the point lies outside the light's cone", |skipped| skipped.out_of_cone),
-    ("their whole part of the picture lies outside the cone", |skipped| skipped.unreached),
-    ("the light throws no shadows", |skipped| skipped.shadow_off),
-    ("the material shows no light of its own", |skipped| skipped.unlit_material),
-    ("nothing stands between the tile's surfaces and the light", |skipped| skipped.nothing_between),
-];
-
-/// Reasons against reflection rays.
-const NO_REFLECTION_RAY: &[Reason] = &[
-    ("nothing but darkness lies ahead", |skipped| skipped.nothing_ahead),
-    ("the surface does not reflect", |skipped| skipped.not_reflective),
-    ("enough reflections one after another", |skipped| skipped.depth_limit),
-    ("too faint to change the picture", |skipped| skipped.weight_cutoff),
-];
-
-/// Reasons against occlusion rays.
-const NO_OCCLUSION_RAY: &[Reason] =
-    &[("they would go below the surface, to where a smooth normal leads", |skipped| skipped.below_surface)];
-
-/// How the light of a lamp at a point was found: its words, and at how many points.
-type LampClass = (&'static str, fn(&LampStats) -> u64);
-
-const LAMP_CLASSES: &[LampClass] = &[
-    ("see all of it: closed form", |lamps| lamps.open),
-    ("see it past one ball: closed form", |lamps| lamps.past_a_ball),
-    ("see some of it past other shapes, or several: closed form", |lamps| lamps.partly),
-    ("see none of it past what stands between: closed form", |lamps| lamps.dark),
-    ("face away from it, or it from them", |lamps| lamps.facing_away),
-    ("ask by rays", |lamps| lamps.sampled),
-];
-
 /// What is known of a scene after a frame.
 struct Found<'a> {
     job: &'a Job,
     needs: Needs,
     ambient: usize,
     stats: Stats,
+    /// How long the frame took.
+    frame_ms: f64,
+    slow: Slow,
 }
 
 impl Found<'_> {
@@ -121,6 +104,11 @@ impl Found<'_> {
             "shades_by_point": needs.shades_by_point,
             "reflects": needs.reflects,
             "counts": self.stats,
+            "version": env!("CARGO_PKG_VERSION"),
+            "processor": processor::as_json(),
+            "stages_ms": { "load": self.job.load_ms, "snapshot": self.job.build_ms, "trace": self.frame_ms },
+            "slow": self.slow.as_json(),
+            "advice": advice::of(self),
         })
     }
 
@@ -129,17 +117,20 @@ impl Found<'_> {
         let samples = counted(u64::from(job.view.samples), "sample");
         format!(
             "{} through camera \"{}\" at {}x{}, {samples} a pixel\n\n\
-             The scene holds\n{}\nWhat runs\n{}\nOne frame traced\n{}\nIt did not trace\n{}\n{}How sure it is\n{}",
+             The scene holds\n{}\nWhat runs\n{}\nWhat takes how long\n{}\nOne frame traced\n{}\nIt did not trace\n{}\n\
+             {}How sure it is\n{}\nWhat would help\n{}",
             job.scene_name,
             job.camera_name,
             size.width,
             size.height,
             lines(&self.holdings()),
             lines(&self.runs()),
+            lines(&self.times()),
             lines(&self.traced()),
             lines(&self.skipped()),
             self.lamplight(),
             lines(&self.certainty()),
+            lines(&advice::of(self)),
         )
     }
 
@@ -233,6 +224,19 @@ impl Found<'_> {
         }
     }
 
+    /// Milliseconds of each stage, and what of the picture takes most of the last.
+    fn times(&self) -> Vec<String> {
+        let stages = [
+            ("reading the scene", self.job.load_ms),
+            ("making the snapshot", self.job.build_ms),
+            ("tracing the frame", self.frame_ms),
+        ];
+        let mut lines: Vec<String> =
+            stages.iter().map(|(what, ms)| format!("{ms:>10.2} ms  {what}")).collect();
+        lines.extend(self.slow.as_lines());
+        lines
+    }
+
     fn traced(&self) -> Vec<String> {
         let (rays, tests) = (&self.stats.rays, &self.stats.tests);
         let each = |count: u64| format!("{:.1} a ray", count as f64 / rays.total().max(1) as f64);
@@ -267,14 +271,6 @@ impl Found<'_> {
     fn skipped(&self) -> Vec<String> {
         let rays = &self.stats.rays;
         let mut lines = self.skipped_of("primary ray", rays.primary, NO_PRIMARY_RAY);
-        let Skipped { nothing_seen, blank_before, .. } = self.stats.skipped;
-        if blank_before > 0 {
-            let share = percent(blank_before, nothing_seen);
-            lines.push(format!(
-                "{:>16} pixels of these ({share}) were not written: they showed nothing before",
-                thousands(blank_before)
-            ));
-        }
         lines.extend(self.skipped_of("shadow ray", rays.shadow, NO_SHADOW_RAY));
         lines.extend(self.skipped_of("reflection ray", rays.reflection, NO_REFLECTION_RAY));
         lines.extend(self.skipped_of("occlusion ray", rays.occlusion, NO_OCCLUSION_RAY));
