@@ -14,7 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let control = Control::default();
     let job = Render::new(&scene).camera(camera).integrator(Integrator::Path).control(&control);
     let stopped = std::thread::scope(|threads| {
-        let long = job.clone().samples(1 << 20);
+        let long = job.clone().samples(256);
         let render = threads.spawn(|| long.run().map(|_| ()));
         std::thread::sleep(Duration::from_millis(50));
         println!("{:.0} % done, stopped here", 100.0 * control.progress());

@@ -128,7 +128,8 @@ impl Sort {
             Self::Settings => Part::Settings((Settings::KIND.make)(values)?),
             Self::Texture(kind) => Part::Texture((kind.make)(values)?),
             Self::Material(kind) => {
-                Part::Material(Box::new((kind.make)(values)?), (Finish::KIND.make)(values)?)
+                let [own, finish] = [kind.fields, Finish::KIND.fields].map(|fields| only(values, fields));
+                Part::Material(Box::new((kind.make)(&own)?), (Finish::KIND.make)(&finish)?)
             }
             Self::Shape(kind) => Part::Shape((kind.make)(values)?),
             Self::Light(kind) => Part::Light((kind.make)(values)?),
@@ -147,6 +148,12 @@ impl Sort {
     pub(crate) fn has_members(self) -> bool {
         matches!(self, Self::Group | Self::Solid(_) | Self::Model | Self::Part | Self::Repeat)
     }
+}
+
+/// The values whose names are those of fields in the list.
+fn only(values: &Values, fields: &[Field]) -> Values {
+    let known = values.iter().filter(|(name, _)| fields.iter().any(|field| field.name == *name));
+    known.fold(Values::new(), |all, (name, value)| all.with(name, value.clone()))
 }
 
 /// What a node makes.
