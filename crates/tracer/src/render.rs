@@ -54,3 +54,6 @@ pub fn render(
     };
     pool.run(|| tiles.par_iter_mut().with_max_len(1).map(trace).try_reduce(Stats::default, add))
 }
+
+#[cfg(test)]
+mod tests;

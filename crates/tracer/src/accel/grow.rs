@@ -415,7 +415,8 @@ mod tests {
 
     /// Asserts that leaves hold all of every triangle, and no more triangles than a preset may add.
     fn assert_complete(mesh: &TriangleMesh, preset: Preset) {
-        let (leaves, count) = (leaves(mesh, &grow(mesh, preset, one_thread())), mesh.triangles().len());
+        let (leaves, count) =
+            (leaves(mesh, &grow(mesh, preset, one_thread(), &Control::default())), mesh.triangles().len());
         let total: usize = leaves.iter().map(Vec::len).sum();
         assert!(total <= count + preset.room(count), "{total} of {count} {}", preset.name());
         let weights =
@@ -460,7 +461,9 @@ mod tests {
     #[test]
     fn a_triangle_stands_in_one_leaf_unless_space_is_cut() {
         let mesh = thicket(2000);
-        let most = |preset| leaves(&mesh, &grow(&mesh, preset, one_thread())).iter().map(Vec::len).max();
+        let most = |preset| {
+            leaves(&mesh, &grow(&mesh, preset, one_thread(), &Control::default())).iter().map(Vec::len).max()
+        };
         assert_eq!([most(Preset::Fast), most(Preset::Balanced)], [Some(1); 2]);
         assert!(most(Preset::Best) > Some(1));
     }
@@ -469,7 +472,7 @@ mod tests {
     fn a_tree_does_not_depend_on_the_number_of_threads() {
         for (mesh, preset) in [(crowd(30_000), Preset::Balanced), (thicket(9000), Preset::Best)] {
             let grown = |threads: usize| {
-                let tree = grow(&mesh, preset, &Pool::new(threads).unwrap());
+                let tree = grow(&mesh, preset, &Pool::new(threads).unwrap(), &Control::default());
                 let facets = tree.blocks.iter().map(|block| block.facet).collect::<Vec<_>>();
                 (tree.nodes.iter().map(|node| (node.bounds, node.link)).collect::<Vec<_>>(), facets)
             };

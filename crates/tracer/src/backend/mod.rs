@@ -43,7 +43,7 @@ pub trait Backend: sealed::Sealed + Send + Sync {
 }
 
 /// Keeps the trait to this crate.
-mod sealed {
+pub(crate) mod sealed {
     /// What only this crate's backends are.
     pub trait Sealed {}
 }

@@ -1,19 +1,21 @@
 //! What does a film hold after a render that was cancelled half way?
-#![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 use catoptra_core::geometry::Sphere;
 use catoptra_core::glam::DVec3;
 use catoptra_core::material::Depth;
 use catoptra_core::{Camera, Edit, EntityId, Rgb, Scene};
-use catoptra_tracer::{
-    Backend, Cancelled, Control, Film, Frame, Pool, Size, Snapshot, Stats, Tile, View, backends, render,
-};
+
+use super::*;
+use crate::backend::sealed::Sealed;
+use crate::{Size, backends};
 
 /// Traces as another backend does, and asks to stop after every tile.
 struct Impatient<'a> {
     backend: &'a dyn Backend,
     control: &'a Control,
 }
+
+impl Sealed for Impatient<'_> {}
 
 impl Backend for Impatient<'_> {
     fn name(&self) -> &'static str {
