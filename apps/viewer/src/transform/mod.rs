@@ -18,7 +18,7 @@ use crate::viewer::Viewer;
 pub(crate) use keys::key;
 pub(crate) use pivot::manipulator;
 pub(crate) use surface::aimed_at;
-pub(crate) use tidy::{rounded, step};
+pub(crate) use tidy::{rounded, step, turned};
 
 use thing::Thing;
 
