@@ -182,7 +182,7 @@ impl Trial {
     fn act(&mut self, step: &Step) {
         let stage = &self.stage;
         match *step {
-            Step::Keys(keys) if keys == "Escape+Tab" => {
+            Step::Keys("Escape+Tab") => {
                 stage.xdotool(&["key", "Escape", "Tab"]);
             }
             Step::Keys("b") => {
