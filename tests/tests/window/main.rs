@@ -178,7 +178,7 @@ fn it_fits_a_screen_with_two_pixels_to_a_point() {
     stage.click(room / 2, SIZE.1 / 2);
     let is_outline = |picture: &Picture, x: usize| is_accent(picture.rgb(x, SIZE.1 / 2));
     let thickness = |picture: &Picture| (0..room / 2).filter(|x| is_outline(picture, *x)).count();
-    stage.until("an outline of four pixels", |picture| (3..=5).contains(&thickness(picture)));
+    stage.until("an outline of four pixels", |picture| (4..=6).contains(&thickness(picture)));
 }
 
 #[test]
