@@ -15,6 +15,7 @@ use crate::keys::{self, Command};
 use crate::screen::Screen;
 use crate::seeing::See;
 use crate::transform::{self, Ends};
+use crate::walk;
 
 /// Pixels of a touchpad that make one notch of a wheel.
 const PIXELS_PER_NOTCH: f64 = 50.0;
@@ -166,6 +167,10 @@ impl App {
         let typing = screen.egui.egui_wants_keyboard_input();
         let command = self.command(key);
         if key.state == ElementState::Pressed && self.key_to_transform(key) {
+            return;
+        }
+        let (pressed, held) = (key.state == ElementState::Pressed, self.held());
+        if pressed && !held.ctrl && !held.alt && walk::key(&mut self.viewer, &key.logical_key) {
             return;
         }
         let in_panel =

@@ -1,7 +1,8 @@
 //! What does each gesture of the pointer do to the viewer?
 
+use catoptra_core::glam::DVec3;
 use catoptra_core::scene::{Edit, EntityId, Role};
-use catoptra_core::{InvalidPart, Light};
+use catoptra_core::{Camera, InvalidPart, Light, Placement};
 use catoptra_raster::{Constraint, Grip, Handle, Projection, Tool};
 
 use crate::camera_control::{self, NOTCH, ORBIT_PER_PIXEL};
@@ -29,7 +30,10 @@ pub(crate) fn gesture(viewer: &mut Viewer, gesture: Gesture) {
         Gesture::None => {}
         Gesture::Click { at: (x, y), picking } => click(viewer, (x, y), picking),
         Gesture::Dragged { drag, by, to } => drag_by(viewer, drag, by, to),
-        Gesture::Ended(_) => {
+        Gesture::Ended(drag) => {
+            if drag == Drag::Turn {
+                round_turns(viewer);
+            }
             transform::keep(viewer);
             viewer.document.end_step();
             viewer.stale.panel = true;
@@ -70,11 +74,23 @@ fn drag_by(viewer: &mut Viewer, drag: Drag, by: (f64, f64), to: (f64, f64)) {
 /// stay, those in such a group excepted.
 fn turn_objects(viewer: &mut Viewer, by: (f64, f64)) {
     let (about_y, about_x) = ((by.0 * TURN_PER_PIXEL).to_radians(), (by.1 * TURN_PER_PIXEL).to_radians());
+    place_objects(viewer, |at| at.seed_turned(about_y, about_x));
+}
+
+/// Rounds how objects were turned to what a pixel can tell: at the end, so that nothing adds up.
+fn round_turns(viewer: &mut Viewer) {
+    let view = Projection::new(&viewer.camera, viewer.size.0, viewer.size.1);
+    let step =
+        transform::step_within(view.metres_per_pixel(DVec3::ZERO).unwrap_or(0.0), &Placement::IDENTITY);
+    place_objects(viewer, |at| transform::turned(&at, step));
+}
+
+/// Places all objects otherwise, as a part of the drag's step.
+fn place_objects(viewer: &mut Viewer, placed: impl Fn(Placement) -> Result<Placement, InvalidPart>) {
     let scene = viewer.document.scene();
-    let turned =
-        |id: EntityId| Some(Edit::Placement(id, scene.placement(id)?.seed_turned(about_y, about_x).ok()?));
+    let edit = |id: EntityId| Some(Edit::Placement(id, placed(scene.placement(id)?).ok()?));
     let objects = scene.children(None).into_iter().filter(|id| is_object(viewer, *id));
-    let edits: Vec<Edit> = objects.filter_map(turned).collect();
+    let edits: Vec<Edit> = objects.filter_map(edit).collect();
     viewer.edit_on(Edit::Batch(edits), DRAG_KEY);
 }
 
@@ -142,16 +158,21 @@ fn drag_grip(viewer: &mut Viewer, grip: Grip, to: (f64, f64)) {
 /// The wheel was turned by that many notches, away from the person counted positive.
 pub(crate) fn wheel(viewer: &mut Viewer, notches: f64, ctrl: bool) {
     let to_pointer = (viewer.settings.mode == Mode::Orbit) != ctrl;
-    let focus = camera_control::focus(&viewer.camera);
     let camera = if to_pointer {
         let (x, y) = viewer.pointer.at;
         let hit = viewer.pick(x, y).map(|hit| hit.point);
         let ray = viewer.camera.ray(x, y, viewer.size.0.max(1), viewer.size.1.max(1));
-        let point = hit.unwrap_or_else(|| ray.at(focus));
+        let point = hit.unwrap_or_else(|| ray.at(camera_control::focus(&viewer.camera)));
         camera_control::zoom_to(&viewer.camera, point, (1.0 - NOTCH).powf(notches))
     } else {
-        let nearest = NEAREST * viewer.everything().size().length().max(0.1);
-        camera_control::dolly(&viewer.camera, notches * NOTCH * focus.max(nearest), nearest)
+        ahead(viewer, notches * NOTCH)
     };
     viewer.look(camera);
+}
+
+/// The camera nearer to what it looks at by a share of the distance, and on past that.
+pub(crate) fn ahead(viewer: &Viewer, share: f64) -> Camera {
+    let nearest = NEAREST * viewer.everything().size().length().max(0.1);
+    let focus = camera_control::focus(&viewer.camera);
+    camera_control::dolly(&viewer.camera, share * focus.max(nearest), nearest)
 }

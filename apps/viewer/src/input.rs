@@ -126,6 +126,11 @@ impl Pointer {
         self.press.is_some()
     }
 
+    /// Whether that button was pressed over the picture and is still down.
+    pub(crate) fn holds(&self, button: Button) -> bool {
+        self.press.is_some_and(|press| press.button == button)
+    }
+
     /// A button goes down here. A second button while one is down changes nothing.
     pub(crate) fn press(&mut self, button: Button, held: Held, mode: Mode, hold: Option<Hold>) {
         if self.press.is_some() {

@@ -66,6 +66,7 @@ mod transform;
 mod viewer;
 mod viewpoint;
 mod views;
+mod walk;
 mod watch;
 
 use std::io::Write as _;

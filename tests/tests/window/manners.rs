@@ -87,3 +87,14 @@ fn list_fits(stage: &Stage, (width, height): (usize, usize), room: usize) {
     assert!(letters.filter(|(x, y)| bright(*x, *y)).count() > 200, "keys are read at the left");
     assert_eq!(changed(&shown, 0..2), 0, "nothing reaches over the left rim");
 }
+
+#[test]
+fn letters_move_the_camera_while_the_right_button_is_held() {
+    let Some(stage) = stage() else { return };
+    let start = stage.picture().count(PICTURE, is_red);
+    stage.point(60, 60);
+    stage.xdotool(&["mousedown", "3", "key", "w", "key", "w", "key", "w"]);
+    stage.until("a larger ball", |picture| picture.count(PICTURE, is_red) > start * 5 / 4);
+    stage.xdotool(&["key", "s", "key", "s", "key", "s", "mouseup", "3"]);
+    stage.until("the ball as before", |picture| picture.count(PICTURE, is_red).abs_diff(start) < start / 20);
+}

@@ -21,7 +21,7 @@ camera \"plan\" { eye 0 9 0.1; target 0 0 0; projection \"orthographic\"; height
 ambient-light \"sky\" { radiance 0.3 }
 checker-texture \"tiles\" { scale 2 3 }
 matte \"red\" { color 1 0 0 }
-plastic \"worn\" { color 0.50 texture=\"tiles\" }
+matte \"worn\" { color 0.50 }
 
 sphere \"left ball\" material=\"red\" { center 0 0 0; radius 2 } // the large one
 group \"table\" {
@@ -182,7 +182,7 @@ impl Trial {
     fn act(&mut self, step: &Step) {
         let stage = &self.stage;
         match *step {
-            Step::Keys(keys) if keys == "Escape+Tab" => {
+            Step::Keys("Escape+Tab") => {
                 stage.xdotool(&["key", "Escape", "Tab"]);
             }
             Step::Keys("b") => {

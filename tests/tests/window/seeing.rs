@@ -103,6 +103,7 @@ fn passes_show_colours_and_normals() {
 const TALL: (usize, usize) = (900, 710);
 const MARK_CLIPPED: (usize, usize) = (657, 455);
 const COMPARE: (usize, usize) = (675, 560);
+const COMPARED_WITH: (usize, usize) = (720, 582);
 const COMPARE_NOW: (usize, usize) = (835, 582);
 
 /// Shows the lower end of the panel.
@@ -131,9 +132,7 @@ fn pixels_that_are_brighter_than_white_can_be_marked() {
 #[test]
 fn a_picture_on_disk_stands_beside_and_the_error_is_told() {
     let Some(stage) = tall() else { return };
-    let file = stage.folder.path().join("scene.png");
-    stage.key("p");
-    stage.wait("the picture", |_| std::fs::read(&file).is_ok_and(|bytes| bytes.starts_with(b"\x89PNG")));
+    let file = stage.folder.path().join("blue.png");
     let numbers = |picture: &Picture| {
         let panel = (PICTURE.0..TALL.0).flat_map(|x| (590..TALL.1).map(move |y| (x, y)));
         panel.filter(|(x, y)| is_accent(picture.rgb(*x, *y))).count()
@@ -145,6 +144,8 @@ fn a_picture_on_disk_stands_beside_and_the_error_is_told() {
     stage.click(COMPARE.0, COMPARE.1);
     let opened = stage.settle();
     assert_eq!(numbers(&opened), 0);
+    stage.click(COMPARED_WITH.0, COMPARED_WITH.1);
+    stage.xdotool(&["type", "blue.png"]);
     stage.click(COMPARE_NOW.0, COMPARE_NOW.1);
     let is_blue = |rgb: [u8; 3]| rgb == [0, 0, 255];
     let shown = stage.until("blue beside red", |picture| {

@@ -37,6 +37,25 @@ fn a_turntable_drag_turns_objects_by_three_tenths_of_a_degree_a_pixel_as_one_ste
 }
 
 #[test]
+fn a_turntable_drag_leaves_round_numbers() {
+    let mut viewer = viewer();
+    for step in 0..10 {
+        gesture(
+            &mut viewer,
+            Gesture::Dragged { drag: Drag::Turn, by: (7.0, f64::from(step)), to: (0.0, 0.0) },
+        );
+    }
+    gesture(&mut viewer, Gesture::Ended(Drag::Turn));
+    let mut unsaved = viewer.document.unsaved();
+    unsaved.file.update(&unsaved.scene);
+    let text = unsaved.file.text();
+    let turns = text.lines().filter_map(|line| line.split("turn ").nth(1));
+    let numbers: Vec<&str> =
+        turns.flat_map(|rest| rest.split([';', '{', '}']).next().unwrap().split(' ')).collect();
+    assert!(numbers.len() > 4 && numbers.iter().all(|number| number.len() <= 8), "{text}");
+}
+
+#[test]
 fn the_turntable_leaves_lights_and_cameras_alone() {
     let mut viewer = viewer();
     gesture(&mut viewer, Gesture::Dragged { drag: Drag::Turn, by: (40.0, 9.0), to: (0.0, 0.0) });

@@ -7,6 +7,7 @@ pub(crate) const OTHERS: &[(&str, &str)] = &[
     ("Left drag", "orbit the camera; turntable: turn the objects"),
     ("Middle drag", "orbit the camera; with Shift pan, with Ctrl zoom"),
     ("Right or Shift drag", "pan"),
+    ("W A S D, Q E, right button held", "move the camera ahead, aside, back; down and up"),
     ("Left drag on a handle", "move, turn or scale what is selected; numbers, Ctrl and Esc as with G"),
     ("X Y Z while moving", "along that axis, again: its own; with Shift in a plane"),
     ("Left drag on a mark", "move a light or a camera"),

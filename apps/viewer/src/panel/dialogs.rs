@@ -20,7 +20,7 @@ pub(super) fn status(ui: &Ui, viewer: &Viewer, figures: &str, room: Rect) {
                 if let Some((notice, _)) = &viewer.notice {
                     ui.add(egui::Label::new(RichText::new(notice).color(theme::ACCENT)).wrap());
                 }
-                ui.add(egui::Label::new(figures).truncate());
+                ui.add(egui::Label::new(figures).wrap());
             });
         });
 }
@@ -61,7 +61,7 @@ pub(super) fn error(ui: &Ui, viewer: &mut Viewer, room: Rect) {
                 ui.add(egui::Label::new(RichText::new(report).monospace()).extend());
             });
             ui.add_space(4.0);
-            ui.horizontal(|ui| {
+            ui.horizontal_wrapped(|ui| {
                 retried = ui.button("Retry").on_hover_text("Read the file again.").clicked();
                 closed = ui.button("Close").clicked();
                 ui.weak("the last scene stays open; the file is read again when it is changed");

@@ -18,7 +18,7 @@ use crate::viewer::Viewer;
 pub(crate) use keys::key;
 pub(crate) use pivot::manipulator;
 pub(crate) use surface::aimed_at;
-pub(crate) use tidy::{camera as tidy_camera, light as tidy_light, step_within};
+pub(crate) use tidy::{camera as tidy_camera, light as tidy_light, step_within, turned};
 
 use thing::Thing;
 

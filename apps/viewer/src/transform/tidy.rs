@@ -120,6 +120,14 @@ pub(super) fn placement(before: &Placement, after: &Placement, step: f64) -> Res
     Placement::new(rotation, whole_parts(Some(before.translation()), after.translation(), step), scale)
 }
 
+/// A placement that was turned, rounded.
+///
+/// # Errors
+/// None that a placement could bring about.
+pub(crate) fn turned(after: &Placement, step: f64) -> Result<Placement, InvalidPart> {
+    Placement::new(turn(after.rotation()), whole_parts(None, after.translation(), step), after.scale())
+}
+
 /// A turn by a round angle about a round axis.
 fn turn(rotation: DQuat) -> DQuat {
     let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
