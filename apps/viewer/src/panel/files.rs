@@ -69,14 +69,16 @@ fn contents(ui: &mut Ui, browser: &mut Browser, height: f32) -> Step {
     if field.changed() {
         (browser.problem, browser.replaces) = (None, None);
     }
+    // To be asked before it gets the keys back.
+    let field_left = field.lost_focus();
     if ui.memory(|memory| memory.focused().is_none()) {
         field.request_focus();
     }
-    let left = match &mut browser.purpose {
+    let spec_left = match &mut browser.purpose {
         Purpose::Picture(spec) => pictures::spec(ui, spec),
         _ => false,
     };
-    let entered = (left || field.lost_focus()) && ui.input(|input| input.key_pressed(Key::Enter));
+    let entered = (field_left || spec_left) && ui.input(|input| input.key_pressed(Key::Enter));
     if let Some(problem) = &browser.problem {
         ui.label(RichText::new(problem).color(theme::ACCENT));
     }
