@@ -9,6 +9,9 @@ use miette::{Report, Result, miette};
 
 use crate::args::STANDARD;
 
+/// What numbers stand for; else which of them is wrong, and what about it.
+pub(crate) type Made<T> = Result<T, (usize, String)>;
+
 /// How a row is written, and what it stands for.
 pub(crate) struct Form<T> {
     /// Numbers in a row: the fewest and the most.
@@ -19,8 +22,8 @@ pub(crate) struct Form<T> {
     pub(crate) says: &'static str,
     /// What they are, in words.
     pub(crate) help: &'static str,
-    /// What they stand for; else which of them is wrong, and what about it.
-    pub(crate) make: fn(&[f64]) -> Result<T, (usize, String)>,
+    /// What they stand for.
+    pub(crate) make: fn(&[f64]) -> Made<T>,
 }
 
 /// A file of rows, line by line.

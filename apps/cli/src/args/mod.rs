@@ -40,7 +40,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 pictures differ past a limit or 
 #[derive(Subcommand)]
 pub(crate) enum Command {
     /// Render scenes to pictures, or time how long a frame takes
-    Render(RenderArgs),
+    Render(Box<RenderArgs>),
     /// Say what a scene needs, what takes how long, and what work is skipped
     Explain(ExplainArgs),
     /// Say what a scene or a model file holds

@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Aabb, EntityId, Shape, Span};
+use catoptra_tracer::Prim;
 
 use super::stage::{Sighting, Stage};
 use super::{Finding, Lint};
@@ -26,7 +27,7 @@ fn find(stage: &Stage<'_>) -> Vec<Finding> {
     let mut pairs: Vec<([EntityId; 2], DVec3)> = twins(stage);
     let same: HashSet<[EntityId; 2]> = pairs.iter().map(|(pair, _)| *pair).collect();
     let mut counts: HashMap<[u32; 2], (usize, DVec3)> = HashMap::new();
-    let bounds: Vec<Option<Aabb>> = stage.snapshot.prims().iter().map(|prim| prim.bounds()).collect();
+    let bounds: Vec<Option<Aabb>> = stage.snapshot.prims().iter().map(Prim::bounds).collect();
     for seen in stage.some_seen(RAYS) {
         for other in others_at(stage, seen, &bounds) {
             let pair = [seen.surface.prim.min(other), seen.surface.prim.max(other)];

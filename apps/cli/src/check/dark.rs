@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{EntityId, FieldKind, Light, Ray, Rgb, Span, Value};
-use catoptra_tracer::{Control, ProbeOptions, Receiver, irradiance_at};
+use catoptra_tracer::{Control, Prim, ProbeOptions, Receiver, irradiance_at};
 
 use super::stage::{Sighting, Stage};
 use super::{Finding, Lint};
@@ -91,7 +91,7 @@ fn first_hits<'a>(stage: &'a Stage<'_>, from: DVec3) -> impl Iterator<Item = DVe
         let radius = (1.0 - height * height).sqrt();
         DVec3::new(radius * angle.cos(), height, radius * angle.sin())
     });
-    let bounds = stage.snapshot.prims().iter().filter_map(|prim| prim.bounds());
+    let bounds = stage.snapshot.prims().iter().filter_map(Prim::bounds);
     let towards = bounds.flat_map(move |bounds| {
         std::iter::once(bounds.centre())
             .chain(bounds.corners().map(|corner| corner.lerp(bounds.centre(), 0.3)))

@@ -1,7 +1,7 @@
 //! Which thing and which material does the middle of each pixel show? Numbers whose names stand in the file's manifest; 0 where there
 //! is none.
 
-use catoptra_core::EntityId;
+use catoptra_core::{EntityId, MaterialId};
 use catoptra_scene::image::Channel;
 
 use super::seen::whole;
@@ -14,6 +14,6 @@ fn channels<'a>(seen: &'a Seen<'_>) -> Vec<Channel<'a>> {
     let material = move |x, y| seen.job.scene.material_of(entity(x, y)?);
     vec![
         whole("id.entity", move |x, y| entity(x, y).map_or(0, EntityId::index)),
-        whole("id.material", move |x, y| material(x, y).map_or(0, |id| id.index())),
+        whole("id.material", move |x, y| material(x, y).map_or(0, MaterialId::index)),
     ]
 }

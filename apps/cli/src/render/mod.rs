@@ -67,7 +67,7 @@ struct SceneShots<'a> {
 
 /// What tracing has come to.
 enum Traced {
-    Whole(Film, FrameTimes, Frame),
+    Whole(Film, FrameTimes, Box<Frame>),
     /// It was interrupted.
     Part(Film),
 }
@@ -142,13 +142,13 @@ impl SceneShots<'_> {
         if let Some(path) = &shot.files.film {
             let mut kept = KeptFilm::open(job, path, self.args.time)?;
             return Ok(match kept.go_on(control)? {
-                Some((time, frame)) => Traced::Whole(kept.film, FrameTimes::of(vec![time]), frame),
+                Some((time, frame)) => Traced::Whole(kept.film, FrameTimes::of(vec![time]), frame.into()),
                 None => Traced::Part(kept.film),
             });
         }
         let mut film = job.film()?;
         Ok(match frames(job, self.args.repeat, &mut film, control) {
-            Ok((times, frame)) => Traced::Whole(film, times, frame),
+            Ok((times, frame)) => Traced::Whole(film, times, frame.into()),
             Err(Cancelled) => Traced::Part(film),
         })
     }

@@ -6,6 +6,7 @@ mod print;
 
 use kdl::KdlDocument;
 
+use crate::outline::Span;
 use crate::report::{Complaints, SceneTextError};
 use crate::{read, scan, slip};
 
@@ -56,9 +57,10 @@ fn says(mut document: KdlDocument) -> KdlDocument {
     document
 }
 
-/// All comments, without blanks at their ends.
-fn comments(text: &str) -> Vec<&str> {
-    scan::comments(text, 0..text.len()).into_iter().map(|comment| text[comment].trim_end()).collect()
+/// All comments, without blanks at their ends, whatever ends their lines.
+fn comments(text: &str) -> Vec<String> {
+    let comment = |place: Span| text[place].trim_end().replace("\r\n", "\n");
+    scan::comments(text, 0..text.len()).into_iter().map(comment).collect()
 }
 
 #[cfg(test)]
