@@ -55,8 +55,8 @@ pub use catoptra_core::{
     Scene, SceneError, geometry, glam, light, material, texture,
 };
 pub use catoptra_tracer::{
-    Caster, CasterError, Film, InvalidRay, InvalidRays, NoPool, Pool, RayColumns, RayHits, Render,
-    RenderError, WorldHit, WorldRay,
+    Caster, CasterError, Coordinates, Film, InvalidRay, InvalidRays, NoPool, Pool, RayColumns, RayHits,
+    Render, RenderError, WorldHit, WorldRay,
 };
 #[cfg(feature = "files")]
 pub use save::{SaveFilm, SaveFilmError};

@@ -20,7 +20,7 @@ const LESSONS: &[(&str, &[&str])] = &[
         ],
     ),
     ("light", &["0.0 m:", "0.8 m:", "off by 0"]),
-    ("compare", &["flip: ", "rmse: "]),
+    ("compare", &["rmse: ", "flip: "]),
 ];
 
 /// Where cargo puts the examples that it builds with the tests of a package.

@@ -62,7 +62,9 @@ mod view;
 
 pub use accel::{MeshTree, Preset};
 pub use backend::{Backend, backend_named, backends};
-pub use caster::{Caster, CasterError, InvalidRay, InvalidRays, RayColumns, RayHits, WorldHit, WorldRay};
+pub use caster::{
+    Caster, CasterError, Coordinates, InvalidRay, InvalidRays, RayColumns, RayHits, WorldHit, WorldRay,
+};
 pub use catoptra_core::{Cancelled, Control, Progress};
 pub use display::{Display, Tone};
 pub use film::{Film, NoRoom, StoredFilmError, Tile};

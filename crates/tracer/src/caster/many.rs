@@ -1,19 +1,19 @@
 //! How are many rays asked about at once?
 
-use catoptra_core::Crossing;
-use catoptra_core::glam::DVec3;
+use catoptra_core::{Crossing, Ray, Span};
 use rayon::prelude::*;
 
+use super::column::{Column, Coordinates};
+use super::ray::{checked_line, checked_span};
 use super::{Caster, InvalidRay, InvalidRays, WorldHit, WorldRay};
 use crate::rays::{HitList, HitSlice, RAYS_PER_BLOCK, RayList};
 use crate::snapshot::{Hit, RaySegment};
 use crate::{Backend, Pool, Stats, SurfaceId, backends};
 
-/// Rays that a thread prepares and asks about in one go: few enough to stay in its cache.
-const SHARE: usize = 64 * RAYS_PER_BLOCK;
+/// Rays that a thread prepares and asks about in one go: 256 KiB of them, few enough to stay in its second-level cache.
+const SHARE: usize = 256 * RAYS_PER_BLOCK;
 
-/// Rays of the world side by side, in columns that someone else holds. Points and directions are anything that is a
-/// [`DVec3`]: `[f64; 3]` will do.
+/// Rays of the world side by side, in columns that someone else holds.
 ///
 /// ```
 /// use catoptra_tracer::{Caster, Pool, RayColumns};
@@ -28,29 +28,25 @@ const SHARE: usize = 64 * RAYS_PER_BLOCK;
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Debug)]
-pub struct RayColumns<'a, V = DVec3> {
-    origins: &'a [V],
-    directions: &'a [V],
+#[derive(Debug, Clone, Copy)]
+pub struct RayColumns<'a> {
+    origins: Column<'a>,
+    directions: Column<'a>,
     ends: Option<&'a [[f64; 2]]>,
     leaving: Option<&'a [Option<SurfaceId>]>,
 }
 
-impl<V> Clone for RayColumns<'_, V> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<V> Copy for RayColumns<'_, V> {}
-
-impl<'a, V: Copy + Into<DVec3>> RayColumns<'a, V> {
+impl<'a> RayColumns<'a> {
     /// From points in metres along directions of any length; of each ray all that lies in front of its origin counts.
     ///
     /// # Errors
     /// Columns of different lengths.
-    pub fn new(origins: &'a [V], directions: &'a [V]) -> Result<Self, InvalidRays> {
-        let rays = Self { origins, directions, ends: None, leaving: None };
+    pub fn new(
+        origins: &'a [impl Coordinates],
+        directions: &'a [impl Coordinates],
+    ) -> Result<Self, InvalidRays> {
+        let (origins, of_directions) = (Coordinates::column(origins), Coordinates::column(directions));
+        let rays = Self { origins, directions: of_directions, ends: None, leaving: None };
         rays.with_column("directions", directions.len(), rays)
     }
 
@@ -84,7 +80,7 @@ impl<'a, V: Copy + Into<DVec3>> RayColumns<'a, V> {
     /// Whether there is no ray.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.origins.is_empty()
+        self.len() == 0
     }
 
     /// One of the rays.
@@ -94,25 +90,28 @@ impl<'a, V: Copy + Into<DVec3>> RayColumns<'a, V> {
     ///
     /// # Panics
     /// A number that is not below [`len`](Self::len).
-    #[inline]
     pub fn get(&self, at: usize) -> Result<WorldRay, InvalidRay> {
-        let ray = WorldRay::new(self.origins[at], self.directions[at])?;
-        let ray = match self.ends {
-            Some(ends) => ray.within(ends[at])?,
-            None => ray,
+        let (ray, span, leaving) = self.parts(at)?;
+        Ok(WorldRay::of_parts(ray, span, leaving))
+    }
+
+    #[inline(always)]
+    fn parts(&self, at: usize) -> Result<(Ray, Span, Option<SurfaceId>), InvalidRay> {
+        let ray = checked_line(self.origins.get(at), self.directions.get(at))?;
+        let span = match self.ends {
+            Some(ends) => checked_span(ends[at])?,
+            None => Span::AHEAD,
         };
-        Ok(match self.leaving.and_then(|surfaces| surfaces[at]) {
-            Some(surface) => ray.leaving(surface),
-            None => ray,
-        })
+        Ok((ray, span, self.leaving.and_then(|surfaces| surfaces[at])))
     }
 
     /// Puts the rays of a share into a list.
     fn fill(&self, list: &mut RayList, share: usize) -> Result<(), InvalidRay> {
-        list.clear();
-        for at in share * SHARE..self.len().min((share + 1) * SHARE) {
-            let ray = self.get(at)?;
-            list.push(&ray.ray(), [ray.span().min, ray.span().max], ray.surface_left());
+        let first = share * SHARE;
+        list.make_room(SHARE.min(self.len() - first), self.leaving.is_some());
+        for at in 0..list.len() {
+            let (ray, span, leaving) = self.parts(first + at)?;
+            list.set(at, &ray, [span.min, span.max], leaving);
         }
         Ok(())
     }
@@ -127,13 +126,13 @@ impl<'a, V: Copy + Into<DVec3>> RayColumns<'a, V> {
 
 /// What each of many rays meets first; points, normals and texture coordinates are worked out when they are asked for.
 #[derive(Debug)]
-pub struct RayHits<'a, V = DVec3> {
+pub struct RayHits<'a> {
     caster: &'a Caster,
-    rays: RayColumns<'a, V>,
+    rays: RayColumns<'a>,
     hits: HitList,
 }
 
-impl<V: Copy + Into<DVec3>> RayHits<'_, V> {
+impl RayHits<'_> {
     /// How many rays were asked about.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -189,11 +188,11 @@ impl Caster {
     ///
     /// # Errors
     /// The first of them that is no ray.
-    pub fn nearest_many<'a, V: Copy + Into<DVec3> + Sync>(
+    pub fn nearest_many<'a>(
         &'a self,
-        rays: &RayColumns<'a, V>,
+        rays: &RayColumns<'a>,
         pool: &Pool,
-    ) -> Result<RayHits<'a, V>, InvalidRays> {
+    ) -> Result<RayHits<'a>, InvalidRays> {
         let mut hits = HitList::default();
         hits.resize(rays.len());
         let HitList { prim, facet, t, .. } = &mut hits;
@@ -209,11 +208,7 @@ impl Caster {
     ///
     /// # Errors
     /// The first of them that is no ray.
-    pub fn any_many<V: Copy + Into<DVec3> + Sync>(
-        &self,
-        rays: &RayColumns<'_, V>,
-        pool: &Pool,
-    ) -> Result<Vec<bool>, InvalidRays> {
+    pub fn any_many(&self, rays: &RayColumns<'_>, pool: &Pool) -> Result<Vec<bool>, InvalidRays> {
         let mut met = vec![false; rays.len()];
         self.answer(rays, pool, met.par_chunks_mut(SHARE), |backend, list, met| {
             backend.find_occluded(&self.snapshot, list.as_slice(), met)
@@ -222,9 +217,9 @@ impl Caster {
     }
 
     /// Asks about each share of the rays, by the fastest backend, and keeps the answers.
-    fn answer<V: Copy + Into<DVec3> + Sync, T: Send>(
+    fn answer<T: Send>(
         &self,
-        rays: &RayColumns<'_, V>,
+        rays: &RayColumns<'_>,
         pool: &Pool,
         shares: impl IndexedParallelIterator<Item = T>,
         ask: impl Fn(&dyn Backend, &RayList, T) -> Stats + Sync + Send,

@@ -3,6 +3,7 @@
 //! A [`Caster`] is a snapshot that is asked in the world: [`WorldRay`]s go in, [`WorldHit`]s come out, and nothing about frames,
 //! backends or materials has to be known. Its answers are those of pictures, by the same code.
 
+mod column;
 mod error;
 mod hit;
 mod many;
@@ -13,6 +14,7 @@ use std::collections::HashMap;
 
 use catoptra_core::{EntityId, Placement, Scene};
 
+pub use column::Coordinates;
 pub use error::{CasterError, InvalidRay, InvalidRays};
 pub use hit::WorldHit;
 pub use many::{RayColumns, RayHits};

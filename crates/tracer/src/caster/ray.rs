@@ -29,23 +29,20 @@ impl WorldRay {
     /// # Errors
     /// Numbers that are not finite, and a direction of zero.
     pub fn new(origin: impl Into<DVec3>, direction: impl Into<DVec3>) -> Result<Self, InvalidRay> {
-        let ray = Ray::new(origin.into(), direction.into());
-        if ray.is_valid() {
-            return Ok(Self { ray, span: Span::AHEAD, leaving: None });
-        }
-        let is_finite = ray.origin.is_finite() && ray.direction.is_finite();
-        Err(if is_finite { InvalidRay::NoDirection } else { InvalidRay::NotFinite })
+        Ok(Self::of_parts(checked_line(origin.into(), direction.into())?, Span::AHEAD, None))
+    }
+
+    /// Of parts that have been checked.
+    pub(super) fn of_parts(ray: Ray, span: Span, leaving: Option<SurfaceId>) -> Self {
+        Self { ray, span, leaving }
     }
 
     /// The same ray, of which only `min <= t <= max` counts; what lies behind the origin never does.
     ///
     /// # Errors
     /// Ends that are no numbers, not in order, or both behind the origin.
-    pub fn within(self, [min, max]: [f64; 2]) -> Result<Self, InvalidRay> {
-        if !(min <= max && max >= 0.0) {
-            return Err(InvalidRay::Ends(min, max));
-        }
-        Ok(Self { span: Span { min: min.max(0.0), max }, ..self })
+    pub fn within(self, ends: [f64; 2]) -> Result<Self, InvalidRay> {
+        Ok(Self { span: checked_span(ends)?, ..self })
     }
 
     /// The same ray, leaving the surface that its origin lies on but for rounding: it does not meet that again there. A ball or
@@ -78,4 +75,25 @@ impl WorldRay {
     pub fn surface_left(&self) -> Option<SurfaceId> {
         self.leaving
     }
+}
+
+/// A line, if it is one. Inlined: it is asked of millions.
+#[inline(always)]
+pub(super) fn checked_line(origin: DVec3, direction: DVec3) -> Result<Ray, InvalidRay> {
+    if !(origin.is_finite() && direction.is_finite()) {
+        return Err(InvalidRay::NotFinite);
+    }
+    if direction == DVec3::ZERO {
+        return Err(InvalidRay::NoDirection);
+    }
+    Ok(Ray::new(origin, direction))
+}
+
+/// What of a ray counts between two ends.
+#[inline(always)]
+pub(super) fn checked_span([min, max]: [f64; 2]) -> Result<Span, InvalidRay> {
+    if !(min <= max && max >= 0.0) {
+        return Err(InvalidRay::Ends(min, max));
+    }
+    Ok(Span { min: min.max(0.0), max })
 }

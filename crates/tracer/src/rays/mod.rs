@@ -1,5 +1,7 @@
 //! Lists of rays that a caller supplies and of their hits, in blocks of columns.
 
+mod hits;
+
 use std::borrow::Cow;
 
 use catoptra_core::glam::DVec3;
@@ -8,7 +10,9 @@ use catoptra_core::{Ray, Span};
 use crate::film::NOTHING;
 use crate::lanes::prefetch;
 use crate::snapshot::RaySegment;
-use crate::{Hit, Snapshot, Stats, SurfaceId};
+use crate::{Snapshot, Stats, SurfaceId};
+
+pub use hits::{HitList, HitSlice};
 
 /// Rays of a block, and the whole groups that columns of answers hold: a packet of any width is one stretch of them.
 pub(crate) const RAYS_PER_BLOCK: usize = 16;
@@ -65,34 +69,42 @@ impl RayList {
         self.length == 0
     }
 
-    /// Takes all rays out and keeps the room.
-    pub(crate) fn clear(&mut self) {
-        self.length = 0;
-        self.blocks.clear();
+    /// Holds so many rays from now on, each of which [`set`](Self::set) is to name; keeps the memory that it has.
+    pub(crate) fn make_room(&mut self, length: usize, leaving: bool) {
+        self.length = length;
+        self.blocks.resize(length.div_ceil(RAYS_PER_BLOCK), RayBlock::EMPTY);
         self.prim.clear();
         self.facet.clear();
+        if leaving {
+            self.make_room_for_surfaces();
+        }
     }
 
-    /// Appends a ray of the world to be searched on `min <= t <= max`. It may leave a surface, which it does not meet
-    /// again at its origin.
-    pub fn push(&mut self, ray: &Ray, [min, max]: [f64; 2], leaving: Option<SurfaceId>) {
-        let (block, lane) = (self.length / RAYS_PER_BLOCK, self.length % RAYS_PER_BLOCK);
-        if lane == 0 {
-            self.blocks.push(RayBlock::EMPTY);
-            if !self.prim.is_empty() {
-                self.make_room_for_surfaces();
-            }
-        }
-        let rays = &mut self.blocks[block];
+    /// Names a ray that there is room for, as [`push`](Self::push) does; a surface where that is to be left.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, at: usize, ray: &Ray, [min, max]: [f64; 2], leaving: Option<SurfaceId>) {
+        let lane = at % RAYS_PER_BLOCK;
+        let rays = &mut self.blocks[at / RAYS_PER_BLOCK];
         for axis in 0..3 {
             rays.origin[axis][lane] = ray.origin[axis];
             rays.direction[axis][lane] = ray.direction[axis];
         }
         (rays.min[lane], rays.max[lane]) = (min, max);
         if let Some(surface) = leaving {
-            self.make_room_for_surfaces();
-            (self.prim[self.length], self.facet[self.length]) = (surface.prim, surface.facet);
+            (self.prim[at], self.facet[at]) = (surface.prim, surface.facet);
         }
+    }
+
+    /// Appends a ray of the world to be searched on `min <= t <= max`. It may leave a surface, which it does not meet
+    /// again at its origin.
+    pub fn push(&mut self, ray: &Ray, [min, max]: [f64; 2], leaving: Option<SurfaceId>) {
+        if self.length % RAYS_PER_BLOCK == 0 {
+            self.blocks.push(RayBlock::EMPTY);
+        }
+        if leaving.is_some() || !self.prim.is_empty() {
+            self.make_room_for_surfaces();
+        }
+        self.set(self.length, ray, [min, max], leaving);
         self.length += 1;
     }
 
@@ -222,84 +234,6 @@ impl RaySlice<'_> {
     ) -> Stats {
         for (at, answer) in answers.iter_mut().enumerate().take(self.length) {
             *answer = self.follow(snapshot, at, |segment| search(segment).then_some(())).is_some();
-        }
-        Stats::default()
-    }
-}
-
-/// What each ray of a list meets first.
-#[derive(Debug, Clone, Default)]
-pub struct HitList {
-    length: usize,
-    pub(crate) prim: Vec<u32>,
-    pub(crate) facet: Vec<u32>,
-    pub(crate) t: Vec<f64>,
-}
-
-impl HitList {
-    /// How many rays were searched.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.length
-    }
-
-    /// Whether there was none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.length == 0
-    }
-
-    /// What a ray meets first: where, and at which `t` in lengths of its direction. `None` where it meets nothing.
-    ///
-    /// The surface is the right one. `t` is computed in `f64`: the parameter of the plane or sphere it belongs to.
-    ///
-    /// # Panics
-    /// A number that is not below [`len`](Self::len).
-    #[must_use]
-    pub fn get(&self, at: usize) -> Option<(SurfaceId, f64)> {
-        assert!(at < self.length, "ray {at} of {}", self.length);
-        let prim = self.prim[at];
-        (prim != NOTHING).then(|| (SurfaceId { prim, facet: self.facet[at] }, self.t[at]))
-    }
-
-    /// Makes room for the hits of `length` rays.
-    pub(crate) fn resize(&mut self, length: usize) {
-        let room = length.next_multiple_of(RAYS_PER_BLOCK);
-        self.length = length;
-        self.prim.resize(room, NOTHING);
-        self.facet.resize(room, 0);
-        self.t.resize(room, 0.0);
-    }
-}
-
-/// Columns for the hits of some rays, in whole blocks.
-#[derive(Debug)]
-pub struct HitSlice<'a> {
-    pub(crate) prim: &'a mut [u32],
-    pub(crate) facet: &'a mut [u32],
-    pub(crate) t: &'a mut [f64],
-}
-
-impl HitSlice<'_> {
-    /// Answers about one ray.
-    ///
-    /// # Panics
-    /// A number past the room.
-    pub fn set(&mut self, at: usize, hit: Option<(SurfaceId, f64)>) {
-        let (surface, t) = hit.unwrap_or((SurfaceId { prim: NOTHING, facet: 0 }, 0.0));
-        (self.prim[at], self.facet[at], self.t[at]) = (surface.prim, surface.facet, t);
-    }
-
-    /// Answers ray by ray what is met first.
-    pub(crate) fn fill(
-        &mut self,
-        snapshot: &Snapshot,
-        rays: RaySlice<'_>,
-        search: impl Fn(&RaySegment<'_>) -> Option<Hit>,
-    ) -> Stats {
-        for at in 0..rays.len() {
-            let hit = rays.follow(snapshot, at, &search);
-            self.set(at, hit.map(|hit| (hit.surface, hit.crossing.t)));
         }
         Stats::default()
     }
