@@ -102,7 +102,7 @@ fn a_mesh_that_stands_twice_in_one_place_is_met_once() {
     let [ball, _] = balls();
     let count = ball.pieces();
     let [first, second] = [0, 1].map(|prim| rays(&ball, count, |facet| SurfaceId { prim, facet }));
-    let (once, twice) = (scene_of(&[ball.clone()]), scene_of(&[ball.clone(), ball]));
+    let (once, twice) = (scene_of(std::slice::from_ref(&ball)), scene_of(&[ball.clone(), ball]));
     assert_met_alike((&once, &first), (&twice, &first), "leaving the first");
     assert_met_alike((&once, &first), (&twice, &second), "leaving the second");
 }

@@ -19,7 +19,7 @@ pub fn find_nearest(
     hits: &mut HitList,
     pool: &Pool,
 ) -> Stats {
-    let rays = &*rays.from_places(snapshot);
+    let rays = &*rays.in_place(snapshot);
     hits.resize(rays.len());
     let HitList { prim, facet, t, .. } = hits;
     let shares = prim.par_chunks_mut(SHARE).zip(facet.par_chunks_mut(SHARE)).zip(t.par_chunks_mut(SHARE));
@@ -38,7 +38,7 @@ pub fn find_occluded(
     occluded: &mut Vec<bool>,
     pool: &Pool,
 ) -> Stats {
-    let rays = &*rays.from_places(snapshot);
+    let rays = &*rays.in_place(snapshot);
     occluded.resize(rays.len(), false);
     let answer = |(number, occluded): (usize, &mut [bool])| {
         Stats::with_exact(|| backend.find_occluded(snapshot, share(rays, number), occluded))

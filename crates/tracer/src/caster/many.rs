@@ -227,7 +227,7 @@ impl Caster {
         let backend = backends()[0];
         let answer = |list: &mut RayList, (share, answers): (usize, T)| {
             rays.fill(list, share)?;
-            ask(backend, &list.from_places(&self.snapshot), answers);
+            ask(backend, &list.in_place(&self.snapshot), answers);
             Ok(())
         };
         let answered = pool.run(|| shares.enumerate().try_for_each_init(RayList::new, answer));

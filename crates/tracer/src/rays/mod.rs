@@ -98,7 +98,7 @@ impl RayList {
     /// Appends a ray of the world to be searched on `min <= t <= max`. It may leave a surface, which it does not meet
     /// again at its origin.
     pub fn push(&mut self, ray: &Ray, [min, max]: [f64; 2], leaving: Option<SurfaceId>) {
-        if self.length % RAYS_PER_BLOCK == 0 {
+        if self.length.is_multiple_of(RAYS_PER_BLOCK) {
             self.blocks.push(RayBlock::EMPTY);
         }
         if leaving.is_some() || !self.prim.is_empty() {
@@ -109,7 +109,7 @@ impl RayList {
     }
 
     /// The same rays, of which each leaves the surface that is met where it leaves one.
-    pub(crate) fn from_places(&self, snapshot: &Snapshot) -> Cow<'_, Self> {
+    pub(crate) fn in_place(&self, snapshot: &Snapshot) -> Cow<'_, Self> {
         if self.prim.is_empty() || !snapshot.has_doubles() {
             return Cow::Borrowed(self);
         }

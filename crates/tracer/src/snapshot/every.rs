@@ -15,8 +15,9 @@ struct Found<'a> {
 
 impl Snapshot {
     /// Everything that a segment meets, nearest first; where surfaces lie in one place, in the order of their numbers, and what
-    /// lies there [twice](catoptra_core::TriangleMesh::firsts_in_place) once. A ray through an edge that triangles share meets all of them. Of one round surface, meetings that lie closer together than
-    /// `f64` tells apart, as those of a ray that grazes it, are one.
+    /// lies there [twice](catoptra_core::TriangleMesh::firsts_in_place) once. A ray through an edge that triangles share meets
+    /// all of them. Of one round surface, meetings that lie closer together than `f64` tells apart, as those of a ray that
+    /// grazes it, are one.
     pub(crate) fn all_on(&self, segment: &RaySegment<'_>) -> Vec<Hit> {
         let mut found: Vec<Found<'_>> = Vec::new();
         let mut keep =
