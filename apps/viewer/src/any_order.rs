@@ -179,7 +179,7 @@ impl Bench {
         let viewer = &mut self.viewer;
         match step {
             Step::Key(number) => {
-                bindings().nth(*number).into_iter().for_each(|binding| self.key(binding.command))
+                bindings().nth(*number).into_iter().for_each(|binding| self.key(binding.command));
             }
             Step::Select(place, more) => {
                 let all = viewer.document.scene().walk();

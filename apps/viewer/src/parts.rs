@@ -244,7 +244,7 @@ mod tests {
         let settings = |text: &str| {
             let (scene, _) =
                 catoptra_scene::parse(&format!("settings {{ {text} }}\n"), "text", None).unwrap();
-            scene.settings().clone()
+            *scene.settings()
         };
         let of = |text, integrator| Goal::of(&settings(text), integrator, 0.5);
         assert_eq!(of("samples 4", Integrator::Whitted), Goal { max_error: 0.5, most: 64 });
