@@ -22,8 +22,10 @@ fn number(v: f64) -> Value {
 }
 
 fn material(kind: &str, given: &[(&'static str, Value)]) -> Material {
-    let values = given.iter().fold(Values::new(), |values, (name, value)| values.with(name, value.clone()));
-    (Material::kind_named(kind).unwrap().make)(&values).unwrap()
+    let kind = Material::kind_named(kind).unwrap();
+    let known = given.iter().filter(|(name, _)| kind.field(name).is_some());
+    let values = known.fold(Values::new(), |values, (name, value)| values.with(name, value.clone()));
+    (kind.make)(&values).unwrap()
 }
 
 /// The origin of a surface that faces up along z, seen from over the x axis.

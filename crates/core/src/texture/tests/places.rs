@@ -51,7 +51,11 @@ fn nothing_that_is_no_number_comes_out() {
         };
         for mapping in mappings {
             let values = file.iter().fold(Values::new(), |values, file| values.with("file", file.clone()));
-            let texture = (kind.make)(&values.with("mapping", word(mapping))).unwrap();
+            let values = match kind.field("mapping") {
+                Some(_) => values.with("mapping", word(mapping)),
+                None => values,
+            };
+            let texture = (kind.make)(&values).unwrap();
             for (&a, &b) in bad.iter().flat_map(|a| bad.iter().map(move |b| (a, b))) {
                 let (uv, position) = (DVec2::new(a, b), DVec3::new(b, a, 1.0));
                 let footprints = [None, Some([DVec2::new(b, a); 2]), Some([DVec2::new(0.1, b), DVec2::ZERO])];
