@@ -21,6 +21,7 @@ pub fn nearest<'a>(written: &str, known: impl IntoIterator<Item = &'a str>) -> O
 }
 
 /// What other programs call things, and what scene text calls them.
+#[cfg(feature = "text")]
 const SYNONYMS: &[(&str, &[&str])] = &[
     ("location", &["eye", "position", "center"]),
     ("position", &["eye", "center"]),
@@ -86,6 +87,7 @@ const SYNONYMS: &[(&str, &[&str])] = &[
 ];
 
 /// The known word for what other programs call `written`.
+#[cfg(feature = "text")]
 fn synonym<'a>(written: &str, known: &[&'a str]) -> Option<&'a str> {
     let plain: String = written.chars().filter(|c| !"-_ ".contains(*c)).collect::<String>().to_lowercase();
     let (_, meant) = SYNONYMS.iter().find(|(word, _)| *word == plain)?;
@@ -93,6 +95,7 @@ fn synonym<'a>(written: &str, known: &[&'a str]) -> Option<&'a str> {
 }
 
 /// "did you mean …?" where a word is near, else the list of what there is.
+#[cfg(feature = "text")]
 pub(crate) fn hint(written: &str, known: &[&str], what: &str) -> String {
     match synonym(written, known).or_else(|| nearest(written, known.iter().copied())) {
         Some(word) => format!("did you mean \"{word}\"?"),
