@@ -50,13 +50,10 @@ impl Selection {
         self.ids.iter().copied().filter(|id| !is_inner(*id)).collect()
     }
 
-    /// What is selected after a click on that thing.
-    pub(crate) fn picked(&self, id: EntityId, picking: Picking) -> Self {
-        match picking {
-            Picking::Only => Self::from_iter([id]),
-            Picking::Toggle if self.active() == Some(id) => self.without(|other| other == id),
-            Picking::Toggle => self.without(|other| other == id).with([id]),
-        }
+    /// With that thing too as the active one, or without it where it was that.
+    pub(crate) fn toggled(&self, id: EntityId) -> Self {
+        let others = self.without(|other| other == id);
+        if self.active() == Some(id) { others } else { others.with([id]) }
     }
 
     /// With those picked last; any that were selected already are moved there.
@@ -91,14 +88,12 @@ mod tests {
     }
 
     #[test]
-    fn a_click_selects_alone_and_a_toggling_one_adds_and_takes_away() {
-        let [a, b, c] = ids(3)[..] else { panic!() };
-        let two = Selection::from_iter([a]).picked(b, Picking::Toggle);
+    fn a_toggling_click_adds_and_takes_away() {
+        let [a, b] = ids(2)[..] else { panic!() };
+        let two = Selection::from_iter([a]).toggled(b);
         assert_eq!((two.ids(), two.active()), (&[a, b][..], Some(b)));
-        assert_eq!(two.picked(a, Picking::Toggle).ids(), [b, a], "it becomes the active one");
-        assert_eq!(two.picked(b, Picking::Toggle).ids(), [a]);
-        assert_eq!(two.picked(c, Picking::Only).ids(), [c]);
-        assert_eq!(two.picked(a, Picking::Only).ids(), [a]);
+        assert_eq!(two.toggled(a).ids(), [b, a], "it becomes the active one");
+        assert_eq!(two.toggled(b).ids(), [a]);
     }
 
     #[test]

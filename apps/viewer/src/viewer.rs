@@ -235,12 +235,24 @@ impl Viewer {
         self.select_all(id.into_iter().collect());
     }
 
-    /// Takes in a click on a thing, or on nothing.
+    /// Takes in a click on a thing, or on nothing. One more click on what is selected selects what holds it.
     pub(crate) fn click_on(&mut self, id: Option<EntityId>, picking: Picking) {
         match (id, picking) {
-            (Some(id), _) => self.select_all(self.selection.picked(id, picking)),
+            (Some(id), Picking::Only) => self.select(Some(self.clicked(id))),
+            (Some(id), Picking::Toggle) => self.select_all(self.selection.toggled(id)),
             (None, Picking::Only) => self.select(None),
             (None, Picking::Toggle) => {}
+        }
+    }
+
+    /// What a click on a thing means: the thing, or where that or a group round it is all that is selected, the next group
+    /// outwards; after the outermost the thing again.
+    fn clicked(&self, id: EntityId) -> EntityId {
+        let scene = self.document.scene();
+        let mut around = std::iter::successors(Some(id), |id| scene.parent(*id));
+        match self.selection.ids() {
+            [only] if around.any(|id| id == *only) => scene.parent(*only).unwrap_or(id),
+            _ => id,
         }
     }
 

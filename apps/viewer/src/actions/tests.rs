@@ -2,9 +2,10 @@ use catoptra_core::glam::DVec3;
 use catoptra_tracer::Pool;
 
 use super::*;
+use crate::document::Document;
 use crate::gestures::{gesture, is_object, wheel};
 use crate::input::{Drag, Gesture, Hold};
-use crate::loader;
+use crate::loader::{self, Opened};
 use crate::selection::Picking;
 
 fn viewer() -> Viewer {
@@ -98,6 +99,30 @@ fn lamp_viewer(folder: &Path) -> (Viewer, EntityId) {
     viewer.size = (640, 360);
     let lamp = viewer.document.scene().entity_named("lamp").unwrap();
     (viewer, lamp)
+}
+
+#[test]
+fn one_more_click_selects_the_group_outwards_and_then_the_thing_again() {
+    let text = "matte \"m\" { color 1 }\ngroup \"outer\" {\n    group \"inner\" { sphere \"ball\" material=\"m\" { radius 1 } }\n}\n\
+                sphere \"alone\" material=\"m\" { center 5 0 0; radius 1 }\n";
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("s.kdl");
+    std::fs::write(&path, text).unwrap();
+    let pool = Pool::new(1).unwrap();
+    let mut viewer = Viewer::new(Opened::new(Document::open(&path).unwrap(), &pool));
+    let named = |viewer: &Viewer, name: &str| viewer.document.scene().entity_named(name);
+    let ball = named(&viewer, "ball");
+    for wanted in ["ball", "inner", "outer", "ball", "inner"] {
+        viewer.click_on(ball, Picking::Only);
+        assert_eq!(viewer.selection.active(), named(&viewer, wanted), "{wanted}");
+    }
+    let alone = named(&viewer, "alone");
+    for _ in 0..2 {
+        viewer.click_on(alone, Picking::Only);
+        assert_eq!(viewer.selection.active(), alone);
+    }
+    viewer.click_on(ball, Picking::Only);
+    assert_eq!(viewer.selection.active(), ball);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 /// What the mouse does, and keys that go through buttons, for the help: what is done, and what follows.
 pub(crate) const OTHERS: &[(&str, &str)] = &[
-    ("Click", "select what is under the pointer"),
+    ("Click", "select what is under the pointer; once more: the group that holds it"),
     ("Shift or Ctrl click", "select one more, or one less; Shift in the tree: all up to there"),
     ("Left drag", "orbit the camera; turntable: turn the objects"),
     ("Middle drag", "orbit the camera; with Shift pan, with Ctrl zoom"),
