@@ -110,8 +110,9 @@ const COMPARE_NOW: (usize, usize) = (835, 582);
 fn tall() -> Option<Stage> {
     let stage = Stage::start(Some(SCENE))?;
     stage.resize(TALL.0, TALL.1);
-    let whole = format!("{}x{} samples 16/16 at rest", PICTURE.0, TALL.1);
-    stage.wait("the tall window", |stage| stage.log().trim_end().ends_with(&whole));
+    let size = format!(" {}x{} ", PICTURE.0, TALL.1);
+    let is_rest = |line: &str| line.contains(&size) && line.ends_with(" at rest");
+    stage.wait("the tall window", |stage| stage.log().lines().last().is_some_and(is_rest));
     stage.wheel(760, TALL.1 - 60, "5", 30);
     stage.settle();
     Some(stage)

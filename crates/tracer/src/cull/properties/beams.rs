@@ -113,7 +113,12 @@ fn what_mirrored_rays_cross_is_reachable() {
             .iter()
             .filter_map(|(ray, _)| {
                 let hit = snapshot.nearest_in_frame(ray, Span::AHEAD, None)?;
-                Some((mirrored(ray, hit.crossing.t, hit.crossing.normal), Some(hit.surface)))
+                // Of faces that meet in a corner at which a ray is aimed, the lowest is met, though it may look away: what is
+                // mirrored there does not stay outside.
+                let is_closed = snapshot.prims()[hit.surface.prim as usize].shape.is_closed();
+                let from_behind = hit.crossing.normal.dot(ray.direction) > 0.0;
+                let stays = !(frame.outside_solids && is_closed && from_behind);
+                stays.then(|| (mirrored(ray, hit.crossing.t, hit.crossing.normal), Some(hit.surface)))
             })
             .collect();
         let outside = frame.outside_solids;
