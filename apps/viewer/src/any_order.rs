@@ -132,9 +132,7 @@ impl Bench {
     }
 
     fn text(&mut self) -> String {
-        let mut unsaved = self.viewer.document.unsaved();
-        unsaved.file.update(&unsaved.scene);
-        unsaved.file.text()
+        self.viewer.document.text()
     }
 
     fn frame(&mut self, events: Vec<Event>) {

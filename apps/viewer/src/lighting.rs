@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use catoptra_core::light::{AmbientLight, DirectionalLight};
 use catoptra_core::scene::{Edit, EntityId, MaterialId, Role, Scene, SceneError};
-use catoptra_core::{Camera, Field, FieldKind, Rgb, Value, Values};
+use catoptra_core::{Camera, Rgb, Value, Values};
 
 /// What the headlight sends onto what faces it, W/m²: white surfaces are shown a little below white.
 const HEADLIGHT: f64 = 0.9 * PI;
@@ -135,19 +135,6 @@ fn emitter(scene: &Scene, id: EntityId) -> Option<MaterialId> {
     scene.material(material).emission().is_some().then_some(material)
 }
 
-/// Values of which none is light.
-fn without_light(fields: &[Field], values: &Values) -> Values {
-    let has = |name: &str| values.get(name).is_some();
-    fields.iter().fold(values.clone(), |dark, field| match field.kind {
-        FieldKind::Quantity if has(field.name) => dark.with(field.name, Value::Color(Rgb::BLACK)),
-        // A picture of all that is around has a factor instead.
-        FieldKind::Number if field.name == "scale" && has("file") => {
-            dark.with(field.name, Value::Number(0.0))
-        }
-        _ => dark,
-    })
-}
-
 /// The scene with the lights dark that `is_dark` says yes to.
 ///
 /// # Errors
@@ -157,7 +144,7 @@ pub(crate) fn darkened(scene: &Scene, is_dark: impl Fn(EntityId) -> bool) -> Res
     for id in scene.entities().filter(|id| is_dark(*id)) {
         if let Some(light) = scene.light(id) {
             let kind = light.kind();
-            let edit = match (kind.make)(&without_light(kind.fields, &light.values())) {
+            let edit = match (kind.make)(&kind.without_light(&light.values())) {
                 Ok(dark) => Edit::Light(id, dark),
                 Err(_) => Edit::Remove(id),
             };
@@ -165,7 +152,7 @@ pub(crate) fn darkened(scene: &Scene, is_dark: impl Fn(EntityId) -> bool) -> Res
         } else if let Some(material) = emitter(scene, id) {
             let shining = scene.material(material);
             let kind = shining.kind();
-            let Ok(dark) = (kind.make)(&without_light(kind.fields, &shining.values())) else { continue };
+            let Ok(dark) = (kind.make)(&kind.without_light(&shining.values())) else { continue };
             let name = lit.free_material_name(scene.material_name(material));
             let dark = lit.add_material(&name, dark)?;
             lit.apply(Edit::MaterialOf(id, dark))?;
@@ -199,6 +186,7 @@ fn evenly_lit(scene: &Scene) -> Result<Scene, SceneError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use catoptra_core::FieldKind;
     use catoptra_core::glam::DVec3;
 
     const TEXT: &str = "matte \"white\" { color 1 }\nemissive \"glow\" { radiance 2 }\n\

@@ -2,7 +2,7 @@
 
 use catoptra_core::light::AmbientLight;
 use catoptra_core::scene::{Edit, Role, Scene};
-use catoptra_core::{Field, FieldKind, Rgb, Value, Values};
+use catoptra_core::{Rgb, Values};
 use miette::{IntoDiagnostic, Result};
 
 /// The scene with every light and all that shines dark, and light of radiance 1 from everywhere.
@@ -11,7 +11,7 @@ pub(super) fn evenly_lit(scene: &Scene) -> Result<Scene> {
     for id in scene.entities_of(Role::Light).collect::<Vec<_>>() {
         let Some(light) = scene.light(id) else { continue };
         let kind = light.kind();
-        let edit = match (kind.make)(&without_light(kind.fields, &light.values())) {
+        let edit = match (kind.make)(&kind.without_light(&light.values())) {
             Ok(dark) => Edit::Light(id, dark),
             Err(_) => Edit::Remove(id),
         };
@@ -19,7 +19,7 @@ pub(super) fn evenly_lit(scene: &Scene) -> Result<Scene> {
     }
     for (id, _, material) in scene.materials() {
         let (kind, values) = (material.kind(), material.values());
-        let shown = with_own_color(&without_light(kind.fields, &values));
+        let shown = with_own_color(&kind.without_light(&values));
         if let Some(shown) = (kind.make)(&shown).ok().filter(|shown| shown != material) {
             lit.apply(Edit::Material(id, shown)).into_diagnostic()?;
         }
@@ -29,19 +29,6 @@ pub(super) fn evenly_lit(scene: &Scene) -> Result<Scene> {
     let dark = scene.settings().with_background(Rgb::BLACK).into_diagnostic()?;
     lit.apply(Edit::Settings(dark)).into_diagnostic()?;
     Ok(lit)
-}
-
-/// Values of which none is light.
-fn without_light(fields: &[Field], values: &Values) -> Values {
-    let has = |name: &str| values.get(name).is_some();
-    fields.iter().fold(values.clone(), |dark, field| match field.kind {
-        FieldKind::Quantity if has(field.name) => dark.with(field.name, Value::Color(Rgb::BLACK)),
-        // A picture of all that is around has a factor instead.
-        FieldKind::Number if field.name == "scale" && has("file") => {
-            dark.with(field.name, Value::Number(0.0))
-        }
-        _ => dark,
-    })
 }
 
 /// The same where even light is answered as all other is: some materials have a colour of its own for it.
@@ -58,7 +45,7 @@ const DIFFUSE: &str = "diffuse";
 
 #[cfg(test)]
 mod tests {
-    use catoptra_core::Material;
+    use catoptra_core::{Material, Value};
 
     use super::*;
 

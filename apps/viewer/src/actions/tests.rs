@@ -47,9 +47,7 @@ fn a_turntable_drag_leaves_round_numbers() {
         );
     }
     gesture(&mut viewer, Gesture::Ended(Drag::Turn));
-    let mut unsaved = viewer.document.unsaved();
-    unsaved.file.update(&unsaved.scene);
-    let text = unsaved.file.text();
+    let text = viewer.document.text();
     let turns = text.lines().filter_map(|line| line.split("turn ").nth(1));
     let numbers: Vec<&str> =
         turns.flat_map(|rest| rest.split([';', '{', '}']).next().unwrap().split(' ')).collect();

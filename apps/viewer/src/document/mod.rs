@@ -92,6 +92,14 @@ impl Document {
         Unsaved { scene, file, origin, holds }
     }
 
+    /// Its text with all edits.
+    #[cfg(test)]
+    pub(crate) fn text(&self) -> String {
+        let Unsaved { scene, mut file, .. } = self.unsaved();
+        file.update(&scene);
+        file.text()
+    }
+
     /// A scene to begin with.
     ///
     /// # Errors

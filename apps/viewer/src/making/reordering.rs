@@ -122,9 +122,7 @@ mod tests {
                 "{names:?} stay in the world"
             );
         }
-        let mut unsaved = viewer.document.unsaved();
-        unsaved.file.update(&unsaved.scene);
-        let (again, _) = catoptra_scene::parse(&unsaved.file.text(), "text", None).unwrap();
+        let (again, _) = catoptra_scene::parse(&viewer.document.text(), "text", None).unwrap();
         assert_eq!(tree(&again, None), now);
         assert!(viewer.document.undo().is_some() && viewer.document.is_saved(), "it was one step");
         let path = viewer.document.save().unwrap();

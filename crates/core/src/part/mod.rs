@@ -8,7 +8,7 @@ pub(crate) use given::degrees;
 pub use given::{Given, LARGEST};
 pub use value::{ImageSource, MeshSource, ProfileSource, Rows, Textured, Value, Values};
 
-use crate::InvalidPart;
+use crate::{InvalidPart, Rgb};
 
 /// What sort of value a field takes, and the range it lies in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -125,6 +125,20 @@ impl<T> Kind<T> {
     #[must_use]
     pub fn field(&self, name: &str) -> Option<&'static Field> {
         self.fields.iter().find(|f| f.name == name)
+    }
+
+    /// Values of a part of this kind, with every amount of light that they tell put to none.
+    #[must_use]
+    pub fn without_light(&self, values: &Values) -> Values {
+        let has = |name: &str| values.get(name).is_some();
+        self.fields.iter().fold(values.clone(), |dark, field| match field.kind {
+            FieldKind::Quantity if has(field.name) => dark.with(field.name, Value::Color(Rgb::BLACK)),
+            // A picture of all that is around has a factor instead.
+            FieldKind::Number if field.name == "scale" && has("file") => {
+                dark.with(field.name, Value::Number(0.0))
+            }
+            _ => dark,
+        })
     }
 }
 
