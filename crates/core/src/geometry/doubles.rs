@@ -3,10 +3,11 @@
 //! Files that were put together from parts repeat them. A ray meets the first of such triangles and no other, and one that leaves
 //! it leaves all of them.
 
-use std::collections::HashMap;
+use std::hash::{BuildHasher, RandomState};
 
 use super::TriangleMesh;
 use super::derived::Derived;
+use super::triangle_mesh::place;
 
 /// The first triangle in each one's place, found out when first asked for.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -19,82 +20,46 @@ impl Doubles {
     }
 }
 
-/// Bits of a filter for each triangle: few of them are suspected without reason.
-const BITS_EACH: usize = 16;
+/// No triangle.
+const NONE: u32 = u32::MAX;
 
 fn firsts(mesh: &TriangleMesh) -> Option<Box<[u32]>> {
-    let count = mesh.triangles().len();
-    let hashes: Vec<u64> = mesh.positions().iter().map(|p| hash(place(p))).collect();
+    let triangles = mesh.triangles();
+    let state = RandomState::new();
+    let hashes: Vec<u64> = mesh.positions().iter().map(|p| state.hash_one(place(*p))).collect();
     // A sum, so that the order of the corners does not count.
     let hash_of = |corners: &[u32; 3]| {
         corners.iter().fold(0_u64, |sum, &corner| sum.wrapping_add(hashes[corner as usize]))
     };
-    let (mut seen, mut suspects) = (Filter::new(count * BITS_EACH), Filter::new(count * BITS_EACH));
-    let mut any = false;
-    for triangle in mesh.triangles() {
-        let hash = hash_of(triangle);
-        if !seen.insert(hash) {
-            suspects.insert(hash);
-            any = true;
+    // The first triangle of each place, where its hash says or after that: half of it stays empty.
+    let mut found = vec![NONE; (2 * triangles.len()).next_power_of_two()];
+    let mut firsts: Option<Box<[u32]>> = None;
+    for (own, corners) in (0_u32..).zip(triangles) {
+        let hash = hash_of(corners);
+        let mut at = hash as usize;
+        loop {
+            at &= found.len() - 1;
+            let first = found[at];
+            if first == NONE {
+                found[at] = own;
+                break;
+            }
+            let others = &triangles[first as usize];
+            if hash_of(others) == hash && places(mesh, others) == places(mesh, corners) {
+                firsts.get_or_insert_with(|| (0..triangles.len() as u32).collect())[own as usize] = first;
+                break;
+            }
+            at += 1;
         }
     }
-    if !any {
-        return None;
-    }
-    let mut first_at = HashMap::new();
-    let mut firsts: Box<[u32]> = (0..count as u32).collect();
-    for (triangle, first) in mesh.triangles().iter().zip(&mut firsts) {
-        if suspects.contains(hash_of(triangle)) {
-            let mut corners = triangle.map(|corner| place(&mesh.positions()[corner as usize]));
-            corners.sort_unstable();
-            *first = *first_at.entry(corners).or_insert(*first);
-        }
-    }
-    firsts.iter().zip(0_u32..).any(|(first, own)| *first != own).then_some(firsts)
+    firsts
 }
 
-/// A position, so that equal ones are the same bit by bit.
-fn place(position: &[f32; 3]) -> [u32; 3] {
-    // Adding 0 makes both zeros one.
-    position.map(|c| (c + 0.0).to_bits())
-}
-
-/// A number that differs for nearly all places (finalisation of `SplitMix64`: Steele, Lea and Flood, OOPSLA 2014).
-fn hash([x, y, z]: [u32; 3]) -> u64 {
-    let mix = |v: u64| {
-        let v = (v ^ v >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let v = (v ^ v >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        v ^ v >> 31
-    };
-    mix(mix(u64::from(x) | u64::from(y) << 32).wrapping_add(u64::from(z)))
-}
-
-/// A set of hashes that may hold some that were never put in (Bloom, Communications of the ACM 13(7), 1970, with one hash).
-struct Filter {
-    words: Vec<u64>,
-}
-
-impl Filter {
-    fn new(bits: usize) -> Self {
-        Self { words: vec![0; (bits / 64).next_power_of_two()] }
-    }
-
-    fn at(&self, hash: u64) -> (usize, u64) {
-        ((hash >> 6) as usize & (self.words.len() - 1), 1 << (hash & 63))
-    }
-
-    fn contains(&self, hash: u64) -> bool {
-        let (word, bit) = self.at(hash);
-        self.words[word] & bit != 0
-    }
-
-    /// Whether it was not there.
-    fn insert(&mut self, hash: u64) -> bool {
-        let (word, bit) = self.at(hash);
-        let new = self.words[word] & bit == 0;
-        self.words[word] |= bit;
-        new
-    }
+/// The places of a triangle's corners, in an order of their own.
+fn places(mesh: &TriangleMesh, corners: &[u32; 3]) -> [[u32; 3]; 3] {
+    let mut places = corners.map(|corner| place(mesh.positions()[corner as usize]));
+    places.sort_unstable();
+    places
 }
 
 #[cfg(test)]
@@ -112,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn few_of_many_are_suspected_and_none_is_told_wrongly() {
+    fn one_of_many_is_told_and_none_wrongly() {
         let side = 300_u32;
         let positions: Vec<[f32; 3]> =
             (0..side * side).map(|i| [(i % side) as f32, (i / side) as f32, 0.5]).collect();

@@ -13,7 +13,7 @@ use glam::DVec3;
 
 use super::TriangleMesh;
 use super::derived::Derived;
-use super::triangle_mesh::widen;
+use super::triangle_mesh::{place, widen};
 
 /// How often triangles can be cut into four.
 pub(super) const MOST_LEVELS: u32 = 5;
@@ -74,9 +74,9 @@ fn cut(mesh: &TriangleMesh, normals: &[[f32; 3]], steps: u32) -> TriangleMesh {
     mesh.remade(cut.positions, triangles, &cut.made_of)
 }
 
-/// A place and a normal as a key: corners in which both are the same are one. Minus zero is zero.
+/// A place and a normal as a key: corners in which both are the same are one.
 fn corner_of(position: [f32; 3], normal: [f32; 3]) -> Corner {
-    [position, normal].map(|v| v.map(|v| (v + 0.0).to_bits()))
+    [position, normal].map(place)
 }
 
 /// Normals that fit the triangles, so that shade ends where the surface turns from the light: of each corner the sum of those

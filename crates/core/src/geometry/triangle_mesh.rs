@@ -325,6 +325,12 @@ fn blended<const N: usize>(rows: &[[f32; N]], made_of: &[([u32; 3], [f64; 3])]) 
     made_of.iter().map(blend).collect()
 }
 
+/// A position, or another vector, as bits that are the same for equal ones.
+pub(super) fn place(position: [f32; 3]) -> [u32; 3] {
+    // Adding 0 makes both zeros one.
+    position.map(|c| (c + 0.0).to_bits())
+}
+
 pub(super) fn widen(p: [f32; 3]) -> DVec3 {
     DVec3::from(p.map(f64::from))
 }

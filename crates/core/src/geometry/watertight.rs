@@ -10,6 +10,7 @@ use glam::DVec3;
 
 use super::TriangleMesh;
 use super::derived::Derived;
+use super::triangle_mesh::place;
 
 /// An edge where the surface of a mesh is not closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,8 +87,7 @@ fn open_edge(mesh: &TriangleMesh) -> Option<OpenEdge> {
 /// For each corner the number of the first that lies in the same place.
 fn merged(positions: &[[f32; 3]]) -> Vec<u32> {
     let mut first = HashMap::with_capacity(positions.len());
-    // Adding 0 makes both zeros one.
-    let places = positions.iter().map(|p| p.map(|c| (c + 0.0).to_bits())).zip(0_u32..);
+    let places = positions.iter().map(|p| place(*p)).zip(0_u32..);
     places.map(|(place, number)| *first.entry(place).or_insert(number)).collect()
 }
 

@@ -38,11 +38,6 @@ pub(super) fn grow(mesh: &TriangleMesh, preset: Preset, pool: &Pool, control: &C
     pool.run(|| dispatch!(Level::new(), s => Grower { s, preset, mesh, overlap, control }.grow()))
 }
 
-/// The triangles that are the first in their places: rays meet no others.
-fn distinct(firsts: &[u32]) -> Vec<u32> {
-    firsts.iter().zip(0..).filter(|(first, own)| *first == own).map(|(first, _)| *first).collect()
-}
-
 struct Grower<'a, S: Simd> {
     s: S,
     preset: Preset,
@@ -64,12 +59,15 @@ impl<S: Simd> Copy for Grower<'_, S> {}
 impl<S: Simd> Grower<'_, S> {
     fn grow(mut self) -> WideTree {
         let mesh = self.mesh;
-        let distinct: Option<Vec<u32>> = mesh.firsts_in_place().map(distinct);
-        let count = distinct.as_ref().map_or(mesh.triangles().len(), Vec::len);
-        let id = |place: usize| distinct.as_ref().map_or(place as u32, |ids| ids[place]);
-        let room = self.preset.room(count);
         let places = |count: usize| (0..count).into_par_iter().with_min_len(PARALLEL);
-        let mut items: Vec<Item> = places(count).map(|place| Item::new(mesh, id(place))).collect();
+        let all = || places(mesh.triangles().len()).map(|id| Item::new(mesh, id as u32)).collect();
+        let (firsts, mut items): (_, Vec<Item>) = rayon::join(|| mesh.firsts_in_place(), all);
+        if let Some(firsts) = firsts {
+            // Of triangles in one place rays meet the first alone.
+            items.retain(|item| firsts[item.id() as usize] == item.id());
+        }
+        let count = items.len();
+        let room = self.preset.room(count);
         let root = self.measured(&items, Set { room, ..Set::of(self.s, &[]) });
         items.resize(count + room, Item::NONE);
         let mut scratch: Vec<Item> = places(count + room).map(|_| Item::NONE).collect();
