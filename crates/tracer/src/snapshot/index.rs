@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Aabb, Shape, TriangleMesh};
+use catoptra_core::{Aabb, Placement, Shape, TriangleMesh};
 
 use super::{Columns, Prim, Snapshot};
 use crate::accel::{Box32, MeshTree, Preset, Tree};
@@ -45,22 +45,26 @@ impl Index {
 
 /// The meshes that stand where earlier ones of the same triangles do, each with the first of those.
 fn doubles(prims: &[Prim]) -> Vec<[u32; 2]> {
-    let mut places: HashMap<u32, Vec<u32>> = HashMap::new();
+    let mut firsts = HashMap::new();
     let mut doubles = Vec::new();
     for (prim, number) in prims.iter().zip(0_u32..) {
         let (Some(tree), None, Some(mesh)) = (prim.mesh, &prim.member, prim.shape.as_mesh()) else {
             continue;
         };
-        let firsts = places.entry(tree).or_default();
-        let stands_there = |first: &&u32| {
-            prims[**first as usize].shape.as_mesh().is_some_and(|other| other.placement() == mesh.placement())
-        };
-        match firsts.iter().find(stands_there) {
-            Some(&first) => doubles.push([number, first]),
-            None => firsts.push(number),
+        let first = *firsts.entry((tree, bits_of(mesh.placement()))).or_insert(number);
+        if first != number {
+            doubles.push([number, first]);
         }
     }
     doubles
+}
+
+/// A placement as bits that are equal where it is.
+fn bits_of(placement: &Placement) -> [[u64; 4]; 2] {
+    let (turned, moved) = (placement.rotation(), placement.translation());
+    let numbers = [turned.to_array(), moved.extend(placement.scale()).to_array()];
+    // Adding 0 makes both zeros one.
+    numbers.map(|row| row.map(|v| (v + 0.0).to_bits()))
 }
 
 /// A box, relative to an origin, and widened by the rounding of its corners and of rays.
