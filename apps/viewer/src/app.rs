@@ -19,6 +19,7 @@ use crate::frame_worker::{Finished, FrameWorker};
 use crate::guard::Next;
 use crate::keeping::Keeper;
 use crate::loader::{Opened, Outcome};
+use crate::memory::GivingBack;
 use crate::options::Options;
 use crate::overlays::Overlays;
 use crate::pictures;
@@ -78,6 +79,7 @@ pub(crate) struct App {
     pub(crate) meter: Meter,
     pub(crate) last_frame: Option<Instant>,
     pub(crate) status_due: Option<Instant>,
+    pub(crate) giving_back: GivingBack,
     pub(crate) shown_title: String,
     /// The window has to be presented as a whole.
     pub(crate) exposed: bool,
@@ -142,6 +144,7 @@ impl App {
             meter: Meter::default(),
             last_frame: None,
             status_due: None,
+            giving_back: GivingBack::default(),
             shown_title: String::new(),
             exposed: true,
             over_picture: false,
@@ -185,7 +188,7 @@ impl App {
     fn next_due(&self) -> Option<Instant> {
         let egui = self.screen.as_ref().and_then(|screen| screen.due);
         let keeping = self.keeper.as_ref().and_then(|keeper| keeper.due(Instant::now()));
-        [egui, self.status_due, keeping].into_iter().flatten().min()
+        [egui, self.status_due, keeping, self.giving_back.due()].into_iter().flatten().min()
     }
 
     fn request_redraw(&self) {
@@ -233,7 +236,10 @@ impl ApplicationHandler<Wake> for App {
                 self.viewer.stale.overlay = true;
             }
             Wake::Ball => self.take_ball(),
-            Wake::Made(outcome) => self.viewer.picture_made(outcome),
+            Wake::Made(outcome) => {
+                self.viewer.picture_made(outcome);
+                self.giving_back.expect(Instant::now());
+            }
             Wake::Changed(files) => self.files_changed(&files),
             #[cfg(feature = "screen-reader")]
             Wake::ScreenReader(event) => self.screen_reader_asks(event),
@@ -277,6 +283,7 @@ impl ApplicationHandler<Wake> for App {
         }
         self.offer_kept();
         self.keep_edits_if_due();
+        self.giving_back.do_if_due(Instant::now());
         self.do_wanted();
         self.request_if_stale();
         if let Some(sample) = self.viewer.preview.take_due() {

@@ -38,6 +38,7 @@ mod light_parts;
 mod lighting;
 mod loader;
 mod making;
+mod memory;
 mod naming;
 mod opening;
 mod options;

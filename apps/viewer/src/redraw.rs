@@ -123,6 +123,9 @@ impl App {
             self.status_due = Some(now + STATUS_EVERY);
         }
         if let Some(old) = self.shown.replace(finished) {
+            if old.frame.film.size().pixels() > size.pixels() {
+                self.giving_back.expect(now);
+            }
             self.worker.give_back(old.frame);
         }
         self.read_off(self.viewer.pointer.at);

@@ -4,6 +4,7 @@ use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::{Rgb, Rows};
 use egui::{ComboBox, DragValue, Response, Slider, SliderClamping, Ui};
 
+use super::color::Typed;
 use super::number::{self, Pace};
 use super::{color, spoken};
 use crate::arithmetic;
@@ -118,10 +119,16 @@ fn drag_all(ui: &mut Ui, numbers: &mut [f64], pace: Pace) -> bool {
 pub(super) fn quantity(ui: &mut Ui, value: Rgb) -> Option<Rgb> {
     let strength = value.max_channel();
     let tint = if strength > 0.0 { value * (1.0 / strength) } else { Rgb::BLACK };
+    // Of no light one picks a colour as strong as it is shown.
+    let of_tint = |tint: Rgb| color::short(tint * if strength > 0.0 { strength } else { 1.0 });
     ui.horizontal(|ui| {
-        // Of no light one picks a colour as strong as it is shown.
-        let picked = color::swatch(ui, tint)
-            .map(|tint| color::short(tint * if strength > 0.0 { strength } else { 1.0 }));
+        let swatch = color::swatch(ui, tint).map(of_tint);
+        let tip = "The tint in sRGB digits such as #ffd080, or the amount in three linear numbers as in the file, such as 8 6.5 4.";
+        let picked = color::digits(ui, tint, tip).map(|typed| match typed {
+            Typed::Digits(tint) => of_tint(tint),
+            Typed::Numbers(amount) => amount,
+        });
+        let picked = picked.or(swatch);
         let typed = number::edit(ui, strength, Pace::Value, |ui, widget| named(ui, widget, "strength"));
         let tint = if strength > 0.0 { tint } else { Rgb::WHITE };
         typed.filter(|typed| *typed >= 0.0).map(|typed| tint * typed).or(picked)

@@ -1,6 +1,6 @@
 //! Are materials changed by clicks as they should be?
 
-use catoptra_core::Value;
+use catoptra_core::{Rgb, Value};
 
 use super::*;
 
@@ -97,6 +97,19 @@ fn a_colour_is_typed_in_digits_or_as_the_file_has_it() {
     let mut bench = Bench::new("ball");
     let digits = bench.frames(2).into_iter().rev().find(|(text, _)| text.starts_with('#')).unwrap().0;
     bench.type_over(&digits, "0.5 1/4 1", egui::Key::Enter);
-    assert_eq!(bench.value("grey", "color"), Value::Color(catoptra_core::Rgb::new(0.5, 0.25, 1.0)));
+    assert_eq!(bench.value("grey", "color"), Value::Color(Rgb::new(0.5, 0.25, 1.0)));
     bench.undo();
+}
+
+#[test]
+fn the_tint_of_light_is_typed_too() {
+    let mut bench = Bench::new("toy");
+    let mut typed = |now: &str, text: &str| {
+        bench.type_over(now, text, egui::Key::Enter);
+        bench.value("all", "emission")
+    };
+    // It shines not at all at first: digits make it shine as a display shows them.
+    assert_eq!(typed("#000000", "#ff0000"), Value::Color(Rgb::new(1.0, 0.0, 0.0)));
+    assert_eq!(typed("#ff0000", "8 4 2"), Value::Color(Rgb::new(8.0, 4.0, 2.0)));
+    assert_eq!(typed("#ffbc89", "#00ff00"), Value::Color(Rgb::new(0.0, 8.0, 0.0)));
 }
