@@ -51,6 +51,35 @@ fn a_ray_that_leaves_a_surface_meets_what_is_behind() {
 }
 
 #[test]
+fn a_ray_that_leaves_an_entity_meets_it_nowhere() {
+    for away in [DVec3::ZERO, DVec3::new(1e9, -3e9, 1e9)] {
+        let (caster, [ball, block]) = ball_and_box(away);
+        let ray = WorldRay::new(away + DVec3::Z * 4.0, DVec3::NEG_Z).unwrap();
+        let met = |ray: &WorldRay| caster.all(ray).iter().map(|hit| hit.entity).collect::<Vec<_>>();
+        assert_eq!(met(&ray.leaving_entity(ball)), [block; 2]);
+        assert_eq!(met(&ray.leaving_entity(block)), [ball; 2]);
+        assert_eq!(caster.nearest(&ray.leaving_entity(ball)).unwrap().t, 8.0);
+        let beside = WorldRay::new(away + DVec3::Z * 4.0, DVec3::new(0.0, 0.2, -1.0)).unwrap();
+        assert!(caster.any(&beside) && !caster.any(&beside.leaving_entity(ball)));
+
+        let origins = vec![away + DVec3::Z * 4.0; 5000];
+        let directions: Vec<_> = (0..5000).map(|i| DVec3::new(0.0, f64::from(i % 50) * 0.01, -1.0)).collect();
+        let left: Vec<_> = (0..5000).map(|i| [Some(ball), Some(block), None][i % 3]).collect();
+        let rays = RayColumns::new(&origins, &directions).unwrap().leaving_entities(&left).unwrap();
+        let (hits, any) =
+            (caster.nearest_many(&rays, &pool()).unwrap(), caster.any_many(&rays, &pool()).unwrap());
+        for (at, hit) in hits.iter().enumerate() {
+            let ray = rays.get(at).unwrap();
+            let alone = caster.nearest(&ray);
+            assert_eq!(ray.entity_left(), left[at]);
+            assert_eq!(hit.map(|hit| hit.entity), alone.map(|hit| hit.entity), "{at}");
+            assert!(hit.is_none() || hit.map(|hit| hit.entity) != left[at]);
+            assert_eq!(any[at], alone.is_some(), "{at}");
+        }
+    }
+}
+
+#[test]
 fn texture_coordinates_turn_with_the_shape() {
     let mut scene = Scene::new();
     let grey = scene.add_material("grey", Matte::new(Rgb::grey(0.5)).unwrap()).unwrap();

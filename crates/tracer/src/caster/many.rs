@@ -1,14 +1,14 @@
 //! How are many rays asked about at once?
 
-use catoptra_core::{Crossing, Ray, Span};
+use catoptra_core::{Crossing, EntityId, Ray, Span};
 use rayon::prelude::*;
 
 use super::column::{Column, Coordinates};
-use super::ray::{checked_line, checked_span};
+use super::ray::{Leaving, checked_line, checked_span};
 use super::{Caster, InvalidRay, InvalidRays, WorldHit, WorldRay};
-use crate::rays::{HitList, HitSlice, RAYS_PER_BLOCK, RayList};
+use crate::rays::{HitList, RAYS_PER_BLOCK, RayList};
 use crate::snapshot::{Hit, RaySegment};
-use crate::{Backend, Pool, Stats, SurfaceId, backends};
+use crate::{Backend, Pool, SurfaceId, backends};
 
 /// Rays that a thread prepares and asks about in one go: 256 KiB of them, few enough to stay in its second-level cache.
 const SHARE: usize = 256 * RAYS_PER_BLOCK;
@@ -33,7 +33,8 @@ pub struct RayColumns<'a> {
     origins: Column<'a>,
     directions: Column<'a>,
     ends: Option<&'a [[f64; 2]]>,
-    leaving: Option<&'a [Option<SurfaceId>]>,
+    surfaces: Option<&'a [Option<SurfaceId>]>,
+    entities: Option<&'a [Option<EntityId>]>,
 }
 
 impl<'a> RayColumns<'a> {
@@ -46,7 +47,7 @@ impl<'a> RayColumns<'a> {
         directions: &'a [impl Coordinates],
     ) -> Result<Self, InvalidRays> {
         let (origins, of_directions) = (Coordinates::column(origins), Coordinates::column(directions));
-        let rays = Self { origins, directions: of_directions, ends: None, leaving: None };
+        let rays = Self { origins, directions: of_directions, ends: None, surfaces: None, entities: None };
         rays.with_column("directions", directions.len(), rays)
     }
 
@@ -63,7 +64,16 @@ impl<'a> RayColumns<'a> {
     /// # Errors
     /// As many surfaces as there are rays is what it takes.
     pub fn leaving(self, surfaces: &'a [Option<SurfaceId>]) -> Result<Self, InvalidRays> {
-        self.with_column("surfaces to leave", surfaces.len(), Self { leaving: Some(surfaces), ..self })
+        self.with_column("surfaces to leave", surfaces.len(), Self { surfaces: Some(surfaces), ..self })
+    }
+
+    /// The same rays, each leaving an entity or none; see [`WorldRay::leaving_entity`]. A ray that would meet the entity it leaves
+    /// is asked about by itself, which takes some times as long.
+    ///
+    /// # Errors
+    /// As many entities as there are rays is what it takes.
+    pub fn leaving_entities(self, entities: &'a [Option<EntityId>]) -> Result<Self, InvalidRays> {
+        self.with_column("entities to leave", entities.len(), Self { entities: Some(entities), ..self })
     }
 
     fn with_column(&self, what: &'static str, others: usize, with: Self) -> Result<Self, InvalidRays> {
@@ -91,27 +101,55 @@ impl<'a> RayColumns<'a> {
     /// # Panics
     /// A number that is not below [`len`](Self::len).
     pub fn get(&self, at: usize) -> Result<WorldRay, InvalidRay> {
-        let (ray, span, leaving) = self.parts(at)?;
-        Ok(WorldRay::of_parts(ray, span, leaving))
+        let (ray, span) = self.line(at)?;
+        let surface = self.surfaces.and_then(|surfaces| surfaces[at]);
+        Ok(WorldRay::of_parts(ray, span, Leaving { surface, entity: self.entity_left(at) }))
     }
 
-    #[inline(always)]
-    fn parts(&self, at: usize) -> Result<(Ray, Span, Option<SurfaceId>), InvalidRay> {
+    fn entity_left(&self, at: usize) -> Option<EntityId> {
+        self.entities.and_then(|entities| entities[at])
+    }
+
+    /// Which of `count` rays from one on leave an entity, counted from that one.
+    fn that_leave_entities(&self, first: usize, count: usize) -> impl Iterator<Item = usize> {
+        let entities = self.entities.map_or(&[][..], |entities| &entities[first..first + count]);
+        entities.iter().enumerate().filter_map(|(at, entity)| entity.map(|_| at))
+    }
+
+    fn line(&self, at: usize) -> Result<(Ray, Span), InvalidRay> {
         let ray = checked_line(self.origins.get(at), self.directions.get(at))?;
         let span = match self.ends {
             Some(ends) => checked_span(ends[at])?,
             None => Span::AHEAD,
         };
-        Ok((ray, span, self.leaving.and_then(|surfaces| surfaces[at])))
+        Ok((ray, span))
     }
 
-    /// Puts the rays of a share into a list.
+    /// Puts the rays of a share into a list, block by block.
     fn fill(&self, list: &mut RayList, share: usize) -> Result<(), InvalidRay> {
         let first = share * SHARE;
-        list.make_room(SHARE.min(self.len() - first), self.leaving.is_some());
-        for at in 0..list.len() {
-            let (ray, span, leaving) = self.parts(first + at)?;
-            list.set(at, &ray, [span.min, span.max], leaving);
+        let length = SHARE.min(self.len() - first);
+        list.make_room(length, self.surfaces.is_some());
+        for (number, block) in list.blocks_mut().iter_mut().enumerate() {
+            let start = first + number * RAYS_PER_BLOCK;
+            let rays = start..(start + RAYS_PER_BLOCK).min(first + length);
+            self.origins.put(rays.clone(), &mut block.origin);
+            self.directions.put(rays.clone(), &mut block.direction);
+            if !block.are_rays(rays.len()) {
+                rays.clone().try_for_each(|at| self.line(at).map(drop))?;
+            }
+            match self.ends {
+                None => (block.min, block.max) = ([0.0; RAYS_PER_BLOCK], [f64::INFINITY; RAYS_PER_BLOCK]),
+                Some(ends) => {
+                    for (lane, &ends) in ends[rays].iter().enumerate() {
+                        let span = checked_span(ends)?;
+                        (block.min[lane], block.max[lane]) = (span.min, span.max);
+                    }
+                }
+            }
+        }
+        if let Some(surfaces) = self.surfaces {
+            list.leave(&surfaces[first..first + length]);
         }
         Ok(())
     }
@@ -129,7 +167,8 @@ impl<'a> RayColumns<'a> {
 pub struct RayHits<'a> {
     caster: &'a Caster,
     rays: RayColumns<'a>,
-    hits: HitList,
+    /// Those of each share of the rays.
+    hits: Vec<HitList>,
 }
 
 impl RayHits<'_> {
@@ -151,7 +190,7 @@ impl RayHits<'_> {
     /// A number that is not below [`len`](Self::len).
     #[must_use]
     pub fn t(&self, at: usize) -> Option<f64> {
-        self.hits.get(at).map(|(_, t)| t)
+        self.met(at).map(|(_, t)| t)
     }
 
     /// Which surface a ray meets first; its facet is the triangle of a mesh. `None` where it meets nothing.
@@ -160,7 +199,7 @@ impl RayHits<'_> {
     /// A number that is not below [`len`](Self::len).
     #[must_use]
     pub fn surface(&self, at: usize) -> Option<SurfaceId> {
-        self.hits.get(at).map(|(surface, _)| surface)
+        self.met(at).map(|(surface, _)| surface)
     }
 
     /// What a ray meets first; `None` where it meets nothing.
@@ -169,11 +208,15 @@ impl RayHits<'_> {
     /// A number that is not below [`len`](Self::len).
     #[must_use]
     pub fn get(&self, at: usize) -> Option<WorldHit> {
-        let (surface, t) = self.hits.get(at)?;
+        let (surface, t) = self.met(at)?;
         let ray = self.rays.get(at).ok()?;
         let on = |segment: &RaySegment<'_>| self.caster.snapshot.crossing_on(segment, surface, t);
         let crossing = Crossing { t, ..self.caster.follow(&ray, on)? };
         Some(self.caster.told(&ray, &Hit { surface, crossing }))
+    }
+
+    fn met(&self, at: usize) -> Option<(SurfaceId, f64)> {
+        self.hits[at / SHARE].get(at % SHARE)
     }
 
     /// What each ray meets first, in their order.
@@ -193,13 +236,18 @@ impl Caster {
         rays: &RayColumns<'a>,
         pool: &Pool,
     ) -> Result<RayHits<'a>, InvalidRays> {
-        let mut hits = HitList::default();
-        hits.resize(rays.len());
-        let HitList { prim, facet, t, .. } = &mut hits;
-        let shares = prim.par_chunks_mut(SHARE).zip(facet.par_chunks_mut(SHARE)).zip(t.par_chunks_mut(SHARE));
-        self.answer(rays, pool, shares, |backend, list, ((prim, facet), t)| {
-            let mut hits = HitSlice { prim, facet, t };
-            backend.find_nearest(&self.snapshot, list.as_slice(), &mut hits)
+        let hits = self.answer(rays, pool, |backend, list, first| {
+            let mut hits = HitList::default();
+            hits.resize(list.len());
+            backend.find_nearest(&self.snapshot, list.as_slice(), &mut hits.as_slice());
+            for at in rays.that_leave_entities(first, list.len()) {
+                let left = self.prim_left(rays.entity_left(first + at));
+                if hits.get(at).is_some_and(|(surface, _)| Some(surface.prim) == left) {
+                    let hit = self.alone(rays, first + at, |segment| self.snapshot.nearest_on(segment));
+                    hits.as_slice().set(at, hit.flatten().map(|hit| (hit.surface, hit.crossing.t)));
+                }
+            }
+            hits
         })?;
         Ok(RayHits { caster: self, rays: *rays, hits })
     }
@@ -209,28 +257,44 @@ impl Caster {
     /// # Errors
     /// The first of them that is no ray.
     pub fn any_many(&self, rays: &RayColumns<'_>, pool: &Pool) -> Result<Vec<bool>, InvalidRays> {
-        let mut met = vec![false; rays.len()];
-        self.answer(rays, pool, met.par_chunks_mut(SHARE), |backend, list, met| {
-            backend.find_occluded(&self.snapshot, list.as_slice(), met)
+        let met = self.answer(rays, pool, |backend, list, first| {
+            let mut met = vec![false; list.len()];
+            backend.find_occluded(&self.snapshot, list.as_slice(), &mut met);
+            for at in rays.that_leave_entities(first, list.len()) {
+                let others = |segment: &RaySegment<'_>| self.snapshot.is_occluded_on(segment);
+                met[at] = met[at] && self.alone(rays, first + at, others) == Some(true);
+            }
+            met
         })?;
-        Ok(met)
+        Ok(met.concat())
     }
 
-    /// Asks about each share of the rays, by the fastest backend, and keeps the answers.
+    /// Asks about one of them by itself.
+    fn alone<T>(
+        &self,
+        rays: &RayColumns<'_>,
+        at: usize,
+        search: impl FnOnce(&RaySegment<'_>) -> T,
+    ) -> Option<T> {
+        Some(self.follow(&rays.get(at).ok()?, search))
+    }
+
+    /// Asks about each share of the rays, by the fastest backend, with the number of its first: the answers of each share.
+    ///
+    /// Shares have memory of their own, which one call leaves to the next; one stretch for all would be new each time.
     fn answer<T: Send>(
         &self,
         rays: &RayColumns<'_>,
         pool: &Pool,
-        shares: impl IndexedParallelIterator<Item = T>,
-        ask: impl Fn(&dyn Backend, &RayList, T) -> Stats + Sync + Send,
-    ) -> Result<(), InvalidRays> {
+        ask: impl Fn(&dyn Backend, &RayList, usize) -> T + Sync + Send,
+    ) -> Result<Vec<T>, InvalidRays> {
         let backend = backends()[0];
-        let answer = |list: &mut RayList, (share, answers): (usize, T)| {
+        let answer = |list: &mut RayList, share: usize| {
             rays.fill(list, share)?;
-            ask(backend, &list.in_place(&self.snapshot), answers);
-            Ok(())
+            Ok(ask(backend, &list.in_place(&self.snapshot), share * SHARE))
         };
-        let answered = pool.run(|| shares.enumerate().try_for_each_init(RayList::new, answer));
+        let shares = (0..rays.len().div_ceil(SHARE)).into_par_iter();
+        let answered: Result<Vec<T>, _> = pool.run(|| shares.map_init(RayList::new, answer).collect());
         answered.map_err(|cause| rays.first_wrong(cause))
     }
 }

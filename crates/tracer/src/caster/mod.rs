@@ -102,8 +102,16 @@ impl Caster {
     /// what is round or flat), for [`WorldRay::leaving`]. `None` where the caster has no such entity.
     #[must_use]
     pub fn surface(&self, entity: EntityId, triangle: u32) -> Option<SurfaceId> {
-        let prim = self.snapshot.entities().binary_search(&entity).ok()?;
-        Some(SurfaceId { prim: prim as u32, facet: triangle })
+        Some(SurfaceId { prim: self.prim(entity)?, facet: triangle })
+    }
+
+    fn prim(&self, entity: EntityId) -> Option<u32> {
+        self.snapshot.entities().binary_search(&entity).ok().map(|prim| prim as u32)
+    }
+
+    /// The shape that a ray meets nowhere which leaves an entity.
+    fn prim_left(&self, entity: Option<EntityId>) -> Option<u32> {
+        Some(self.snapshot.first_in_place(self.prim(entity?)?))
     }
 
     /// What a ray meets first; `None` where it meets nothing. Of surfaces in one place the one with the lower number.
@@ -151,6 +159,8 @@ impl Caster {
     }
 
     fn follow<T>(&self, ray: &WorldRay, search: impl FnOnce(&RaySegment<'_>) -> T) -> T {
+        let without = self.prim_left(ray.entity_left());
+        let search = |segment: &RaySegment<'_>| search(&RaySegment { without, ..*segment });
         self.snapshot.follow(&ray.ray(), ray.span(), ray.surface_left(), search)
     }
 

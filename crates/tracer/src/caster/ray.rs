@@ -1,7 +1,7 @@
 //! What is asked about: a ray of the world, how much of it counts, and what it leaves.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Ray, Span};
+use catoptra_core::{EntityId, Ray, Span};
 
 use super::InvalidRay;
 use crate::SurfaceId;
@@ -20,7 +20,14 @@ use crate::SurfaceId;
 pub struct WorldRay {
     ray: Ray,
     span: Span,
-    leaving: Option<SurfaceId>,
+    leaving: Leaving,
+}
+
+/// What a ray leaves.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Leaving {
+    pub(super) surface: Option<SurfaceId>,
+    pub(super) entity: Option<EntityId>,
 }
 
 impl WorldRay {
@@ -29,11 +36,11 @@ impl WorldRay {
     /// # Errors
     /// Numbers that are not finite, and a direction of zero.
     pub fn new(origin: impl Into<DVec3>, direction: impl Into<DVec3>) -> Result<Self, InvalidRay> {
-        Ok(Self::of_parts(checked_line(origin.into(), direction.into())?, Span::AHEAD, None))
+        Ok(Self::of_parts(checked_line(origin.into(), direction.into())?, Span::AHEAD, Leaving::default()))
     }
 
     /// Of parts that have been checked.
-    pub(super) fn of_parts(ray: Ray, span: Span, leaving: Option<SurfaceId>) -> Self {
+    pub(super) fn of_parts(ray: Ray, span: Span, leaving: Leaving) -> Self {
         Self { ray, span, leaving }
     }
 
@@ -49,7 +56,13 @@ impl WorldRay {
     /// another convex solid that it leaves outwards it does not meet at all.
     #[must_use]
     pub fn leaving(self, surface: SurfaceId) -> Self {
-        Self { leaving: Some(surface), ..self }
+        Self { leaving: Leaving { surface: Some(surface), ..self.leaving }, ..self }
+    }
+
+    /// The same ray, leaving a whole entity: it meets that nowhere, nor meshes of the same triangles that stand in its place.
+    #[must_use]
+    pub fn leaving_entity(self, entity: EntityId) -> Self {
+        Self { leaving: Leaving { entity: Some(entity), ..self.leaving }, ..self }
     }
 
     /// The point at `t`, metres.
@@ -73,7 +86,13 @@ impl WorldRay {
     /// The surface that it leaves.
     #[must_use]
     pub fn surface_left(&self) -> Option<SurfaceId> {
-        self.leaving
+        self.leaving.surface
+    }
+
+    /// The entity that it leaves.
+    #[must_use]
+    pub fn entity_left(&self) -> Option<EntityId> {
+        self.leaving.entity
     }
 }
 

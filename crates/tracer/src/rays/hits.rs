@@ -40,6 +40,11 @@ impl HitList {
         (prim != NOTHING).then(|| (SurfaceId { prim, facet: self.facet[at] }, self.t[at]))
     }
 
+    /// All of its columns.
+    pub(crate) fn as_slice(&mut self) -> HitSlice<'_> {
+        HitSlice { prim: &mut self.prim, facet: &mut self.facet, t: &mut self.t }
+    }
+
     /// Makes room for the hits of `length` rays.
     pub(crate) fn resize(&mut self, length: usize) {
         let room = length.next_multiple_of(RAYS_PER_BLOCK);

@@ -34,6 +34,20 @@ impl RayBlock {
         min: [0.0; RAYS_PER_BLOCK],
         max: [0.0; RAYS_PER_BLOCK],
     };
+
+    /// Whether the first `count` are rays: finite, along some direction.
+    pub(crate) fn are_rays(&self, count: usize) -> bool {
+        // Zero times what is not finite is no number, which no sum gets rid of.
+        let mut no_number = [0.0; RAYS_PER_BLOCK];
+        let mut is_zero = [true; RAYS_PER_BLOCK];
+        for axis in 0..3 {
+            for lane in 0..RAYS_PER_BLOCK {
+                no_number[lane] += 0.0 * self.origin[axis][lane] + 0.0 * self.direction[axis][lane];
+                is_zero[lane] &= self.direction[axis][lane] == 0.0;
+            }
+        }
+        (0..count).all(|lane| no_number[lane] == 0.0 && !is_zero[lane])
+    }
 }
 
 /// Rays of the world in `f64`, each with a closed span `min <= t <= max` that is searched; `t` counts in lengths of the
@@ -69,7 +83,7 @@ impl RayList {
         self.length == 0
     }
 
-    /// Holds so many rays from now on, each of which [`set`](Self::set) is to name; keeps the memory that it has.
+    /// Holds so many rays from now on, which are to be written into its [blocks](Self::blocks_mut); keeps the memory that it has.
     pub(crate) fn make_room(&mut self, length: usize, leaving: bool) {
         self.length = length;
         self.blocks.resize(length.div_ceil(RAYS_PER_BLOCK), RayBlock::EMPTY);
@@ -80,9 +94,22 @@ impl RayList {
         }
     }
 
-    /// Names a ray that there is room for, as [`push`](Self::push) does; a surface where that is to be left.
-    #[inline(always)]
-    pub(crate) fn set(&mut self, at: usize, ray: &Ray, [min, max]: [f64; 2], leaving: Option<SurfaceId>) {
+    /// The blocks, the last of them with room to spare.
+    pub(crate) fn blocks_mut(&mut self) -> &mut [RayBlock] {
+        &mut self.blocks
+    }
+
+    /// Names the surfaces that rays leave, from the first on, where there is [room](Self::make_room) for them.
+    pub(crate) fn leave(&mut self, surfaces: &[Option<SurfaceId>]) {
+        for (at, surface) in surfaces.iter().enumerate() {
+            if let Some(surface) = surface {
+                (self.prim[at], self.facet[at]) = (surface.prim, surface.facet);
+            }
+        }
+    }
+
+    /// Names a ray that there is room for.
+    fn set(&mut self, at: usize, ray: &Ray, [min, max]: [f64; 2], leaving: Option<SurfaceId>) {
         let lane = at % RAYS_PER_BLOCK;
         let rays = &mut self.blocks[at / RAYS_PER_BLOCK];
         for axis in 0..3 {

@@ -22,11 +22,14 @@ impl Snapshot {
         let mut found: Vec<Found<'_>> = Vec::new();
         let mut keep =
             |span, hit| self.insert(&mut found, Found { hit, segment: RaySegment { span, ..*segment } });
-        for &prim in &self.index.unbounded {
+        for &prim in self.index.unbounded.iter().filter(|&&prim| segment.sees(prim)) {
             self.cross_everywhere(prim, segment, &mut keep);
         }
         self.index.tree.walk(&self.box_ray(segment), segment.span, |item| {
-            self.cross_everywhere(self.index.bounded[item as usize], segment, &mut keep);
+            let prim = self.index.bounded[item as usize];
+            if segment.sees(prim) {
+                self.cross_everywhere(prim, segment, &mut keep);
+            }
             segment.span.max
         });
         found.into_iter().map(|found| found.hit).collect()

@@ -73,12 +73,14 @@ impl Snapshot {
     /// As [`nearest_in_frame`](Self::nearest_in_frame).
     pub(crate) fn nearest_on(&self, segment: &RaySegment<'_>) -> Option<Hit> {
         let mut best = None;
-        for &prim in &self.index.unbounded {
+        for &prim in self.index.unbounded.iter().filter(|&&prim| segment.sees(prim)) {
             best = self.closer(segment, best, self.cross(prim, &segment.until(best)));
         }
         self.index.tree.walk(&self.box_ray(segment), segment.until(best).span, |item| {
-            let hit = self.cross(self.index.bounded[item as usize], &segment.until(best));
-            best = self.closer(segment, best, hit);
+            let prim = self.index.bounded[item as usize];
+            if segment.sees(prim) {
+                best = self.closer(segment, best, self.cross(prim, &segment.until(best)));
+            }
             segment.until(best).span.max
         });
         best
@@ -86,7 +88,7 @@ impl Snapshot {
 
     /// As [`occluded_in_frame`](Self::occluded_in_frame).
     pub(crate) fn is_occluded_on(&self, segment: &RaySegment<'_>) -> bool {
-        self.any_in_the_way(segment, |prim| self.cross(prim, segment).is_some())
+        self.any_in_the_way(segment, |prim| segment.sees(prim) && self.cross(prim, segment).is_some())
     }
 
     /// Whether a shape that a segment may meet blocks it.
@@ -286,12 +288,19 @@ pub(crate) struct RaySegment<'a> {
     pub(crate) leaving: Option<SurfaceId>,
     /// Whether the ray is given in the world, and not in the snapshot's frame.
     pub(crate) in_world: bool,
+    /// A shape that it meets nowhere.
+    pub(crate) without: Option<u32>,
 }
 
 impl<'a> RaySegment<'a> {
     /// In the snapshot's frame.
     pub(crate) fn new(ray: &'a Ray, span: Span, leaving: Option<SurfaceId>) -> Self {
-        Self { ray, span, leaving, in_world: false }
+        Self { ray, span, leaving, in_world: false, without: None }
+    }
+
+    /// Whether it may meet a shape at all.
+    pub(super) fn sees(&self, prim: u32) -> bool {
+        self.without != Some(prim)
     }
 
     /// The same segment, up to the latest `t` of the hit so far.
