@@ -2,6 +2,8 @@
 
 mod answer;
 mod pareto;
+mod ray_file;
+mod rays;
 mod stress;
 mod trace;
 
@@ -20,6 +22,8 @@ pub(crate) struct LabArgs {
 enum Question {
     /// Time how fast the rays of a file are traced against a mesh
     Trace(trace::TraceArgs),
+    /// Write the rays that a picture asks about
+    Rays(rays::RaysArgs),
     /// Answer a file of cases that are hard to answer
     Answer(answer::AnswerArgs),
     /// Count the wrong answers of a results file
@@ -34,6 +38,7 @@ enum Question {
 pub(crate) fn run(args: &LabArgs) -> Result<Outcome> {
     match &args.question {
         Question::Trace(args) => trace::run(args),
+        Question::Rays(args) => rays::run(args),
         Question::Answer(args) => answer::run(args),
         Question::Score(args) => answer::run_score(args),
         Question::Stress(args) => stress::run(args),

@@ -1,29 +1,28 @@
-//! `catoptra lab trace`: how many rays of a file are traced against a mesh in a second?
-//!
-//! A ray file is a `u32` count and 32 bytes a ray: origin, tmin, direction, tmax, all little-endian `f32`.
+//! `catoptra lab trace`: how many rays of a file are traced against a mesh or a scene in a second?
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use catoptra_core::geometry::Mesh;
-use catoptra_core::glam::DVec3;
 use catoptra_core::material::Matte;
-use catoptra_core::{Camera, MeshSource, Ray, Rgb, Scene, TriangleMesh};
+use catoptra_core::{Camera, MeshSource, Rgb, Scene, TriangleMesh};
 use catoptra_scene::model;
 use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
 use catoptra_tracer::{Backend, Pool, Preset, Size, Snapshot, View};
 use clap::Args;
-use miette::{IntoDiagnostic, Report, Result, miette};
+use miette::{IntoDiagnostic, Result};
 
+use super::ray_file;
 use crate::Outcome;
 use crate::console::{check_heard, print_answer};
+use crate::loaded::Loaded;
 use crate::names::find_backend;
 use crate::pool::{milliseconds_since, new_pool};
 use crate::suggest::unknown;
 
 #[derive(Args)]
 pub(crate) struct TraceArgs {
-    /// Mesh file (.ply or .obj)
+    /// Mesh file (.ply or .obj), or a scene file (.kdl)
     mesh: PathBuf,
     /// Ray file: u32 count, then origin, tmin, direction and tmax of each ray, all little-endian, f32
     rays: PathBuf,
@@ -49,7 +48,7 @@ pub(crate) fn run(args: &TraceArgs) -> Result<Outcome> {
     let backend = find_backend(&args.backend)?;
     let preset = find_preset(&args.preset)?;
     check_heard()?;
-    let rays = read_rays(&args.rays)?;
+    let rays = ray_file::read(&args.rays)?;
     let pool = new_pool(args.threads)?;
     let scene = scene_of(&args.mesh)?;
     let (mut snapshot, mut build_ms) = build(&scene, preset, &pool);
@@ -139,44 +138,15 @@ fn mesh_bytes(mesh: &TriangleMesh) -> usize {
     size_of_val(mesh.positions()) + size_of_val(mesh.triangles())
 }
 
-/// A scene of one mesh.
+/// A scene, or one of one mesh.
 fn scene_of(path: &Path) -> Result<Scene> {
+    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("kdl")) {
+        return Ok(Loaded::read(path)?.scene);
+    }
     let mesh = model::read_mesh(path)?;
     let mut scene = Scene::new();
     let clay = scene.add_material("clay", Matte::new(Rgb::grey(0.5)).into_diagnostic()?).into_diagnostic()?;
     let source = MeshSource { path: path.display().to_string(), mesh: mesh.into() };
     scene.add_shape("mesh", Mesh::new(source), clay, None).into_diagnostic()?;
     Ok(scene)
-}
-
-/// Reads a ray file.
-fn read_rays(path: &Path) -> Result<RayList> {
-    let bytes = std::fs::read(path).map_err(|error| miette!("{} cannot be read: {error}", path.display()))?;
-    let (count, body) = bytes.split_first_chunk().ok_or_else(|| too_short(path, 4, bytes.len()))?;
-    let wanted = u32::from_le_bytes(*count) as usize * BYTES;
-    if body.len() != wanted {
-        return Err(too_short(path, wanted + 4, bytes.len()));
-    }
-    let mut rays = RayList::new();
-    for record in body.chunks_exact(BYTES) {
-        let mut numbers = [0.0; BYTES / 4];
-        for (number, bytes) in numbers.iter_mut().zip(record.chunks_exact(4)) {
-            *number = f64::from(f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]));
-        }
-        let [ox, oy, oz, min, dx, dy, dz, max] = numbers;
-        rays.push(&Ray::new(DVec3::new(ox, oy, oz), DVec3::new(dx, dy, dz)), [min, max], None);
-    }
-    Ok(rays)
-}
-
-/// Bytes of a ray.
-const BYTES: usize = 32;
-
-fn too_short(path: &Path, wanted: usize, there: usize) -> Report {
-    miette!(
-        help =
-            "a ray file is a u32 count and 32 bytes a ray: origin, tmin, direction, tmax, little-endian f32",
-        "{} is no ray file: it should be {wanted} bytes long and is {there}",
-        path.display()
-    )
 }

@@ -31,6 +31,37 @@ fn rays_of_a_file_are_traced_and_summed_up() {
     }
 }
 
+/// A floor of two triangles from 3 m above, a ball that throws a shadow on it, and a lamp.
+const LIT: &str = "camera \"c\" { eye 0 3 0; target 0 0 0; up 0 0 -1; fov 60 }\nmatte \"m\" { color 0.7 }\n\
+    box \"floor\" material=\"m\" { from -9 -1 -9; to 9 0 9 }\n\
+    sphere \"ball\" material=\"m\" { center 0.8 0.5 0; radius 0.3 }\n\
+    point-light \"lamp\" { position 1 4 0; intensity 9 }\n";
+
+#[test]
+fn the_rays_of_a_picture_meet_what_it_shows() {
+    let folder = folder();
+    std::fs::write(folder.path().join("lit.kdl"), LIT).expect("a scene is written");
+    let written =
+        catoptra(folder.path(), &["lab", "rays", "lit.kdl", "seen.bin", "shadow.bin", "--size", "37x21"]);
+    assert_eq!(
+        (written.code, written.out.as_str()),
+        (0, "777 camera rays, 777 shadow rays\n"),
+        "{}",
+        written.err
+    );
+    let traced = |rays: &str, more: &[&str]| {
+        let ran =
+            catoptra(folder.path(), &[&["lab", "trace", "lit.kdl", rays, "--repeat", "1"], more].concat());
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        let hits = ran.out.split(" hits ").nth(1).and_then(|rest| rest.split(' ').next());
+        hits.and_then(|hits| hits.parse::<u32>().ok()).expect("how many have met something")
+    };
+    assert_eq!(traced("seen.bin", &[]), 777);
+    let blocked = traced("shadow.bin", &["--any"]);
+    assert!((5..200).contains(&blocked), "{blocked} shadow rays meet the ball");
+    assert_refused(folder.path(), &["lab", "rays", "lit.kdl", "lit.kdl"], &["lit.kdl"]);
+}
+
 #[test]
 fn files_that_are_none_are_refused() {
     let folder = folder();
