@@ -31,7 +31,7 @@ WHOLE = (60, 40)
 PARTS = ["0,0,23,40", "23,0,37,17", "23,17,37,23"]
 NAMES = {
     "R", "G", "B", "Z", "normal.X", "normal.Y", "normal.Z", "albedo.R", "albedo.G", "albedo.B", "uv.U", "uv.V", "id.entity",
-    "id.material", "samples", "error.Y",
+    "id.material", "samples", "error.R", "error.G", "error.B",
 }
 WHOLE_NUMBERS = {"id.entity", "id.material", "samples"}
 

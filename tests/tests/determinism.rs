@@ -5,7 +5,7 @@ use catoptra_lab::scenes::placed_mesh;
 use catoptra_tests::{
     assert_same_bits, assert_same_part, camera_of, film, parsed, shipped_scenes, traced, triangles,
 };
-use catoptra_tracer::{Film, Instructions, Pattern, Region, Size, Skip, View, backends};
+use catoptra_tracer::{Film, Instructions, Moments, Pattern, Region, Size, Skip, View, backends};
 
 /// Of two mirrors side by side, the left one shows, in a mirror beside the camera, the right one with darkness in it; the
 /// right one itself shows a ball.
@@ -30,7 +30,7 @@ fn scenes() -> Vec<(String, Scene)> {
 
 /// What a scene's first camera sees by one sample a pixel, with reflections and their order in play.
 fn view(scene: &Scene) -> View {
-    View { moments: true, samples: 1, ..View::of(scene, camera_of(scene), ODD) }
+    View { moments: Moments::Luminance, samples: 1, ..View::of(scene, camera_of(scene), ODD) }
 }
 
 /// A size that no tile divides, so that tiles at the border are cut.

@@ -8,7 +8,7 @@ use catoptra_tests::{
     Comparison, Rates, assert_same_bits, assert_same_part, camera_of, is_by_chance, parsed, shipped_scenes,
     traced, triangles,
 };
-use catoptra_tracer::{Edges, Film, Instructions, Pattern, Region, Size, View, backends};
+use catoptra_tracer::{Edges, Film, Instructions, Moments, Pattern, Region, Size, View, backends};
 
 const SIZE: Size = Size::new(64, 48);
 
@@ -187,7 +187,7 @@ const ODD: Size = Size::new(93, 57);
 #[test]
 fn bits_do_not_depend_on_how_the_work_is_shared_out() {
     for (name, scene) in scenes() {
-        let view = View { moments: true, ..view(&scene, ODD) };
+        let view = View { moments: Moments::Luminance, ..view(&scene, ODD) };
         for backend in ["wide", "scalar"] {
             let usual = traced(&scene, backend, &view, Film::new(ODD), 1);
             for (edge, threads) in [(4, 2), (12, 3), (64, 1), (1024, 1)] {

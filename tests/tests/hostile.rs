@@ -4,7 +4,7 @@
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Camera, Field, Material, MaterialId, Rgb, Scene, Shape, Value, Values};
 use catoptra_tests::{camera_of, parsed, traced};
-use catoptra_tracer::{Film, Size, View};
+use catoptra_tracer::{Film, Moments, Size, View};
 
 const SIZE: Size = Size::new(24, 18);
 
@@ -288,7 +288,7 @@ fn light_past_every_number_is_the_same_by_every_backend_however_many_samples_it_
     let nova = |i| format!("point-light \"nova {i}\" {{ position 0 1 1.5; intensity 3e38 3e38 3e38 }}");
     let scene = parsed(&format!("{GOOD}\n{}", (0..40).map(nova).collect::<Vec<_>>().join("\n")));
     for samples in [1, 5] {
-        let view = View { samples, moments: true, ..View::of(&scene, camera_of(&scene), SIZE) };
+        let view = View { samples, moments: Moments::Luminance, ..View::of(&scene, camera_of(&scene), SIZE) };
         for backend in ["wide", "scalar", "oracle"] {
             let film = traced(&scene, backend, &view, Film::new(SIZE), 1);
             let (x, y) = (SIZE.width / 2, SIZE.height / 2);

@@ -13,7 +13,7 @@ use catoptra_tests::{
     Comparison, Rates, assert_same_bits, assert_same_part, camera_of, parsed, shipped_scenes, traced,
     triangles,
 };
-use catoptra_tracer::{Film, Instructions, Pattern, Region, Size, Skip, View, backends};
+use catoptra_tracer::{Film, Instructions, Moments, Pattern, Region, Size, Skip, View, backends};
 
 /// Pixels that all show the same point, give or take a millimetre: each asks the same question with numbers of its own.
 const SAME: Size = Size::new(24, 24);
@@ -195,7 +195,7 @@ fn view(scene: &Scene) -> View {
         integrator: Integrator::Occlusion,
         occlusion_distance: 3.0,
         samples: 4,
-        moments: true,
+        moments: Moments::Luminance,
         ..View::of(scene, camera_of(scene), ODD)
     }
 }

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use catoptra_core::{Integrator, Scene};
 use catoptra_tests::{assert_same_bits, assert_same_part, camera_of, load, parsed, traced};
 use catoptra_tracer::{
-    Control, Film, Filter, Instructions, Pattern, Pool, Region, Size, Skip, Snapshot, View, backend_named,
-    backends, render,
+    Control, Film, Filter, Instructions, Moments, Pattern, Pool, Region, Size, Skip, Snapshot, View,
+    backend_named, backends, render,
 };
 
 /// A size that no tile divides.
@@ -54,7 +54,7 @@ fn views(scene: &Scene) -> Vec<View> {
         pattern,
         filter,
         samples: SAMPLES,
-        moments: true,
+        moments: Moments::Luminance,
         ..View::of(scene, camera_of(scene), ODD)
     };
     ways.map(view).to_vec()

@@ -2,7 +2,7 @@
 
 use catoptra_core::{Rgb, Scene};
 use catoptra_tests::{assert_same_bits, camera_of, parsed, shipped_scenes, traced};
-use catoptra_tracer::{Film, Region, Size, View, backends};
+use catoptra_tracer::{Film, Moments, Region, Size, View, backends};
 
 /// Every pixel sees the same, give or take a millimetre.
 const SAME: Size = Size::new(24, 24);
@@ -12,7 +12,7 @@ const SAMPLES: u32 = 16;
 /// With 16 samples a pixel and what they tell of its error.
 fn view(scene: &Scene, size: Size) -> View {
     let view = View::of(scene, camera_of(scene), size);
-    View { samples: SAMPLES, moments: true, ..view }
+    View { samples: SAMPLES, moments: Moments::Channels, ..view }
 }
 
 fn places(film: &Film) -> impl Iterator<Item = (u32, u32)> {
@@ -151,7 +151,7 @@ fn asking_for_errors_changes_no_bit_of_the_picture() {
         for samples in [1, 9] {
             let view = View { samples, ..view(&scene, size) };
             for backend in ["wide", "scalar"] {
-                let [with, without] = [true, false].map(|moments| {
+                let [with, without] = [Moments::Channels, Moments::None].map(|moments| {
                     let view = View { moments, ..view.clone() };
                     traced(&scene, backend, &view, Film::new(size), 2)
                 });
@@ -188,7 +188,10 @@ fn merged_films_know_what_both_have_found() {
         assert_eq!((both.samples(x, y), both.surface(x, y)), (32, first.surface(x, y)));
         // Of samples that are 0 or 1 the mean tells how they deviate.
         let expected = (mean * (1.0 - mean) / 31.0).sqrt();
-        assert!((f64::from(both.standard_error(x, y).expect("an error")) - expected).abs() < 1e-6);
+        let [red, green, blue] = both.channel_errors(x, y).expect("errors");
+        for error in [both.standard_error(x, y).expect("an error"), red, green, blue] {
+            assert!((f64::from(error) - expected).abs() < 1e-6);
+        }
     }
     let crop = Region::new(5, 9, Size::new(11, 6));
     let mut parted = first.clone();
@@ -199,6 +202,7 @@ fn merged_films_know_what_both_have_found() {
         assert_eq!(parted.samples(x, y), if inside(x, y) { 32 } else { 16 });
         assert_eq!(parted.radiance(x, y), of.radiance(x, y));
         assert_eq!(parted.standard_error(x, y), of.standard_error(x, y));
+        assert_eq!(parted.channel_errors(x, y), of.channel_errors(x, y));
     }
     let again = traced(&scene, "wide", &View { seed: 1, ..view(&scene, SAME) }, parted, 1);
     assert_same_bits(&first, &again, "a merged film traced over");
@@ -207,13 +211,16 @@ fn merged_films_know_what_both_have_found() {
 #[test]
 fn a_film_without_errors_takes_those_of_another_away() {
     let scene = floor("");
-    let films = [true, false].map(|moments| {
+    let films = [Moments::Channels, Moments::None].map(|moments| {
         let view = View { moments, ..view(&scene, SAME) };
         traced(&scene, "wide", &view, Film::new(SAME), 1)
     });
     for (one, other) in [(0, 1), (1, 0)] {
         let mut both = films[one].clone();
         both.merge(&films[other]);
-        assert_eq!((both.samples(3, 3), both.standard_error(3, 3)), (32, None));
+        assert_eq!(
+            (both.samples(3, 3), both.standard_error(3, 3), both.channel_errors(3, 3)),
+            (32, None, None)
+        );
     }
 }

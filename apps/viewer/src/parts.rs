@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use catoptra_core::{Integrator, Rgb, Settings};
-use catoptra_tracer::{Backend, Control, Film, Pool, Region, Size, Snapshot, Tone, View, render};
+use catoptra_tracer::{Backend, Control, Film, Moments, Pool, Region, Size, Snapshot, Tone, View, render};
 use rayon::prelude::*;
 
 use crate::canvas::Pixels;
@@ -209,7 +209,7 @@ impl Tracer<'_> {
             crop: Some(part.region),
             samples: self.goal.most,
             range: Some(part.samples..end),
-            moments: true,
+            moments: Moments::Luminance,
             ..self.view.clone()
         };
         let stats = render(self.backend, self.snapshot, &view, film, pool, control).ok()?;

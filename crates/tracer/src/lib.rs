@@ -83,4 +83,4 @@ pub use snapshot::{
 };
 pub use stats::{EdgePixels, LampStats, Rays, Skipped, Stats, Tests};
 pub use target::{Reached, Scale, Target, render_until};
-pub use view::{Edges, LampLight, Region, Size, Skip, View};
+pub use view::{Edges, LampLight, Moments, Region, Size, Skip, View};

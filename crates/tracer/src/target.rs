@@ -20,7 +20,8 @@ use rayon::prelude::*;
 use crate::film::SEQUENCES;
 use crate::numeric::{AT_ONCE, MOST_GROWTH};
 use crate::{
-    Backend, Cancelled, Control, Film, Frame, Pattern, Pool, Progress, Snapshot, Stats, Tile, Tone, View,
+    Backend, Cancelled, Control, Film, Frame, Moments, Pattern, Pool, Progress, Snapshot, Stats, Tile, Tone,
+    View,
 };
 
 /// Samples of a pixel before its error is first judged: four in each sequence, so that it is even in itself.
@@ -150,7 +151,7 @@ pub fn render_until(
         samples: target.most(),
         sequences: SEQUENCES,
         pattern: Pattern::Owen,
-        moments: true,
+        moments: Moments::Luminance,
         range: None,
         ..view.clone()
     };

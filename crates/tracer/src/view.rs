@@ -123,12 +123,24 @@ pub struct View {
     pub clamp: f32,
     /// How pixels are shown that outlines cross.
     pub edges: Edges,
-    /// Whether the film is to tell [standard errors](crate::Film::standard_error); the picture's bits do not depend on it.
-    pub moments: bool,
+    /// Which [standard errors](crate::Film::standard_error) the film is to tell; the picture's bits do not depend on it.
+    pub moments: Moments,
     /// Which work that cannot matter is left out; the picture's bits do not depend on it.
     pub skip: Skip,
     /// Vector instructions to trace with; without, the best that the CPU has. The picture's bits do not depend on them.
     pub instructions: Option<Instructions>,
+}
+
+/// Which standard errors a film is to tell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Moments {
+    /// None.
+    #[default]
+    None,
+    /// Those of luminances: 8 bytes a pixel.
+    Luminance,
+    /// Those of luminances, and of red, green and blue each: 32 bytes a pixel.
+    Channels,
 }
 
 /// How pixels are shown that the outlines of things cross.
@@ -222,7 +234,7 @@ impl View {
             filter: Filter::ALL[0],
             clamp: f32::INFINITY,
             edges: Edges::Off,
-            moments: false,
+            moments: Moments::None,
             skip: Skip::ALL,
             instructions: None,
         }

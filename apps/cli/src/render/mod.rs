@@ -9,7 +9,7 @@ mod turntable;
 use std::path::Path;
 
 use catoptra_scene::atomic::is_straight;
-use catoptra_tracer::{Cancelled, Control, Film};
+use catoptra_tracer::{Cancelled, Control, Film, Moments};
 use miette::{Result, miette};
 
 use crate::args::RenderArgs;
@@ -86,7 +86,7 @@ impl SceneShots<'_> {
         let stops = self.args.picture.exposure.unwrap_or(self.job.scene.settings().exposure());
         self.job.tone = self.looks.display.exposed(stops);
         self.job.target = find_target(self.args, &self.job, format, self.job.tone)?;
-        self.job.view.moments = self.looks.tells_errors();
+        self.job.view.moments = if self.looks.tells_errors() { Moments::Channels } else { Moments::None };
         if self.looks.tells_errors() && self.job.target.is_none() {
             self.check_errors()?;
         }

@@ -52,7 +52,9 @@ fn every_layer_has_its_channels_and_numbers_their_names() {
         "albedo.B",
         "albedo.G",
         "albedo.R",
-        "error.Y",
+        "error.B",
+        "error.G",
+        "error.R",
         "id.entity",
         "id.material",
         "normal.X",
@@ -70,7 +72,8 @@ fn every_layer_has_its_channels_and_numbers_their_names() {
     assert!((float("Z", middle) - 3.0).abs() < 1e-2 && float("Z", 0).is_infinite());
     assert!(float("normal.Z", middle) > 0.999 && float("normal.X", middle).abs() < 0.05);
     assert!(float("albedo.R", middle) > float("albedo.G", middle) && all["samples"][middle] == 4);
-    assert!(all["error.Y"].iter().any(|bits| f32::from_bits(*bits) > 0.0));
+    let largest = |name: &str| all[name].iter().map(|bits| f32::from_bits(*bits)).fold(0.0, f32::max);
+    assert!(largest("error.G") > 0.0 && largest("error.R") > 1.1 * largest("error.G"), "the ball is reddish");
     let manifest: Value = serde_json::from_str(&text(&layer.attributes.other, "manifest")).unwrap();
     let name = |channel: &str, at: usize| manifest[channel][all[channel][at].to_string()].clone();
     assert_eq!((name("id.entity", middle), name("id.material", middle)), ("ball".into(), "shiny".into()));

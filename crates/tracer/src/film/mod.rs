@@ -3,6 +3,7 @@
 //! Light is kept as the sum over a pixel's samples; reading divides by how many they are. Where a pixel has one sample alone,
 //! that is the `f32` column that it was traced into.
 
+mod deviations;
 mod replicates;
 mod stored;
 mod sums;
@@ -26,8 +27,8 @@ pub(crate) const BLOCK_PIXELS: usize = (BLOCK * BLOCK) as usize;
 /// Stands for "no surface".
 pub(crate) const NOTHING: u32 = u32::MAX;
 
-/// Bytes of a pixel: light, depth and surface. Standard errors, where a view asks for them, take 8 more, and more samples than
-/// one 24.
+/// Bytes of a pixel: light, depth and surface. Standard errors, where a view asks for them, take 8 more, those of channels
+/// another 24, and more samples than one 24.
 const PIXEL_BYTES: u64 = 20;
 
 /// Bytes that a pixel takes beside these where its error is judged: the sum of its samples, their deviations, its goal and
@@ -193,6 +194,19 @@ impl Film {
     pub fn standard_error(&self, x: u32, y: u32) -> Option<f32> {
         let (tile, i) = self.place(x, y);
         tile.standard_error(i)
+    }
+
+    /// The standard errors of a pixel's red, green and blue, linear as its [radiance](Self::radiance). Never NaN or infinite.
+    ///
+    /// They are told as [`standard_error`](Self::standard_error) tells that of the luminance; without
+    /// [`render_until`](crate::render_until) the view is to ask for [`Moments::Channels`](crate::Moments::Channels).
+    ///
+    /// # Panics
+    /// A pixel outside the picture.
+    #[must_use]
+    pub fn channel_errors(&self, x: u32, y: u32) -> Option<[f32; 3]> {
+        let (tile, i) = self.place(x, y);
+        Some(tile.channel_errors(i)?.map(|error| sums::finite(error as f32)))
     }
 
     /// Adds the samples of another film of the same picture, or of a part of it, to those of this one: with another seed,

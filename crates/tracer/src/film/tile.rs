@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use catoptra_core::{EntityId, Rgb};
 
+use super::deviations::{Deviations, zeros};
 use super::replicates::Replicates;
 use super::sums::{Counts, Sum, finite};
 use super::{BLOCK, BLOCK_PIXELS, NOTHING};
@@ -31,8 +32,8 @@ pub struct Tile {
     goals: Option<Column<u32>>,
     /// The light of each of several sequences of samples, where it is kept apart.
     replicates: Option<Replicates>,
-    /// Squared deviations of the samples' luminances from their mean, where they are asked for: see `sums.rs`.
-    pub(super) deviations: Option<Column<f64>>,
+    /// How far apart the samples of pixels lie, where that is asked for.
+    pub(super) deviations: Option<Deviations>,
     /// What the surfaces are called.
     entities: Arc<[EntityId]>,
     /// The one light that all pixels show, where it is known that none shows a surface.
@@ -111,7 +112,7 @@ impl Tile {
     pub(crate) fn set_radiance(&mut self, i: usize, light: [f64; 3]) -> u64 {
         let samples = f64::from(self.counts.of(i));
         if let Some(deviations) = &mut self.deviations {
-            deviations[i] = 0.0;
+            deviations.clear(i);
         }
         let mut not_finite = 0;
         let light = light.map(|light| {
@@ -146,8 +147,7 @@ impl Tile {
         let pixels = self.depth.len();
         let totals = self.totals.take().unwrap_or_default();
         self.totals = (view.samples > 1).then(|| totals.map(|column| zeros(column, pixels)));
-        let deviations = self.deviations.take().unwrap_or_default();
-        self.deviations = view.moments.then(|| zeros(deviations, pixels));
+        self.deviations = Deviations::empty(self.deviations.take(), view.moments, pixels);
         let replicates = self.replicates.take().unwrap_or_default();
         self.replicates = (view.sequences > 1).then(|| replicates.empty(view.sequences, pixels));
     }
@@ -212,7 +212,7 @@ impl Tile {
 
     /// Whether all samples of a pixel have the same luminance, where deviations are kept.
     pub(crate) fn is_alike(&self, i: usize) -> bool {
-        self.deviations.as_ref().is_some_and(|deviations| deviations[i] == 0.0)
+        self.deviations.as_ref().is_some_and(|deviations| deviations.of_luminance(i) == 0.0)
     }
 
     /// Takes in that all pixels that are traced hold the light of another sample.
@@ -266,11 +266,11 @@ impl Tile {
         not_finite
     }
 
-    /// Adds a sample to the squared deviations of those before it, where they are asked for.
+    /// Takes in how far a sample lies from those before it, where that is asked for.
     fn take_deviation(&mut self, i: usize, light: [f64; 3], before: u32) {
         if let (Some(deviations), Some(totals)) = (&mut self.deviations, &self.totals) {
             let earlier = Sum { light: [0, 1, 2].map(|c| totals[c][i]), count: before };
-            deviations[i] += earlier.spread_to(Sum { light, count: 1 });
+            deviations.take(i, earlier, light);
         }
     }
 
@@ -340,14 +340,17 @@ impl Tile {
         let luminance = |[red, green, blue]: [f64; 3]| Rgb::new(red, green, blue).luminance();
         match self.replicates {
             Some(_) => self.error_by_sequences(i, luminance),
-            None => self.error_by_samples(i),
+            None => self.error_by_samples(i, self.deviations.as_ref()?.of_luminance(i)),
         }
         .map(|error| finite(error as f32))
     }
 
-    /// The standard errors of the channels of a pixel, where sequences of samples are kept apart.
+    /// The standard errors of the channels of a pixel, where they can be told.
     pub(crate) fn channel_errors(&self, i: usize) -> Option<[f64; 3]> {
-        let of = |channel: usize| self.error_by_sequences(i, |light| light[channel]);
+        let of = |channel: usize| match self.replicates {
+            Some(_) => self.error_by_sequences(i, |light| light[channel]),
+            None => self.error_by_samples(i, self.deviations.as_ref()?.of_channel(i, channel)?),
+        };
         Some([of(0)?, of(1)?, of(2)?])
     }
 
@@ -355,31 +358,27 @@ impl Tile {
     fn error_by_sequences(&self, i: usize, of: impl Fn([f64; 3]) -> f64) -> Option<f64> {
         let samples = self.samples(i);
         let error = self.replicates.as_ref()?.error(i, samples, of)?;
-        let deviation = (self.deviations.as_ref()?[i] / f64::from(samples)).sqrt();
+        let deviation = (self.deviations.as_ref()?.of_luminance(i) / f64::from(samples)).sqrt();
         // Where all means agree and samples do not, it is what one sample can bring about: two kinds of them lie at least
         // two of their deviations apart.
         Some(if error > 0.0 { error } else { 2.0 * deviation / f64::from(samples) })
     }
 
-    /// As the spread of samples tells it, were they independent.
-    fn error_by_samples(&self, i: usize) -> Option<f64> {
-        let (deviations, count) = (self.deviations.as_ref()?, f64::from(self.samples(i)));
-        (count >= 2.0).then(|| (deviations[i] / (count * (count - 1.0))).sqrt())
+    /// As the squared deviations of samples tell it, were they independent.
+    fn error_by_samples(&self, i: usize, deviations: f64) -> Option<f64> {
+        let count = f64::from(self.samples(i));
+        (count >= 2.0).then(|| (deviations / (count * (count - 1.0))).sqrt())
     }
 
     /// Adds the samples of a pixel of another tile to those of one of this.
     pub(super) fn add(&mut self, i: usize, other: &Self, j: usize) {
+        let sums = [self.sum(i), other.sum(j)];
         match (&mut self.deviations, &other.deviations) {
-            (Some(_), Some(theirs)) => {
-                let spread = self.sum(i).spread_to(other.sum(j));
-                if let Some(mine) = &mut self.deviations {
-                    mine[i] += theirs[j] + spread;
-                }
-            }
+            (Some(mine), Some(theirs)) => mine.join(i, (theirs, j), sums),
             _ => self.deviations = None,
         }
         self.replicates = None;
-        let (mine, theirs) = (self.sum(i).light, other.sum(j).light);
+        let [mine, theirs] = sums.map(|sum| sum.light);
         let pixels = self.depth.len();
         if self.totals.is_none() {
             let sums = &self.sums;
@@ -404,11 +403,4 @@ impl Tile {
         };
         Sum { light, count: self.samples(i) }
     }
-}
-
-/// A column of so many zeros.
-fn zeros(mut column: Column<f64>, pixels: usize) -> Column<f64> {
-    column.resize(pixels, 0.0);
-    column.fill(0.0);
-    column
 }
