@@ -3,6 +3,7 @@
 use catoptra_core::glam::DVec3;
 use catoptra_lab::adversary::Random;
 use catoptra_lab::scenes::icosphere;
+use catoptra_tests::parsed;
 use catoptra_tracer::{Caster, Pool, RayColumns, WorldRay};
 
 fn pool() -> Pool {
@@ -108,6 +109,22 @@ fn small_meshes_are_met_as_by_brute_force_near_and_far() {
             }
         }
         assert!(met > 2000, "{met}");
+    }
+}
+
+#[test]
+fn the_faces_of_a_solid_look_out_of_it_however_they_are_asked() {
+    let shell = parsed(
+        "matte \"m\" { color 0.5 }\ndifference \"shell\" {\n    sphere \"out\" material=\"m\" { radius 2 }\n    \
+         sphere \"in\" material=\"m\" { radius 1 }\n}\n",
+    );
+    let caster = Caster::from_scene(&shell).expect("a caster");
+    let ray = WorldRay::new(DVec3::Z * 5.0, DVec3::NEG_Z).expect("a ray");
+    let all = caster.all(&ray);
+    let met: Vec<(f64, f64)> = all.iter().map(|hit| (hit.t, hit.normal.z)).collect();
+    assert_eq!(met, [(3.0, 1.0), (4.0, -1.0), (6.0, 1.0), (7.0, -1.0)]);
+    for hit in &all {
+        assert_eq!(caster.hit_on(&ray, hit.surface, hit.t).as_ref(), Some(hit));
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Scene};
 use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
-use catoptra_tracer::{Backend, Caster, Control, InvalidRay, Pool, Preset, Snapshot, WorldRay};
+use catoptra_tracer::{Backend, Caster, Control, InvalidRay, Pool, Preset, Snapshot, WorldHit, WorldRay};
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
 
@@ -17,7 +17,6 @@ use crate::names::find_backend;
 use crate::numbers::in_full;
 use crate::pool::new_pool;
 use crate::rows::{Form, Rows};
-use crate::surfaces::Met;
 
 #[derive(Args)]
 pub(crate) struct CastArgs {
@@ -109,7 +108,9 @@ impl Answers<'_> {
         let (list, mut hits) = (list(rays), HitList::default());
         find_nearest(self.backend, self.snapshot(), &list, &mut hits, self.pool);
         let line = |(at, (ray, _)): (usize, &Stretch)| {
-            let met = hits.get(at).and_then(|(surface, t)| Met::on(self.snapshot(), ray, surface, t));
+            let met = hits.get(at).and_then(|(surface, t)| {
+                self.caster.hit_on(&WorldRay::new(ray.origin, ray.direction).ok()?, surface, t)
+            });
             met.map_or_else(|| MISS.to_owned(), |met| self.words(&met))
         };
         rays.iter().enumerate().map(line).collect()
@@ -127,23 +128,19 @@ impl Answers<'_> {
         let lines = |(at, (ray, ends)): (usize, &Stretch)| {
             let number = at + 1;
             let ray = WorldRay::new(ray.origin, ray.direction)?.within(*ends)?;
-            let lines: Vec<String> = self
-                .caster
-                .all(&ray)
-                .iter()
-                .map(|hit| format!("{number} {}", self.words(&Met::from(hit))))
-                .collect();
+            let lines: Vec<String> =
+                self.caster.all(&ray).iter().map(|hit| format!("{number} {}", self.words(hit))).collect();
             Ok(if lines.is_empty() { format!("{number} {MISS}") } else { lines.join("\n") })
         };
         rays.iter().enumerate().map(lines).collect::<Result<_, InvalidRay>>().into_diagnostic()
     }
 
     /// `t entity triangle px py pz nx ny nz`.
-    fn words(&self, met: &Met) -> String {
+    fn words(&self, met: &WorldHit) -> String {
         let name = self.scene.name(met.entity).unwrap_or_default();
         let numbers = [met.point, met.normal].map(|vector| vector.to_array());
         let numbers: Vec<String> = numbers.as_flattened().iter().map(|v| in_full(*v)).collect();
-        format!("{} {} {} {}", in_full(met.t), one_word(&name), met.facet, numbers.join(" "))
+        format!("{} {} {} {}", in_full(met.t), one_word(&name), met.triangle, numbers.join(" "))
     }
 }
 

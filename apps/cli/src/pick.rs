@@ -2,11 +2,10 @@
 
 use std::path::PathBuf;
 
-use catoptra_core::Span;
 use catoptra_core::glam::DVec3;
-use catoptra_tracer::{Size, Snapshot};
+use catoptra_tracer::{Caster, Size, Snapshot, WorldHit, WorldRay};
 use clap::Args;
-use miette::{Result, miette};
+use miette::{IntoDiagnostic, Result, miette};
 use serde_json::{Value, json};
 
 use crate::Outcome;
@@ -16,7 +15,7 @@ use crate::job::{find_camera, placed_camera};
 use crate::loaded::Loaded;
 use crate::numbers::in_full;
 use crate::pool::new_pool;
-use crate::surfaces::{Met, OwnShapes};
+use crate::surfaces::side;
 
 #[derive(Args)]
 pub(crate) struct PickArgs {
@@ -52,20 +51,18 @@ pub(crate) fn run(args: &PickArgs) -> Result<Outcome> {
     check_heard()?;
     let Loaded { scene, .. } = Loaded::read(&args.scene)?;
     let camera = placed_camera(&scene, find_camera(&scene, args.camera.as_deref())?)?;
-    let snapshot = Snapshot::extract(&scene, &new_pool(None)?);
+    let caster = Caster::of_snapshot(Snapshot::extract(&scene, &new_pool(None)?), &scene);
     let [x, y] = [args.x, args.y].map(|at| f64::from(at) + 0.5);
     let ray = camera.ray(x, y, width, height);
-    let hit = snapshot.nearest_in_frame(&snapshot.own_ray(&ray), Span::AHEAD, None);
-    let met = hit.and_then(|hit| Met::on(&snapshot, &ray, hit.surface, hit.crossing.t));
+    let met = caster.nearest(&WorldRay::new(ray.origin, ray.direction).into_diagnostic()?);
     let found = met.map(|met| Found {
         name: scene.name(met.entity).unwrap_or_default(),
         kind: kind_of(&scene, &met),
         material: scene
             .material_of(met.entity)
             .map(|id| (scene.material_name(id).to_owned(), scene.material(id).kind_name())),
-        normal: met.normal * met.side(ray.direction),
+        normal: met.normal * side(&met, ray.direction),
         depth: met.t * ray.direction.length(),
-        uv: OwnShapes::of(&scene).uv(&met).map_or([0.0; 2], Into::into),
         met,
     });
     print_answer(&if args.json { as_json(found.as_ref()) } else { as_text(found.as_ref()) })?;
@@ -82,11 +79,10 @@ struct Found {
     normal: DVec3,
     /// Metres from where the ray starts.
     depth: f64,
-    uv: [f64; 2],
-    met: Met,
+    met: WorldHit,
 }
 
-fn kind_of(scene: &catoptra_core::Scene, met: &Met) -> &'static str {
+fn kind_of(scene: &catoptra_core::Scene, met: &WorldHit) -> &'static str {
     let shape = scene.shape(met.entity).map(|shape| shape.kind_name());
     shape.or_else(|| scene.light(met.entity).map(|light| light.kind_name())).unwrap_or_default()
 }
@@ -105,8 +101,8 @@ fn as_text(found: Option<&Found>) -> String {
         numbers(&found.met.point.to_array()),
         numbers(&found.normal.to_array()),
         in_full(found.depth),
-        found.met.facet,
-        numbers(&found.uv),
+        found.met.triangle,
+        numbers(&found.met.uv.to_array()),
     )
 }
 
@@ -120,8 +116,8 @@ fn as_json(found: Option<&Found>) -> String {
             "point": found.met.point.to_array(),
             "normal": found.normal.to_array(),
             "depth": found.depth,
-            "facet": found.met.facet,
-            "uv": found.uv,
+            "facet": found.met.triangle,
+            "uv": found.met.uv.to_array(),
         })
     });
     format!("{value}\n")

@@ -1,82 +1,15 @@
 //! What do rays of the world meet: which thing, where, and which way does its surface look?
 
-use std::collections::HashMap;
-
-use catoptra_core::glam::{DVec2, DVec3};
+use catoptra_core::glam::DVec3;
 use catoptra_core::material::Matte;
-use catoptra_core::{EntityId, Placement, Ray, Rgb, Scene, Shape, Span};
+use catoptra_core::{EntityId, Ray, Rgb, Scene, Shape};
 use catoptra_tracer::query::{HitList, RayList, find_nearest};
-use catoptra_tracer::{Backend, Pool, Region, Size, Snapshot, SurfaceId, View, WorldHit};
+use catoptra_tracer::{Backend, Caster, Pool, Region, Size, Snapshot, SurfaceId, View, WorldHit, WorldRay};
 use miette::{IntoDiagnostic, Result};
 
-/// What a ray meets.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Met {
-    /// Which shape, or which light that is one.
-    pub(crate) entity: EntityId,
-    /// Which triangle of a mesh or face of a box; 0 for smooth shapes.
-    pub(crate) facet: u32,
-    /// Where on the ray, in lengths of its direction.
-    pub(crate) t: f64,
-    /// Where in the world.
-    pub(crate) point: DVec3,
-    /// Unit normal of the surface, on its outer side.
-    pub(crate) normal: DVec3,
-    /// The unit normal that it is shaded with, on that side too.
-    pub(crate) shading_normal: DVec3,
-}
-
-impl From<&WorldHit> for Met {
-    fn from(hit: &WorldHit) -> Self {
-        let WorldHit { entity, triangle, t, point, normal, shading_normal, .. } = *hit;
-        Self { entity, facet: triangle, t, point, normal, shading_normal }
-    }
-}
-
-/// How far from where a solid is known to be met its surface is looked for, as a share.
-const NEAR: f64 = 1e-9;
-
-impl Met {
-    /// What a ray of the world is known to meet on a surface of a snapshot.
-    pub(crate) fn on(snapshot: &Snapshot, ray: &Ray, surface: SurfaceId, t: f64) -> Option<Self> {
-        let prim = snapshot.prims().get(surface.prim as usize)?;
-        let own = snapshot.own_ray(ray);
-        // Which side of a part of a solid is the outer one is for the solid to say.
-        let near = Span { min: t - NEAR * t.abs(), max: t + NEAR * t.abs() };
-        let of_solid = prim.member.as_ref().and_then(|member| member.cross(&own, near, None));
-        let crossing = of_solid.or_else(|| prim.shape.crossing(&own, t, surface.facet))?;
-        let entity = *snapshot.entities().get(surface.prim as usize)?;
-        Some(Self {
-            entity,
-            facet: surface.facet,
-            t,
-            point: ray.at(t),
-            normal: crossing.normal,
-            shading_normal: crossing.shading_normal,
-        })
-    }
-
-    /// 1 where a ray of that direction comes from the outer side, else -1.
-    pub(crate) fn side(&self, direction: DVec3) -> f64 {
-        if self.normal.dot(direction) > 0.0 { -1.0 } else { 1.0 }
-    }
-}
-
-/// The shapes of a scene before they are placed, and the ways there out of the world: texture coordinates lie on those.
-pub(crate) struct OwnShapes(HashMap<EntityId, (Shape, Placement)>);
-
-impl OwnShapes {
-    pub(crate) fn of(scene: &Scene) -> Self {
-        let shape = |id| scene.shape(id).or_else(|| Some(scene.light(id)?.lamp()?.shape));
-        let own = |id| Some((id, (shape(id)?, scene.world_placement(id)?.inverse())));
-        Self(scene.entities().filter_map(own).collect())
-    }
-
-    /// The texture coordinates of a point.
-    pub(crate) fn uv(&self, met: &Met) -> Option<DVec2> {
-        let (shape, to_own) = self.0.get(&met.entity)?;
-        Some(shape.parametrization(to_own.point(met.point), met.facet).uv)
-    }
+/// 1 where a ray of that direction comes from the outer side of what it meets, else -1.
+pub(crate) fn side(hit: &WorldHit, direction: DVec3) -> f64 {
+    if hit.normal.dot(direction) > 0.0 { -1.0 } else { 1.0 }
 }
 
 /// A snapshot of one shape.
@@ -150,11 +83,11 @@ impl<'a> Surfaces<'a> {
         y as usize * self.region.size.width as usize + x as usize
     }
 
-    /// What it meets, with the ray.
-    pub(crate) fn met(&self, x: u32, y: u32) -> Option<(Met, Ray)> {
-        let (at, ray) = (self.at(x, y), self.ray(x, y));
+    /// What it meets, by a caster over the same snapshot.
+    pub(crate) fn met(&self, caster: &Caster, x: u32, y: u32) -> Option<WorldHit> {
+        let (at, Ray { origin, direction, .. }) = (self.at(x, y), self.ray(x, y));
         let surface = *self.surface.get(at).filter(|surface| **surface != NOTHING)?;
-        Some((Met::on(self.snapshot, &ray, surface, self.t[at])?, ray))
+        caster.hit_on(&WorldRay::new(origin, direction).ok()?, surface, self.t[at])
     }
 
     /// Which thing that is.

@@ -3,10 +3,11 @@
 
 use catoptra_core::geometry::{Cuboid, Sphere};
 use catoptra_core::glam::{DVec2, DVec3};
+use catoptra_core::light::SphereLight;
 use catoptra_core::material::Matte;
 use catoptra_core::{Edit, EntityId, Node, Placement, Rgb, Scene};
 
-use catoptra_tracer::{Caster, InvalidRay, InvalidRays, Pool, RayColumns, WorldRay};
+use catoptra_tracer::{Caster, InvalidRay, InvalidRays, Pool, RayColumns, SurfaceId, WorldRay};
 
 fn pool() -> Pool {
     Pool::new(1).unwrap()
@@ -36,6 +37,33 @@ fn all_that_is_met_is_told_in_order() {
         assert_eq!((first.entity, first.point), (ball, away + DVec3::Z));
         assert_eq!(Some(first.surface), caster.surface(ball, 0));
     }
+}
+
+#[test]
+fn a_hit_that_is_known_is_told_as_one_that_is_found() {
+    for away in [DVec3::ZERO, DVec3::new(1e9, -3e9, 1e9)] {
+        let (caster, _) = ball_and_box(away);
+        let ray = WorldRay::new(away + DVec3::Z * 4.0, DVec3::NEG_Z).unwrap();
+        for hit in caster.all(&ray) {
+            assert_eq!(caster.hit_on(&ray, hit.surface, hit.t), Some(hit));
+        }
+        assert_eq!(caster.hit_on(&ray, SurfaceId { prim: 2, facet: 0 }, 3.0), None);
+    }
+}
+
+#[test]
+fn texture_coordinates_of_a_lamp_turn_with_it() {
+    let lamp = SphereLight::new(&Sphere::new(DVec3::ZERO, 1.0).unwrap(), Rgb::WHITE).unwrap();
+    let mut scene = Scene::new();
+    let id = scene.add_light("lamp", lamp, None).unwrap();
+    let uv = |scene: &Scene, from: DVec3| {
+        Caster::from_scene(scene).unwrap().nearest(&WorldRay::new(from, -from).unwrap()).unwrap().uv
+    };
+    let before = uv(&scene, DVec3::Z * 3.0);
+    let quarter = Placement::IDENTITY.turned(DVec3::ZERO, DVec3::Y, std::f64::consts::FRAC_PI_2).unwrap();
+    scene.apply(Edit::Placement(id, quarter)).unwrap();
+    assert!((uv(&scene, DVec3::X * 3.0) - before).length() < 1e-9);
+    assert!((uv(&scene, DVec3::Z * 3.0) - before).length() > 0.1);
 }
 
 #[test]

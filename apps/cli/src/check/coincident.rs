@@ -27,7 +27,7 @@ fn find(stage: &Stage<'_>) -> Vec<Finding> {
     let mut pairs: Vec<([EntityId; 2], DVec3)> = twins(stage);
     let same: HashSet<[EntityId; 2]> = pairs.iter().map(|(pair, _)| *pair).collect();
     let mut counts: HashMap<[u32; 2], (usize, DVec3)> = HashMap::new();
-    let bounds: Vec<Option<Aabb>> = stage.snapshot.prims().iter().map(Prim::bounds).collect();
+    let bounds: Vec<Option<Aabb>> = stage.snapshot().prims().iter().map(Prim::bounds).collect();
     for seen in stage.some_seen(RAYS) {
         for other in others_at(stage, seen, &bounds) {
             let pair = [seen.surface.prim.min(other), seen.surface.prim.max(other)];
@@ -59,8 +59,8 @@ fn find(stage: &Stage<'_>) -> Vec<Finding> {
 
 /// Shapes other than the one that is seen whose surface lies at the same place and looks the same way or the opposite one.
 fn others_at(stage: &Stage<'_>, seen: &Sighting, bounds: &[Option<Aabb>]) -> Vec<u32> {
-    let ray = stage.snapshot.own_ray(&seen.ray);
-    let (point, prims) = (ray.at(seen.t), stage.snapshot.prims());
+    let ray = stage.snapshot().own_ray(&seen.ray);
+    let (point, prims) = (ray.at(seen.t), stage.snapshot().prims());
     let slack = DVec3::splat(NEAR * (seen.t * ray.direction.length() + point.abs().max_element()));
     let near = Span { min: seen.t * (1.0 - NEAR), max: seen.t * (1.0 + NEAR) };
     let own = &prims[seen.surface.prim as usize];
@@ -93,14 +93,14 @@ fn is_large(shape: &Shape) -> bool {
 fn twins(stage: &Stage<'_>) -> Vec<([EntityId; 2], DVec3)> {
     let mut there: HashMap<[u64; 6], Vec<usize>> = HashMap::new();
     let mut pairs = Vec::new();
-    let prims = stage.snapshot.prims();
+    let prims = stage.snapshot().prims();
     for (at, prim) in prims.iter().enumerate().filter(|(_, prim)| prim.member.is_none()) {
         let Some(Aabb { min, max }) = prim.bounds() else { continue };
         let key = [min.x, min.y, min.z, max.x, max.y, max.z].map(f64::to_bits);
         let before = there.entry(key).or_default();
         let twin = before.iter().find(|other| prims[**other].shape == prim.shape);
         if let Some((a, b)) = twin.and_then(|twin| stage.entity(*twin as u32).zip(stage.entity(at as u32))) {
-            pairs.push(([a, b], min.midpoint(max) + stage.snapshot.frame()));
+            pairs.push(([a, b], min.midpoint(max) + stage.snapshot().frame()));
         }
         before.push(at);
     }

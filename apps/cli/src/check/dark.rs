@@ -5,11 +5,10 @@ use std::f64::consts::{PI, TAU};
 
 use catoptra_core::glam::DVec3;
 use catoptra_core::{EntityId, FieldKind, Light, Ray, Rgb, Span, Value};
-use catoptra_tracer::{Control, Prim, ProbeOptions, Receiver, irradiance_at};
+use catoptra_tracer::{Control, Prim, ProbeOptions, Receiver, WorldRay, irradiance_at};
 
 use super::stage::{Sighting, Stage};
 use super::{Finding, Lint};
-use crate::surfaces::Met;
 
 pub(super) const LINT: Lint = Lint { name: "dark", find };
 
@@ -52,9 +51,9 @@ fn gives_nothing(light: &Light) -> bool {
 
 /// Whether a light arrives at any of the points; of light without a place or a direction that is so wherever there is a surface.
 fn reaches(stage: &Stage<'_>, id: EntityId, light: &Light) -> bool {
-    let frame = stage.snapshot.frame();
+    let frame = stage.snapshot().frame();
     if light.environment().is_some() || light.ambient() != Rgb::BLACK {
-        return !stage.snapshot.prims().is_empty();
+        return !stage.snapshot().prims().is_empty();
     }
     if stage.cameras.is_empty() && (light.lamp().is_some() || light.position().is_none()) {
         return true;
@@ -72,7 +71,7 @@ fn reaches(stage: &Stage<'_>, id: EntityId, light: &Light) -> bool {
         let way = Ray::new(point - frame, arrival.to_light.into());
         let span = if light.position().is_some() { Span::TO_LIGHT } else { Span::AHEAD };
         is_lit(light, point)
-            && (!light.shadow() || !stage.snapshot.occluded_in_frame(&way, span, Some(seen.surface)))
+            && (!light.shadow() || !stage.snapshot().occluded_in_frame(&way, span, Some(seen.surface)))
     })
 }
 
@@ -83,7 +82,7 @@ fn is_lit(light: &Light, point: DVec3) -> bool {
 
 /// What rays from a place meet first: in directions all round, and towards all that ends somewhere.
 fn first_hits<'a>(stage: &'a Stage<'_>, from: DVec3) -> impl Iterator<Item = DVec3> + 'a {
-    let frame = stage.snapshot.frame();
+    let frame = stage.snapshot().frame();
     let around = (0..AROUND).map(|i| {
         // A spiral of points at equal heights, turned by the golden angle each.
         let height = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(AROUND);
@@ -91,7 +90,7 @@ fn first_hits<'a>(stage: &'a Stage<'_>, from: DVec3) -> impl Iterator<Item = DVe
         let radius = (1.0 - height * height).sqrt();
         DVec3::new(radius * angle.cos(), height, radius * angle.sin())
     });
-    let bounds = stage.snapshot.prims().iter().filter_map(Prim::bounds);
+    let bounds = stage.snapshot().prims().iter().filter_map(Prim::bounds);
     let towards = bounds.flat_map(move |bounds| {
         std::iter::once(bounds.centre())
             .chain(bounds.corners().map(|corner| corner.lerp(bounds.centre(), 0.3)))
@@ -99,7 +98,7 @@ fn first_hits<'a>(stage: &'a Stage<'_>, from: DVec3) -> impl Iterator<Item = DVe
     let towards = towards.map(move |point| point + frame - from).filter(|way| *way != DVec3::ZERO);
     around.chain(towards).filter_map(move |direction| {
         let ray = Ray::new(from, direction);
-        let hit = stage.snapshot.nearest_in_frame(&stage.snapshot.own_ray(&ray), Span::AHEAD, None)?;
+        let hit = stage.snapshot().nearest_in_frame(&stage.snapshot().own_ray(&ray), Span::AHEAD, None)?;
         Some(ray.at(hit.crossing.t))
     })
 }
@@ -108,7 +107,8 @@ fn first_hits<'a>(stage: &'a Stage<'_>, from: DVec3) -> impl Iterator<Item = DVe
 fn lamp_reaches(stage: &Stage<'_>, id: EntityId) -> bool {
     let Some(alone) = stage.lit_by(id) else { return true };
     let sides = |seen: &Sighting| {
-        let met = Met::on(&stage.snapshot, &seen.ray, seen.surface, seen.t);
+        let ray = WorldRay::new(seen.ray.origin, seen.ray.direction).ok();
+        let met = ray.and_then(|ray| stage.caster.hit_on(&ray, seen.surface, seen.t));
         met.into_iter()
             .flat_map(|met| [met.normal, -met.normal].map(|normal| Receiver::new(met.point, normal)))
     };

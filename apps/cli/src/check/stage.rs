@@ -4,7 +4,7 @@ use catoptra_core::material::Matte;
 use catoptra_core::scene::Edit;
 use catoptra_core::{Camera, EntityId, Ray, Rgb, Role, Scene};
 use catoptra_scene::SceneFile;
-use catoptra_tracer::{Backend, Pool, Size, Snapshot, SurfaceId, View, backends};
+use catoptra_tracer::{Backend, Caster, Pool, Size, Snapshot, SurfaceId, View, backends};
 use miette::Result;
 
 use crate::surfaces::Surfaces;
@@ -13,7 +13,7 @@ use crate::surfaces::Surfaces;
 pub(super) struct Stage<'a> {
     pub(super) scene: &'a Scene,
     pub(super) file: &'a SceneFile,
-    pub(super) snapshot: Snapshot,
+    pub(super) caster: Caster,
     pub(super) pool: &'a Pool,
     pub(super) size: Size,
     pub(super) cameras: Vec<Camera>,
@@ -31,21 +31,25 @@ pub(super) struct Sighting {
 
 impl<'a> Stage<'a> {
     pub(super) fn of(scene: &'a Scene, file: &'a SceneFile, size: Size, pool: &'a Pool) -> Result<Self> {
-        let snapshot = Snapshot::extract(scene, pool);
+        let caster = Caster::of_snapshot(Snapshot::extract(scene, pool), scene);
         let cameras: Vec<Camera> = scene.world_cameras().into_iter().map(|camera| camera.part).collect();
         let backend: &dyn Backend = backends()[0];
         let mut seen = Vec::new();
         for camera in &cameras {
             let view = View::new(camera.clone(), size);
-            let surfaces = Surfaces::seen(backend, &snapshot, &view, pool)?;
+            let surfaces = Surfaces::seen(backend, caster.snapshot(), &view, pool)?;
             seen.extend(surfaces.sightings().map(|(ray, surface, t)| Sighting { ray, surface, t }));
         }
-        Ok(Self { scene, file, snapshot, pool, size, cameras, seen })
+        Ok(Self { scene, file, caster, pool, size, cameras, seen })
+    }
+
+    pub(super) fn snapshot(&self) -> &Snapshot {
+        self.caster.snapshot()
     }
 
     /// Which thing a shape of the snapshot is.
     pub(super) fn entity(&self, prim: u32) -> Option<EntityId> {
-        self.snapshot.entities().get(prim as usize).copied()
+        self.snapshot().entities().get(prim as usize).copied()
     }
 
     /// Its name.

@@ -12,19 +12,19 @@ use super::{Finding, Lint};
 pub(super) const LINT: Lint = Lint { name: "unseen", find };
 
 fn find(stage: &Stage<'_>) -> Vec<Finding> {
-    if stage.cameras.is_empty() || stage.snapshot.needs().reflects {
+    if stage.cameras.is_empty() || stage.snapshot().needs().reflects {
         return Vec::new();
     }
     let seen: HashSet<u32> = stage.seen.iter().map(|sighting| sighting.surface.prim).collect();
     let mut found = Vec::new();
-    for (prim, shape) in stage.snapshot.prims().iter().enumerate() {
+    for (prim, shape) in stage.snapshot().prims().iter().enumerate() {
         let is_shape = |id: &_| stage.scene.role(*id) == Some(Role::Shape);
         let Some(id) = stage.entity(prim as u32).filter(is_shape) else { continue };
         let Some(line) = stage.file.line_of_entity(id).filter(|_| !seen.contains(&(prim as u32))) else {
             continue;
         };
         let moved = |bounds: Aabb| {
-            let frame = stage.snapshot.frame();
+            let frame = stage.snapshot().frame();
             Aabb { min: bounds.min + frame, max: bounds.max + frame }
         };
         let bounds = shape.bounds().map(moved);

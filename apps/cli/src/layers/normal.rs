@@ -6,6 +6,7 @@ use catoptra_scene::image::Channel;
 
 use super::seen::float;
 use super::{Layer, Need, Seen};
+use crate::surfaces::side;
 
 pub(super) const LAYER: Layer = Layer { name: "normal", needs: &[Need::Surfaces], channels };
 
@@ -15,6 +16,7 @@ fn channels<'a>(seen: &'a Seen<'_>) -> Vec<Channel<'a>> {
 }
 
 fn normal(seen: &Seen<'_>, x: u32, y: u32) -> DVec3 {
-    let met = seen.surfaces.as_ref().and_then(|surfaces| surfaces.met(x, y));
-    met.map_or(DVec3::ZERO, |(met, ray)| met.shading_normal * met.side(ray.direction))
+    let Some(surfaces) = &seen.surfaces else { return DVec3::ZERO };
+    let towards = surfaces.ray(x, y).direction;
+    seen.met(x, y).map_or(DVec3::ZERO, |met| met.shading_normal * side(&met, towards))
 }

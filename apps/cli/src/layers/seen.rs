@@ -1,8 +1,10 @@
 //! What layers are made from: the film, and what else is asked of the scene for them.
 
+use std::sync::Arc;
+
 use catoptra_core::Integrator;
 use catoptra_scene::image::{Channel, Numbers, Samples};
-use catoptra_tracer::{Control, Film, Size, Snapshot, View, render};
+use catoptra_tracer::{Caster, Control, Film, Size, Snapshot, View, WorldHit, render};
 use miette::Result;
 use serde_json::{Map, Value, json};
 
@@ -10,14 +12,14 @@ use super::even_light::evenly_lit;
 use super::{Layer, Need, need};
 use crate::job::Job;
 use crate::memory;
-use crate::surfaces::{OwnShapes, Surfaces};
+use crate::surfaces::Surfaces;
 
 /// All that layers are made from.
 pub(crate) struct Seen<'a> {
     pub(super) job: &'a Job,
     pub(super) film: &'a Film,
     pub(super) surfaces: Option<Surfaces<'a>>,
-    pub(super) shapes: OwnShapes,
+    caster: Caster,
     /// The same picture in even light.
     pub(super) even: Option<Film>,
 }
@@ -45,7 +47,13 @@ impl<'a> Seen<'a> {
         } else {
             None
         };
-        Ok(Some(Self { job, film, surfaces, shapes: OwnShapes::of(&job.scene), even }))
+        let caster = Caster::of_snapshot(Arc::clone(&job.snapshot), &job.scene);
+        Ok(Some(Self { job, film, surfaces, caster, even }))
+    }
+
+    /// What the ray through the middle of a pixel meets.
+    pub(super) fn met(&self, x: u32, y: u32) -> Option<WorldHit> {
+        self.surfaces.as_ref()?.met(&self.caster, x, y)
     }
 
     /// What the numbers of the ids stand for: an object of names for each channel.

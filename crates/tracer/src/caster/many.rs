@@ -1,13 +1,13 @@
 //! How are many rays asked about at once?
 
-use catoptra_core::{Crossing, EntityId, Ray, Span};
+use catoptra_core::{EntityId, Ray, Span};
 use rayon::prelude::*;
 
 use super::column::{Column, Coordinates};
 use super::ray::{Leaving, checked_line, checked_span};
 use super::{Caster, InvalidRay, InvalidRays, WorldHit, WorldRay};
 use crate::rays::{HitList, RAYS_PER_BLOCK, RayList};
-use crate::snapshot::{Hit, RaySegment};
+use crate::snapshot::RaySegment;
 use crate::{Backend, Pool, SurfaceId, backends};
 
 /// Rays that a thread prepares and asks about in one go: 256 KiB of them, few enough to stay in its second-level cache.
@@ -209,10 +209,7 @@ impl RayHits<'_> {
     #[must_use]
     pub fn get(&self, at: usize) -> Option<WorldHit> {
         let (surface, t) = self.met(at)?;
-        let ray = self.rays.get(at).ok()?;
-        let on = |segment: &RaySegment<'_>| self.caster.snapshot.crossing_on(segment, surface, t);
-        let crossing = Crossing { t, ..self.caster.follow(&ray, on)? };
-        Some(self.caster.told(&ray, &Hit { surface, crossing }))
+        self.caster.hit_on(&self.rays.get(at).ok()?, surface, t)
     }
 
     fn met(&self, at: usize) -> Option<(SurfaceId, f64)> {

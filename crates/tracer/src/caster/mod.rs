@@ -11,8 +11,9 @@ mod ray;
 mod triangles;
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
-use catoptra_core::{EntityId, Placement, Scene};
+use catoptra_core::{Crossing, EntityId, Placement, Scene};
 
 pub use column::Coordinates;
 pub use error::{CasterError, InvalidRay, InvalidRays};
@@ -44,7 +45,7 @@ use crate::{
 /// ```
 #[derive(Debug)]
 pub struct Caster {
-    snapshot: Snapshot,
+    snapshot: Arc<Snapshot>,
     /// Shapes as they are in their own spaces, which alone know how they were turned.
     own: HashMap<u32, OwnShape>,
 }
@@ -70,7 +71,7 @@ impl Caster {
     /// A system that gives no threads.
     pub fn from_scene(scene: &Scene) -> Result<Self, CasterError> {
         let pool = Pool::shared()?;
-        Ok(Self::of(scene, Snapshot::extract(scene, pool)))
+        Ok(Self::of_snapshot(Snapshot::extract(scene, pool), scene))
     }
 
     /// As [`from_scene`](Self::from_scene), on the threads of `pool`, with progress and a way to stop.
@@ -83,10 +84,14 @@ impl Caster {
         pool: &Pool,
         control: &Control,
     ) -> Result<Self, Cancelled> {
-        Ok(Self::of(scene, Snapshot::extract_unless_cancelled(scene, preset, pool, control)?))
+        Ok(Self::of_snapshot(Snapshot::extract_unless_cancelled(scene, preset, pool, control)?, scene))
     }
 
-    fn of(scene: &Scene, snapshot: Snapshot) -> Self {
+    /// Over a snapshot that pictures are traced of too, and the scene that it was taken of: of another scene, texture
+    /// coordinates are wrong.
+    #[must_use]
+    pub fn of_snapshot(snapshot: impl Into<Arc<Snapshot>>, scene: &Scene) -> Self {
+        let snapshot = snapshot.into();
         let numbered = snapshot.entities().iter().zip(0..);
         let own = numbered.filter_map(|(&id, prim)| Some((prim, OwnShape::of(scene, id)?))).collect();
         Self { snapshot, own }
@@ -119,6 +124,16 @@ impl Caster {
     pub fn nearest(&self, ray: &WorldRay) -> Option<WorldHit> {
         let hit = self.follow(ray, |segment| self.snapshot.nearest_on(segment))?;
         Some(self.told(ray, &hit))
+    }
+
+    /// How the surface looks that a ray is known to meet at `t`, from a picture or a [query](crate::query) of this caster's
+    /// snapshot. `None` where it has no normal there, and where the caster has no such surface.
+    #[must_use]
+    pub fn hit_on(&self, ray: &WorldRay, surface: SurfaceId, t: f64) -> Option<WorldHit> {
+        self.snapshot.prims().get(surface.prim as usize)?;
+        let on = |segment: &RaySegment<'_>| self.snapshot.crossing_on(segment, surface, t);
+        let crossing = Crossing { t, ..self.follow(ray, on)? };
+        Some(self.told(ray, &Hit { surface, crossing }))
     }
 
     /// Whether a ray meets anything.

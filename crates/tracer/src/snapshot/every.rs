@@ -6,6 +6,7 @@ use catoptra_core::{Crossing, Geometry, Span};
 
 use super::search::{comes_first, leaving_facet};
 use super::{Hit, RaySegment, Snapshot, SurfaceId};
+use crate::numeric::NEAR;
 
 /// A hit, and the segment of which it is the first on its surface.
 struct Found<'a> {
@@ -84,18 +85,18 @@ impl Snapshot {
         });
     }
 
-    /// How a hit looks that a search of the same segment has found at `t`; `None` without a normal.
+    /// How a hit looks that is known to lie at `t`; `None` without a normal.
     pub(crate) fn crossing_on(
         &self,
         segment: &RaySegment<'_>,
         surface: SurfaceId,
         t: f64,
     ) -> Option<Crossing> {
-        match self.prims[surface.prim as usize].member {
-            // Only the solid knows on which of its sides a member's surface is.
-            Some(_) => self.cross(surface.prim, segment).map(|hit| hit.crossing),
-            None => self.shape(segment, surface.prim).crossing(segment.ray, t, surface.facet),
-        }
+        // Only the solid knows on which of its sides a member's surface is.
+        let near = Span { min: t - NEAR * t.abs(), max: t + NEAR * t.abs() };
+        let of_solid =
+            self.member(segment, surface.prim).and_then(|part| part.cross(segment.ray, near, None));
+        of_solid.or_else(|| self.shape(segment, surface.prim).crossing(segment.ray, t, surface.facet))
     }
 }
 

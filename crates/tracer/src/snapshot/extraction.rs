@@ -59,9 +59,11 @@ pub(crate) struct OwnShape {
 }
 
 impl OwnShape {
+    /// That of a shape, or of a light that is a surface.
     pub(crate) fn of(scene: &Scene, id: EntityId) -> Option<Self> {
         let to_world = scene.world_placement(id)?;
-        Some(Self { shape: scene.shape(id)?, to_world, to_own: to_world.inverse() })
+        let shape = scene.shape(id).or_else(|| Some(scene.light(id)?.lamp()?.shape))?;
+        Some(Self { shape, to_world, to_own: to_world.inverse() })
     }
 }
 
