@@ -25,6 +25,7 @@
 //! | the light that arrives at points | [`Caster::irradiance_at`], [`tracer::irradiance_at`] |
 //! | scenes as text, models as scenes | [`files::load`], [`files::model`] |
 //! | how far two pictures are apart | [`lab`] |
+//! | colours that differ from place to place | [`texture`], [`Scene::add_texture`] |
 //! | all fields of a shape, a material or a light | [`Part::with`], `catoptra_core::part` |
 //!
 //! The crates behind it stand here under their own names: [`core`] (scenes), [`tracer`] (rays, pictures), [`files`] (features
@@ -52,7 +53,7 @@ pub use catoptra_tracer as tracer;
 
 pub use catoptra_core::{
     Camera, Cancelled, Control, Edit, EntityId, History, InvalidPart, MaterialId, Part, Placement, Rgb,
-    Scene, SceneError, geometry, glam, light, material, texture,
+    Scene, SceneError, TextureId, geometry, glam, light, material, texture,
 };
 pub use catoptra_tracer::{
     Caster, CasterError, Coordinates, Film, InvalidRay, InvalidRays, NoPool, Pool, RayColumns, RayHits,

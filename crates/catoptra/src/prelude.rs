@@ -10,12 +10,16 @@
 //! ```
 
 pub use catoptra_core::geometry::*;
-pub use catoptra_core::glam::DVec3;
+pub use catoptra_core::glam::{DVec2, DVec3};
 pub use catoptra_core::light::*;
 pub use catoptra_core::material::*;
+pub use catoptra_core::texture::{
+    BrickTexture, CheckerTexture, ImageTexture, Level, MarbleTexture, NoiseTexture, Paint, Texture,
+    VertexColorTexture,
+};
 pub use catoptra_core::{
-    Camera, Cancelled, Control, Edit, EntityId, History, Integrator, InvalidPart, MaterialId, MeshSource,
-    Node, Part, Placement, Rgb, Scene, SceneError,
+    Camera, Cancelled, Control, Edit, EntityId, History, ImageSource, Integrator, InvalidPart, MaterialId,
+    MeshSource, Node, Part, Placement, Rgb, Scene, SceneError, TextureId,
 };
 pub use catoptra_tracer::{
     Caster, Film, Irradiance, Pool, ProbeOptions, RayColumns, Receiver, Render, Size, Snapshot, Tone, View,

@@ -6,7 +6,22 @@ use crate::{Finish, Material, Part, Values};
 
 /// Textures, and the finish of materials.
 impl Scene {
-    /// Adds a texture.
+    /// Adds a texture, for materials to be painted with:
+    ///
+    /// ```
+    /// use catoptra_core::{Part, Rgb, Scene, glam::DVec2, material::Plastic, texture::{BrickTexture, Level, NoiseTexture, Paint}};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let mut scene = Scene::new();
+    /// let bricks = BrickTexture::new(Rgb::new(0.45, 0.12, 0.07), Rgb::grey(0.6), DVec2::new(0.24, 0.065))?;
+    /// let bricks = scene.add_texture("bricks", bricks)?;
+    /// let damp = scene.add_texture("damp", NoiseTexture::new(Rgb::grey(0.6), Rgb::grey(0.1), 3.0)?)?;
+    /// let wall = Plastic::new(Rgb::WHITE)?.with("color", Paint::from(bricks))?.with("roughness", Level::from(damp))?;
+    /// let wall = scene.add_material("wall", wall)?;
+    /// assert_eq!(scene.painted_with(bricks), [wall]);
+    /// # Ok(())
+    /// # }
+    /// ```
     ///
     /// # Errors
     /// A name that is empty or that another texture has.

@@ -18,6 +18,18 @@ pub struct BrickTexture {
     transform: Transform,
 }
 
+impl BrickTexture {
+    /// Bricks of a colour and a size (width and height, in texture coordinates), mortar between; [`with`](Part::with) sets its
+    /// `mortar-width`, `row-offset`, `mapping`, `scale`, `offset` and `turn`.
+    ///
+    /// # Errors
+    /// A channel outside 0..=1, a size that is not positive.
+    pub fn new(color: Rgb, mortar: Rgb, size: DVec2) -> Result<Self, InvalidPart> {
+        let colors = Values::new().with("color", Value::Color(color)).with("mortar", Value::Color(mortar));
+        crate::part::make(&colors.with("size", Value::Pair(size)))
+    }
+}
+
 impl Part for BrickTexture {
     const NAME: &'static str = "brick-texture";
     const DOC: &'static str = "Bricks in rows, with mortar between.";

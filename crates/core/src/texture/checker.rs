@@ -14,6 +14,18 @@ pub struct CheckerTexture {
     pub(super) transform: Transform,
 }
 
+impl CheckerTexture {
+    /// Squares of two colours, 1 wide in texture coordinates; [`with`](Part::with) sets its `mapping`, `scale`, `offset` and
+    /// `turn`.
+    ///
+    /// # Errors
+    /// A channel outside 0..=1.
+    pub fn new(color: Rgb, other: Rgb) -> Result<Self, InvalidPart> {
+        let colors = Values::new().with("color", Value::Color(color)).with("other", Value::Color(other));
+        crate::part::make(&colors)
+    }
+}
+
 impl Part for CheckerTexture {
     const NAME: &'static str = "checker-texture";
     const DOC: &'static str = "Two colours in squares.";

@@ -28,6 +28,28 @@ const SPACES: [Option<Encoding>; 3] = [None, Some(Encoding::Srgb), Some(Encoding
 const SPACE_WORDS: &[&str] = &["auto", "srgb", "linear"];
 
 impl ImageTexture {
+    /// A picture over texture coordinates 0 to 1, repeated beyond; [`with`](Part::with) sets its `wrap`, `wrap-v`, `filter`,
+    /// `color-space`, `mapping`, `scale`, `offset` and `turn`. Builds the picture's smaller copies, if that has not been done
+    /// yet.
+    ///
+    /// ```
+    /// use std::sync::Arc;
+    ///
+    /// use catoptra_core::{ImageSource, texture::{Image, ImageTexture}};
+    ///
+    /// let image = Image::from_bytes([2, 1], 3, vec![255, 0, 0, 0, 0, 255])?;
+    /// // The path is what scene text names when the scene is saved; the crate `catoptra_scene` reads files.
+    /// let texture = ImageTexture::new(ImageSource { path: "two.png".to_owned(), image: Arc::new(image) })?;
+    /// assert_eq!(texture.source().image.width(), 2);
+    /// # Ok::<(), catoptra_core::InvalidPart>(())
+    /// ```
+    ///
+    /// # Errors
+    /// None as long as every picture can be a texture: what is no picture, [`Image`](super::Image) has refused.
+    pub fn new(source: ImageSource) -> Result<Self, InvalidPart> {
+        crate::part::make(&Values::new().with("file", Value::Image(source)))
+    }
+
     /// The picture and the file it came from.
     #[must_use]
     pub fn source(&self) -> &ImageSource {

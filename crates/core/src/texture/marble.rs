@@ -22,6 +22,18 @@ pub struct MarbleTexture {
     transform: Transform,
 }
 
+impl MarbleTexture {
+    /// Stone of one colour with veins of another, so many in a metre along x; [`with`](Part::with) sets its `turbulence`,
+    /// `mapping`, `scale`, `offset` and `turn`.
+    ///
+    /// # Errors
+    /// A channel outside 0..=1, a frequency that is not positive.
+    pub fn new(color: Rgb, other: Rgb, frequency: f64) -> Result<Self, InvalidPart> {
+        let colors = Values::new().with("color", Value::Color(color)).with("other", Value::Color(other));
+        crate::part::make(&colors.with("frequency", Value::Number(frequency)))
+    }
+}
+
 impl Part for MarbleTexture {
     const NAME: &'static str = "marble-texture";
     const DOC: &'static str = "Veins across x, bent by turbulence.";

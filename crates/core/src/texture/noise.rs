@@ -20,6 +20,18 @@ pub struct NoiseTexture {
     transform: Transform,
 }
 
+impl NoiseTexture {
+    /// Clouds of one colour in another, the largest so many in a metre; [`with`](Part::with) sets its `octaves`, `mapping`,
+    /// `scale`, `offset` and `turn`.
+    ///
+    /// # Errors
+    /// A channel outside 0..=1, a frequency that is not positive.
+    pub fn new(color: Rgb, other: Rgb, frequency: f64) -> Result<Self, InvalidPart> {
+        let colors = Values::new().with("color", Value::Color(color)).with("other", Value::Color(other));
+        crate::part::make(&colors.with("frequency", Value::Number(frequency)))
+    }
+}
+
 impl Part for NoiseTexture {
     const NAME: &'static str = "noise-texture";
     const DOC: &'static str = "Clouds: octaves of gradient noise between two colours.";

@@ -58,6 +58,19 @@ impl From<Rgb> for Paint {
     }
 }
 
+/// The texture as it is: white times it.
+impl From<TextureId> for Paint {
+    fn from(texture: TextureId) -> Self {
+        Self::new(Rgb::WHITE, Some(TextureUse::of(texture)))
+    }
+}
+
+impl From<Paint> for Value {
+    fn from(paint: Paint) -> Self {
+        paint.value()
+    }
+}
+
 impl Paint {
     /// A colour, times a texture.
     #[must_use]
@@ -134,6 +147,19 @@ pub struct Level {
 impl From<f64> for Level {
     fn from(base: f64) -> Self {
         Self::new(base, None)
+    }
+}
+
+/// The first number of a texture as it is.
+impl From<TextureId> for Level {
+    fn from(texture: TextureId) -> Self {
+        Self::new(1.0, Some(TextureUse::of(texture)))
+    }
+}
+
+impl From<Level> for Value {
+    fn from(level: Level) -> Self {
+        level.value()
     }
 }
 
