@@ -3,9 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Ray, Scene};
+use catoptra_core::{EntityId, Ray, Scene};
 use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
-use catoptra_tracer::{Backend, Caster, Control, InvalidRay, Pool, Preset, Snapshot, WorldHit, WorldRay};
+use catoptra_tracer::{
+    Backend, Caster, Control, InvalidRay, InvalidRays, Pool, Preset, RayColumns, Snapshot, WorldHit, WorldRay,
+};
 use clap::Args;
 use miette::{IntoDiagnostic, Result, miette};
 
@@ -17,6 +19,7 @@ use crate::names::find_backend;
 use crate::numbers::in_full;
 use crate::pool::new_pool;
 use crate::rows::{Form, Rows};
+use crate::suggest::unknown;
 
 #[derive(Args)]
 pub(crate) struct CastArgs {
@@ -31,8 +34,11 @@ pub(crate) struct CastArgs {
     /// All that a ray meets, in order: lines that begin with the number of the ray, counted from 1
     #[arg(long)]
     all: bool,
+    /// Leave out a thing of the scene, as if all rays started on it
+    #[arg(long, value_name = "NAME")]
+    without: Option<String>,
     /// Backend to trace with: wide (fast), scalar or oracle (exhaustive)
-    #[arg(long, value_name = "NAME", default_value = "wide", conflicts_with = "all")]
+    #[arg(long, value_name = "NAME", default_value = "wide", conflicts_with_all = ["all", "without"])]
     backend: String,
     /// Threads to trace with [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -78,13 +84,25 @@ pub(crate) fn run(args: &CastArgs) -> Result<Outcome> {
     let Loaded { scene, .. } = Loaded::read(&args.scene)?;
     let caster =
         Caster::from_scene_with(&scene, Preset::default(), &pool, &Control::default()).into_diagnostic()?;
-    let caster = Answers { backend, scene: &scene, caster: &caster, pool: &pool };
+    let without = args.without.as_deref().map(|name| find_thing(&scene, &caster, name)).transpose()?;
+    let caster = Answers { backend, scene: &scene, caster: &caster, without, pool: &pool };
     print_answer(&match (args.any, args.all) {
-        (true, _) => rays.answered(caster.any(&rays)),
+        (true, _) => rays.answered(caster.any(&rays)?),
         (false, true) => rays.answered(caster.all(&rays)?),
-        (false, false) => rays.answered(caster.nearest(&rays)),
+        (false, false) => rays.answered(caster.nearest(&rays)?),
     })?;
     Ok(Outcome::Done)
+}
+
+/// What rays can meet that has such a name.
+fn find_thing(scene: &Scene, caster: &Caster, name: &str) -> Result<EntityId> {
+    let things = caster.snapshot().entities();
+    if let Some(id) = scene.entity_named(name).filter(|id| things.contains(id)) {
+        return Ok(id);
+    }
+    let names: Vec<String> = things.iter().filter_map(|id| scene.name(*id)).collect();
+    let known: Vec<&str> = names.iter().map(String::as_str).collect();
+    Err(unknown("thing that rays can meet", name, &known))
 }
 
 /// Who answers.
@@ -92,6 +110,8 @@ struct Answers<'a> {
     backend: &'static dyn Backend,
     scene: &'a Scene,
     caster: &'a Caster,
+    /// What no ray meets.
+    without: Option<EntityId>,
     pool: &'a Pool,
 }
 
@@ -104,23 +124,36 @@ impl Answers<'_> {
     }
 
     /// What each ray meets first.
-    fn nearest(&self, rays: &Rows<Stretch>) -> Vec<String> {
+    fn nearest(&self, rays: &Rows<Stretch>) -> Result<Vec<String>> {
+        if let Some(entity) = self.without {
+            let columns = Columns::leaving(entity, rays);
+            let rays = columns.rays().into_diagnostic()?;
+            let hits = self.caster.nearest_many(&rays, self.pool).into_diagnostic()?;
+            return Ok(hits.iter().map(|met| self.words_or_miss(met.as_ref())).collect());
+        }
         let (list, mut hits) = (list(rays), HitList::default());
         find_nearest(self.backend, self.snapshot(), &list, &mut hits, self.pool);
         let line = |(at, (ray, _)): (usize, &Stretch)| {
             let met = hits.get(at).and_then(|(surface, t)| {
                 self.caster.hit_on(&WorldRay::new(ray.origin, ray.direction).ok()?, surface, t)
             });
-            met.map_or_else(|| MISS.to_owned(), |met| self.words(&met))
+            self.words_or_miss(met.as_ref())
         };
-        rays.iter().enumerate().map(line).collect()
+        Ok(rays.iter().enumerate().map(line).collect())
     }
 
     /// Whether each ray meets anything.
-    fn any(&self, rays: &Rows<Stretch>) -> Vec<String> {
-        let (list, mut met) = (list(rays), Vec::new());
-        find_occluded(self.backend, self.snapshot(), &list, &mut met, self.pool);
-        met.iter().take(list.len()).map(|met| u8::from(*met).to_string()).collect()
+    fn any(&self, rays: &Rows<Stretch>) -> Result<Vec<String>> {
+        let met = if let Some(entity) = self.without {
+            let columns = Columns::leaving(entity, rays);
+            self.caster.any_many(&columns.rays().into_diagnostic()?, self.pool).into_diagnostic()?
+        } else {
+            let (list, mut met) = (list(rays), Vec::new());
+            find_occluded(self.backend, self.snapshot(), &list, &mut met, self.pool);
+            met.truncate(list.len());
+            met
+        };
+        Ok(met.iter().map(|met| u8::from(*met).to_string()).collect())
     }
 
     /// All that each ray meets.
@@ -128,11 +161,16 @@ impl Answers<'_> {
         let lines = |(at, (ray, ends)): (usize, &Stretch)| {
             let number = at + 1;
             let ray = WorldRay::new(ray.origin, ray.direction)?.within(*ends)?;
+            let ray = self.without.map_or(ray, |entity| ray.leaving_entity(entity));
             let lines: Vec<String> =
                 self.caster.all(&ray).iter().map(|hit| format!("{number} {}", self.words(hit))).collect();
             Ok(if lines.is_empty() { format!("{number} {MISS}") } else { lines.join("\n") })
         };
         rays.iter().enumerate().map(lines).collect::<Result<_, InvalidRay>>().into_diagnostic()
+    }
+
+    fn words_or_miss(&self, met: Option<&WorldHit>) -> String {
+        met.map_or_else(|| MISS.to_owned(), |met| self.words(met))
     }
 
     /// `t entity triangle px py pz nx ny nz`.
@@ -141,6 +179,29 @@ impl Answers<'_> {
         let numbers = [met.point, met.normal].map(|vector| vector.to_array());
         let numbers: Vec<String> = numbers.as_flattened().iter().map(|v| in_full(*v)).collect();
         format!("{} {} {} {}", in_full(met.t), one_word(&name), met.triangle, numbers.join(" "))
+    }
+}
+
+/// Rays side by side, all of which leave one thing.
+struct Columns {
+    origins: Vec<DVec3>,
+    directions: Vec<DVec3>,
+    ends: Vec<[f64; 2]>,
+    left: Vec<Option<EntityId>>,
+}
+
+impl Columns {
+    fn leaving(entity: EntityId, rays: &Rows<Stretch>) -> Self {
+        Self {
+            origins: rays.iter().map(|(ray, _)| ray.origin).collect(),
+            directions: rays.iter().map(|(ray, _)| ray.direction).collect(),
+            ends: rays.iter().map(|(_, ends)| *ends).collect(),
+            left: rays.iter().map(|_| Some(entity)).collect(),
+        }
+    }
+
+    fn rays(&self) -> Result<RayColumns<'_>, InvalidRays> {
+        RayColumns::new(&self.origins, &self.directions)?.within(&self.ends)?.leaving_entities(&self.left)
     }
 }
 

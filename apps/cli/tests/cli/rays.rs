@@ -66,6 +66,30 @@ fn rays_are_answered_line_by_line() {
 }
 
 #[test]
+fn one_thing_can_be_left_out() {
+    let folder = folder();
+    fs::write(folder.path().join("rays"), RAYS).unwrap();
+    let cast = |more: &[&str]| {
+        let ran = catoptra(folder.path(), &[&["cast", "scene.kdl", "rays"], more].concat());
+        assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{more:?}");
+        ran.out
+    };
+    assert_eq!(
+        cast(&["--without", "ball"]),
+        "# down\n9 floor 0 0 0 0 0 1 0\n\n4.5 floor 0 3 0 0 0 1 0\nmiss\nmiss\n"
+    );
+    assert_eq!(cast(&["--any", "--without", "floor"]), "# down\n1\n\n0\n0\n0\n");
+    let all = "# down\n1 7 ball 0 0 2 0 0 1 0\n1 9 ball 0 0 0 0 0 -1 0\n\n2 miss\n3 miss\n4 miss\n";
+    assert_eq!(cast(&["--all", "--without", "floor"]), all);
+    let refused = |more: &[&str], words: &[&str]| {
+        assert_refused(folder.path(), &[&["cast", "scene.kdl", "rays", "--without"], more].concat(), words);
+    };
+    refused(&["bal"], &["no thing that rays can meet is named `bal`", "did you mean `ball`?"]);
+    refused(&["front"], &["is named `front`"]);
+    refused(&["ball", "--backend", "scalar"], &["cannot be used with"]);
+}
+
+#[test]
 fn meshes_tell_their_triangles() {
     let folder = folder();
     let corners = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 4 4 0\n";
