@@ -12,7 +12,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let picture = |samples: u32| -> Result<Picture, Box<dyn std::error::Error>> {
         let film = Render::new(&scene).size(160, 120).samples(samples).run()?;
-        Ok(Picture::new(160, 120, film.radiances())?)
+        Ok(Picture::try_from(&film)?)
     };
     let (fine, coarse) = (picture(64)?, picture(1)?);
     for metric in METRICS {

@@ -21,10 +21,10 @@
 //! | a picture in one line, with progress and a way to stop | [`Render`], [`Control`] |
 //! | a picture as a file | [`SaveFilm`] |
 //! | pictures again and again while a scene changes | [`tracer::Snapshot`], [`tracer::render`], [`History`] |
-//! | what rays meet | [`Caster`] |
+//! | what rays meet: triangles, a mesh file, a scene | [`Caster`], [`files::model::read_mesh`] |
 //! | the light that arrives at points | [`Caster::irradiance_at`], [`tracer::irradiance_at`] |
 //! | scenes as text, models as scenes | [`files::load`], [`files::model`] |
-//! | how far two pictures are apart | [`lab`] |
+//! | how far two pictures are apart | [`lab`]; [`Picture::try_from`](lab::Picture) a [`Film`] |
 //! | colours that differ from place to place | [`texture`], [`Scene::add_texture`] |
 //! | all fields of a shape, a material or a light | [`Part::with`], `catoptra_core::part` |
 //!

@@ -49,9 +49,9 @@ pub trait SaveFilm {
     /// As of [`save_png`](Self::save_png).
     fn save_png_with(&self, path: impl AsRef<Path>, tone: Tone) -> Result<(), SaveFilmError>;
 
-    /// Writes the light itself as an OpenEXR: linear red, green and blue of 32-bit floating point, bit for bit. The file appears
-    /// whole or not at all, and takes the place of one that is there. For other channels, such as depths, there is
-    /// [`ChannelPicture`](catoptra_scene::image::ChannelPicture).
+    /// Writes the light itself as an OpenEXR: linear red, green and blue of 32-bit floating point, bit for bit. The
+    /// file appears whole or not at all, and takes the place of one that is there. For other channels, such as depths,
+    /// there is [`ChannelPicture`](catoptra_scene::image::ChannelPicture).
     ///
     /// # Errors
     /// As of [`save_png`](Self::save_png).

@@ -1,10 +1,21 @@
 //! What is compared: one picture of finite RGB values, and two pictures of one size.
 
+use catoptra_tracer::Film;
 use thiserror::Error;
 
 /// RGB values of a picture: row-major from the top left, `width` x `height`, all finite.
 ///
-/// Whether the values are linear or encoded is the caller's choice; a metric that needs linear ones says so.
+/// Whether the values are linear or encoded is the caller's choice; a metric that needs linear ones says so. Of a film
+/// it is the linear light:
+///
+/// ```
+/// use catoptra_lab::Picture;
+/// use catoptra_tracer::{Film, Size};
+///
+/// let picture = Picture::try_from(&Film::new(Size::new(4, 3)))?;
+/// assert_eq!((picture.width(), picture.pixels()[11]), (4, [0.0; 3]));
+/// # Ok::<(), catoptra_lab::PictureError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     width: u32,
@@ -44,6 +55,16 @@ pub enum PictureError {
         /// Width and height of the other picture.
         test: (u32, u32),
     },
+}
+
+impl TryFrom<&Film> for Picture {
+    type Error = PictureError;
+
+    /// # Errors
+    /// [`PictureError::Length`] for a film without pixels.
+    fn try_from(film: &Film) -> Result<Self, PictureError> {
+        Self::new(film.size().width, film.size().height, film.radiances())
+    }
 }
 
 impl Picture {

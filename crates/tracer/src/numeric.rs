@@ -31,8 +31,8 @@ pub(crate) const AT_ONCE: f64 = 1.0 / 3.0;
 /// error was overrated.
 pub(crate) const MOST_GROWTH: u32 = 16;
 
-/// How far from where a part of a solid is known to be met it is looked for, as a share of the way: far less than two surfaces lie
-/// apart, and 10⁶ times what the way was rounded by.
+/// How far from where a part of a solid is known to be met it is looked for, as a share of the way: far less than two
+/// surfaces lie apart, and 10⁶ times what the way was rounded by.
 pub(crate) const NEAR: f64 = 1e-9;
 
 /// Whether results in `f32` carry error bounds, as they do in every ordinary build. Only a build that measures the cost

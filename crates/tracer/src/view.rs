@@ -123,7 +123,8 @@ pub struct View {
     pub clamp: f32,
     /// How pixels are shown that outlines cross.
     pub edges: Edges,
-    /// Which [standard errors](crate::Film::standard_error) the film is to tell; the picture's bits do not depend on it.
+    /// Which [standard errors](crate::Film::standard_error) the film is to tell; the picture's bits do not depend on
+    /// it.
     pub moments: Moments,
     /// Which work that cannot matter is left out; the picture's bits do not depend on it.
     pub skip: Skip,

@@ -5,7 +5,7 @@ use catoptra_core::geometry::{Cuboid, Sphere};
 use catoptra_core::glam::{DVec2, DVec3};
 use catoptra_core::light::SphereLight;
 use catoptra_core::material::Matte;
-use catoptra_core::{Edit, EntityId, Node, Placement, Rgb, Scene};
+use catoptra_core::{Edit, EntityId, Node, Placement, Rgb, Scene, TriangleMesh};
 
 use catoptra_tracer::{Caster, InvalidRay, InvalidRays, Pool, RayColumns, SurfaceId, WorldRay};
 
@@ -64,6 +64,17 @@ fn texture_coordinates_of_a_lamp_turn_with_it() {
     scene.apply(Edit::Placement(id, quarter)).unwrap();
     assert!((uv(&scene, DVec3::X * 3.0) - before).length() < 1e-9);
     assert!((uv(&scene, DVec3::Z * 3.0) - before).length() > 0.1);
+}
+
+#[test]
+fn a_mesh_stands_where_its_offset_says() {
+    let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let away = DVec3::new(0.1, 1e7, -3.0);
+    let mesh = TriangleMesh::new(corners, vec![[0, 1, 2]], None, None).unwrap().with_offset(away);
+    let caster = Caster::from_mesh(mesh).unwrap();
+    let ray = WorldRay::new(away + DVec3::new(0.25, 0.25, 2.0), DVec3::NEG_Z).unwrap();
+    assert_eq!(caster.nearest(&ray).map(|hit| hit.t), Some(2.0));
+    assert!(!caster.any(&WorldRay::new(DVec3::new(0.25, 0.25, 2.0), DVec3::NEG_Z).unwrap()));
 }
 
 #[test]

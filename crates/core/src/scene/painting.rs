@@ -9,7 +9,8 @@ impl Scene {
     /// Adds a texture, for materials to be painted with:
     ///
     /// ```
-    /// use catoptra_core::{Part, Rgb, Scene, glam::DVec2, material::Plastic, texture::{BrickTexture, Level, NoiseTexture, Paint}};
+    /// use catoptra_core::texture::{BrickTexture, Level, NoiseTexture, Paint};
+    /// use catoptra_core::{Part, Rgb, Scene, glam::DVec2, material::Plastic};
     ///
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
     /// let mut scene = Scene::new();

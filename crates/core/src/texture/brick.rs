@@ -19,8 +19,8 @@ pub struct BrickTexture {
 }
 
 impl BrickTexture {
-    /// Bricks of a colour and a size (width and height, in texture coordinates), mortar between; [`with`](Part::with) sets its
-    /// `mortar-width`, `row-offset`, `mapping`, `scale`, `offset` and `turn`.
+    /// Bricks of a colour and a size (width and height, in texture coordinates), mortar between; [`with`](Part::with)
+    /// sets its `mortar-width`, `row-offset`, `mapping`, `scale`, `offset` and `turn`.
     ///
     /// # Errors
     /// A channel outside 0..=1, a size that is not positive.

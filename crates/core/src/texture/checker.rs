@@ -15,8 +15,8 @@ pub struct CheckerTexture {
 }
 
 impl CheckerTexture {
-    /// Squares of two colours, 1 wide in texture coordinates; [`with`](Part::with) sets its `mapping`, `scale`, `offset` and
-    /// `turn`.
+    /// Squares of two colours, 1 wide in texture coordinates; [`with`](Part::with) sets its `mapping`, `scale`,
+    /// `offset` and `turn`.
     ///
     /// # Errors
     /// A channel outside 0..=1.

@@ -28,9 +28,9 @@ const SPACES: [Option<Encoding>; 3] = [None, Some(Encoding::Srgb), Some(Encoding
 const SPACE_WORDS: &[&str] = &["auto", "srgb", "linear"];
 
 impl ImageTexture {
-    /// A picture over texture coordinates 0 to 1, repeated beyond; [`with`](Part::with) sets its `wrap`, `wrap-v`, `filter`,
-    /// `color-space`, `mapping`, `scale`, `offset` and `turn`. Builds the picture's smaller copies, if that has not been done
-    /// yet.
+    /// A picture over texture coordinates 0 to 1, repeated beyond; [`with`](Part::with) sets its `wrap`, `wrap-v`,
+    /// `filter`, `color-space`, `mapping`, `scale`, `offset` and `turn`. Builds the picture's smaller copies, if that
+    /// has not been done yet.
     ///
     /// ```
     /// use std::sync::Arc;

@@ -23,8 +23,8 @@ pub struct MarbleTexture {
 }
 
 impl MarbleTexture {
-    /// Stone of one colour with veins of another, so many in a metre along x; [`with`](Part::with) sets its `turbulence`,
-    /// `mapping`, `scale`, `offset` and `turn`.
+    /// Stone of one colour with veins of another, so many in a metre along x; [`with`](Part::with) sets its
+    /// `turbulence`, `mapping`, `scale`, `offset` and `turn`.
     ///
     /// # Errors
     /// A channel outside 0..=1, a frequency that is not positive.

@@ -1,8 +1,9 @@
 //! Which textures there are, and what a texture must answer.
 //!
-//! A texture is a colour that differs from point to point: a picture or a pattern. Materials name textures where a colour or
-//! a fraction is [painted](Paint), as at [`Scene::add_texture`](crate::Scene::add_texture); before their lobes are asked they are [resolved](crate::Surface::resolved) at a point. A
-//! new texture is one file here, its `mod` line and its name in the list below.
+//! A texture is a colour that differs from point to point: a picture or a pattern. Materials name textures where a
+//! colour or a fraction is [painted](Paint), as at [`Scene::add_texture`](crate::Scene::add_texture); before their
+//! lobes are asked they are [resolved](crate::Surface::resolved) at a point. A new texture is one file here, its `mod`
+//! line and its name in the list below.
 
 mod brick;
 mod checker;

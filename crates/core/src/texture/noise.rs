@@ -21,8 +21,8 @@ pub struct NoiseTexture {
 }
 
 impl NoiseTexture {
-    /// Clouds of one colour in another, the largest so many in a metre; [`with`](Part::with) sets its `octaves`, `mapping`,
-    /// `scale`, `offset` and `turn`.
+    /// Clouds of one colour in another, the largest so many in a metre; [`with`](Part::with) sets its `octaves`,
+    /// `mapping`, `scale`, `offset` and `turn`.
     ///
     /// # Errors
     /// A channel outside 0..=1, a frequency that is not positive.

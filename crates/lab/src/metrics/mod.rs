@@ -39,7 +39,12 @@ impl Default for Viewing {
     }
 }
 
-/// Every metric.
+/// Every metric:
+///
+/// ```
+/// let names: Vec<&str> = catoptra_lab::METRICS.iter().map(|metric| metric.name).collect();
+/// assert_eq!(names, ["mse", "rmse", "relmse", "max-difference", "max-ulps", "differing", "flip"]);
+/// ```
 pub static METRICS: &[Metric] = &[
     mse::METRIC,
     rmse::METRIC,

@@ -20,6 +20,13 @@ use crate::{atomic, bare, foreign, model};
 /// path, so that it is not saved over the model. Meshes and profiles are looked for relative to its folder; for what lies in none, such as a pipe or
 /// `/dev/stdin`, relative to the current one.
 ///
+/// ```no_run
+/// let (scene, file) = catoptra_scene::load("scene.kdl".as_ref())?;
+/// println!("{} things", scene.entities().len());
+/// # let _ = file; // It keeps the text, for whoever saves the scene again.
+/// # Ok::<(), catoptra_scene::SceneTextError>(())
+/// ```
+///
 /// # Errors
 /// A file that cannot be read or is no valid scene, with all that is wrong in it.
 pub fn load(path: &Path) -> Result<(Scene, SceneFile), SceneTextError> {

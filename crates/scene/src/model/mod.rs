@@ -129,7 +129,8 @@ pub(crate) fn read_mesh_and_more(
 
 /// Reads all triangles of a model as one mesh: shapes where the file places them, without lights and materials.
 ///
-/// Positions are kept as `f32` round an offset in `f64`. Takes memory of about twice the file's size while reading.
+/// Positions are kept as `f32` round an [offset](TriangleMesh::offset) in `f64`, with which
+/// `catoptra_tracer::Caster::from_mesh` takes them. Takes memory of about twice the file's size while reading.
 ///
 /// # Errors
 /// As for [`read`], and a model without triangles.

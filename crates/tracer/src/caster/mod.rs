@@ -13,7 +13,7 @@ mod triangles;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use catoptra_core::{Crossing, EntityId, Placement, Scene};
+use catoptra_core::{Crossing, EntityId, Placement, Scene, TriangleMesh};
 
 pub use column::Coordinates;
 pub use error::{CasterError, InvalidRay, InvalidRays};
@@ -61,7 +61,16 @@ impl Caster {
         positions: &[[C; 3]],
         triangles: &[[u32; 3]],
     ) -> Result<Self, CasterError> {
-        Self::from_scene(&triangles::scene(positions, triangles)?)
+        Self::from_mesh(triangles::mesh(positions, triangles)?)
+    }
+
+    /// Over a mesh, such as a model file holds (`catoptra_scene::model::read_mesh`), as it lies in its own space with
+    /// its [offset](TriangleMesh::offset). Trees are built on the [shared pool](Pool::shared).
+    ///
+    /// # Errors
+    /// A system that gives no threads.
+    pub fn from_mesh(mesh: impl Into<Arc<TriangleMesh>>) -> Result<Self, CasterError> {
+        Self::from_scene(&triangles::scene(mesh.into())?)
     }
 
     /// Over all shapes of a scene that are not hidden, and over lights that are surfaces. Trees are built on the
@@ -126,8 +135,8 @@ impl Caster {
         Some(self.told(ray, &hit))
     }
 
-    /// How the surface looks that a ray is known to meet at `t`, from a picture or a [query](crate::query) of this caster's
-    /// snapshot. `None` where it has no normal there, and where the caster has no such surface.
+    /// How the surface looks that a ray is known to meet at `t`, from a picture or a [query](crate::query) of this
+    /// caster's snapshot. `None` where it has no normal there, and where the caster has no such surface.
     #[must_use]
     pub fn hit_on(&self, ray: &WorldRay, surface: SurfaceId, t: f64) -> Option<WorldHit> {
         self.snapshot.prims().get(surface.prim as usize)?;

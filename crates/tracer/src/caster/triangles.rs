@@ -10,19 +10,15 @@ use catoptra_core::{Aabb, MeshSource, Rgb, Scene, TriangleMesh};
 use super::CasterError;
 
 /// A scene of one mesh.
-pub(super) fn scene<C: Copy + Into<f64>>(
-    positions: &[[C; 3]],
-    triangles: &[[u32; 3]],
-) -> Result<Scene, CasterError> {
+pub(super) fn scene(mesh: Arc<TriangleMesh>) -> Result<Scene, CasterError> {
     let mut scene = Scene::new();
     let unseen = scene.add_material("unseen", Matte::new(Rgb::BLACK)?)?;
-    let mesh = Arc::new(mesh(positions, triangles)?);
     scene.add_shape("triangles", Mesh::new(MeshSource { path: String::new(), mesh }), unseen, None)?;
     Ok(scene)
 }
 
 /// Corners as they are where `f32` holds them, else round the middle of all.
-fn mesh<C: Copy + Into<f64>>(
+pub(super) fn mesh<C: Copy + Into<f64>>(
     positions: &[[C; 3]],
     triangles: &[[u32; 3]],
 ) -> Result<TriangleMesh, CasterError> {

@@ -1,5 +1,5 @@
-//! How far apart do the samples of a pixel lie? Squared deviations from their mean, of luminances and, where they are asked
-//! for, of each channel.
+//! How far apart do the samples of a pixel lie? Squared deviations from their mean, of luminances and, where they are
+//! asked for, of each channel.
 
 use super::sums::Sum;
 use crate::Moments;

@@ -27,8 +27,8 @@ pub(crate) const BLOCK_PIXELS: usize = (BLOCK * BLOCK) as usize;
 /// Stands for "no surface".
 pub(crate) const NOTHING: u32 = u32::MAX;
 
-/// Bytes of a pixel: light, depth and surface. Standard errors, where a view asks for them, take 8 more, those of channels
-/// another 24, and more samples than one 24.
+/// Bytes of a pixel: light, depth and surface. Standard errors, where a view asks for them, take 8 more, those of
+/// channels another 24, and more samples than one 24.
 const PIXEL_BYTES: u64 = 20;
 
 /// Bytes that a pixel takes beside these where its error is judged: the sum of its samples, their deviations, its goal and
@@ -196,7 +196,8 @@ impl Film {
         tile.standard_error(i)
     }
 
-    /// The standard errors of a pixel's red, green and blue, linear as its [radiance](Self::radiance). Never NaN or infinite.
+    /// The standard errors of a pixel's red, green and blue, linear as its [radiance](Self::radiance). Never NaN or
+    /// infinite.
     ///
     /// They are told as [`standard_error`](Self::standard_error) tells that of the luminance; without
     /// [`render_until`](crate::render_until) the view is to ask for [`Moments::Channels`](crate::Moments::Channels).

@@ -1,10 +1,9 @@
 //! What is kept of a pixel's samples: the sum of their light, how many they are, and how far apart they lie.
 //!
-//! How far apart is kept as the sum of the squared deviations of their luminances (and, where asked for, of each channel) from
-//! their mean, in `f64`. A plain sum of
-//! squares would lose a small spread to rounding, and squares of `f32` light can pass every `f32`. Sums of two sets of
-//! samples make that of both: Chan, Golub and LeVeque, "Updating formulae and a pairwise algorithm for computing sample
-//! variances", 1979.
+//! How far apart is kept as the sum of the squared deviations of their luminances (and, where asked for, of each
+//! channel) from their mean, in `f64`. A plain sum of squares would lose a small spread to rounding, and squares of
+//! `f32` light can pass every `f32`. Sums of two sets of samples make that of both: Chan, Golub and LeVeque, "Updating
+//! formulae and a pairwise algorithm for computing sample variances", 1979.
 
 use catoptra_core::Rgb;
 
@@ -71,8 +70,8 @@ pub(crate) struct Sum {
 }
 
 impl Sum {
-    /// What the squared deviations of the luminances of these samples and others from their common mean are more than those of
-    /// each from their own. Where the means are equal it is 0.
+    /// What the squared deviations of the luminances of these samples and others from their common mean are more than
+    /// those of each from their own. Where the means are equal it is 0.
     #[inline(always)]
     pub(crate) fn spread_to(self, others: Self) -> f64 {
         self.spread_by(others, |[red, green, blue]| Rgb::new(red, green, blue).luminance())
