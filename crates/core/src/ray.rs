@@ -111,6 +111,24 @@ impl Crossing {
         bounded: impl FnOnce() -> [Verdict<Option<Root<Bounded>>>; 2],
         exact: impl FnOnce() -> [Verdict<Option<Root<Dyadic>>>; 2],
     ) -> Ordering {
+        self.located().order(&other.located(), together, bounded, exact)
+    }
+
+    /// Where it is.
+    const fn located(&self) -> Located {
+        Located { t: self.t, error: self.error }
+    }
+}
+
+impl Located {
+    /// As [`Crossing::order`].
+    pub(crate) fn order(
+        &self,
+        other: &Self,
+        together: impl FnOnce() -> bool,
+        bounded: impl FnOnce() -> [Verdict<Option<Root<Bounded>>>; 2],
+        exact: impl FnOnce() -> [Verdict<Option<Root<Dyadic>>>; 2],
+    ) -> Ordering {
         // Comparisons of rounded sums hold for the sums themselves, as rounding keeps order.
         if self.t + self.error < other.t - other.error {
             Ordering::Less

@@ -101,13 +101,18 @@ pub(super) fn meet_triangle<N: Number>(
     if signs.contains(&Ordering::Less) && signs.contains(&Ordering::Greater) {
         return Ok(None);
     }
-    let a = Vector::<N>::of(corners[0]).minus(&Vector::of(ray.origin));
-    let direction = Vector::of(ray.direction);
-    let normal = area(corners);
-    match Root::ratio(&normal.dot(&a), &normal.dot(&direction))? {
+    match meet_plane(corners, ray)? {
         Some(root) => FacetRoot::on(span, root, facet),
         None => Ok(None),
     }
+}
+
+/// Where a ray meets the plane of a triangle, whether within the triangle or not; nowhere where it runs within the plane.
+pub(super) fn meet_plane<N: Number>(corners: &[DVec3; 3], ray: &Ray) -> Verdict<Option<Root<N>>> {
+    let a = Vector::<N>::of(corners[0]).minus(&Vector::of(ray.origin));
+    let direction = Vector::of(ray.direction);
+    let normal = area(corners);
+    Root::ratio(&normal.dot(&a), &normal.dot(&direction))
 }
 
 /// The signs of the three volumes, of the edges bc, ca and ab; where two are opposite, that of the third may be left out.

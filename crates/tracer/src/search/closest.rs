@@ -282,8 +282,10 @@ impl<S: Simd, P: PreciseRays<S>> KernelVisitor for TryShape<'_, '_, '_, S, P> {
 
     #[inline(always)]
     fn visit_mesh(self, instance: &Instance) -> Hits<S> {
-        let Self { search, packet, mut best, .. } = self;
-        search.walk_mesh(&packet, &mut best, instance);
+        let Self { search, packet, mut best, prim } = self;
+        if !search.later.takes(prim) {
+            search.walk_mesh(&packet, &mut best, instance);
+        }
         best
     }
 

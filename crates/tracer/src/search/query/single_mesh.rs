@@ -14,7 +14,7 @@ use crate::kernel::mesh::{
 use crate::lanes::{F, M, U, outlined};
 use crate::search::Searcher;
 use crate::search::mesh::{NONE, ends_of_segments};
-use crate::snapshot::{Instance, RaySegment, Row};
+use crate::snapshot::{Instance, Row, leaving_facet};
 
 /// Rays of a caller, and the only mesh of the scene.
 #[derive(Clone, Copy)]
@@ -284,11 +284,11 @@ impl ExactResolver for ClosestOfQuery<'_> {
     #[inline(never)]
     fn decide(&mut self, lane: usize, facet: u32, held: Option<u32>) -> Option<f64> {
         let (ray, span, leaving) = self.of.query.segment(self.at + lane);
-        let prim = self.of.instance.prim;
-        let cross = |facet: u32| self.snapshot.cross_part(prim, Some(facet), &ray, span, leaving);
-        let hit = cross(facet)?;
-        let segment = RaySegment::new(&ray, span, leaving);
-        let other = held.and_then(cross);
-        other.is_none_or(|other| self.snapshot.precedes(&segment, &hit, &other)).then_some(hit.crossing.t)
+        let (mesh, leaving) = (self.of.mesh, leaving_facet(self.of.instance.prim, leaving));
+        let own = mesh.own_ray(&ray);
+        match held {
+            Some(held) => mesh.met_before([facet, held], &own, span, leaving),
+            None => mesh.locate_piece(facet, &own, span, leaving).map(|(at, _)| at.t),
+        }
     }
 }
