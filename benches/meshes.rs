@@ -20,11 +20,11 @@ fn seen(meshes: &[(&Triangles, u32)], light: Light) -> Scene {
     let mut scene = Scene::new();
     let clay = scene.add_material("clay", Matte::new(Rgb::grey(0.7)).expect("clay")).expect("a name");
     for (kind, ((positions, triangles), times)) in meshes.iter().enumerate() {
-        let mesh = TriangleMesh::new(positions.clone(), triangles.clone()).expect("a mesh");
+        let mesh = TriangleMesh::new(positions.clone(), triangles.clone(), None, None).expect("a mesh");
         let source = MeshSource { path: format!("{kind}.ply"), mesh: mesh.into() };
         for copy in 0..*times {
             let mesh = Mesh::new(source.clone());
-            scene.add_shape(format!("mesh {kind} {copy}"), mesh, clay, None).expect("a name");
+            scene.add_shape(&format!("mesh {kind} {copy}"), mesh, clay, None).expect("a name");
         }
     }
     let camera = Camera::look_at(DVec3::new(1.2, 0.8, 2.6), DVec3::ZERO, DVec3::Y, 0.8).expect("a camera");
@@ -88,7 +88,8 @@ fn corners_and_edges(c: &mut Criterion, pool: &Pool) {
     }
     let caster = Caster::from_triangles(&positions, &triangles).expect("a caster");
     let mut random = Random::new(5);
-    let others: Vec<DVec3> = targets.iter().map(|target| (*target + random.point(0.01)).normalize()).collect();
+    let others: Vec<DVec3> =
+        targets.iter().map(|target| (*target + random.point(0.01)).normalize()).collect();
     let mut group = c.benchmark_group("rays from inside a ball");
     group.throughput(Throughput::Elements(targets.len() as u64));
     group.sample_size(10);

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use glam::{DVec2, DVec3};
 
-use crate::exact::{Bounded, Dyadic, Located, Number, Root, Verdict, decide};
+use crate::exact::{Bounded, Dyadic, Located, Number, Root, Verdict, count_order, decide};
 
 /// The half line `origin + t * direction`, t > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -148,7 +148,11 @@ pub fn order_of_roots(
     bounded: impl FnOnce() -> [Verdict<Option<Root<Bounded>>>; 2],
     exact: impl FnOnce() -> [Verdict<Option<Root<Dyadic>>>; 2],
 ) -> Ordering {
-    decide(|| compare(bounded()), || compare(exact())).unwrap_or(Ordering::Equal)
+    let exact = || {
+        count_order();
+        compare(exact())
+    };
+    decide(|| compare(bounded()), exact).unwrap_or(Ordering::Equal)
 }
 
 /// How two roots compare, if there are two.

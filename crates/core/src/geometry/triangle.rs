@@ -6,7 +6,9 @@ use glam::{DVec2, DVec3};
 
 use super::parametrization::{BARYCENTRIC, in_triangle};
 use super::{FacetRoot, Geometry, Parametrization};
-use crate::exact::{Difference, Dyadic, Located, Number, Root, Vector, Verdict, sign_of_determinant};
+use crate::exact::{
+    Difference, Dyadic, Located, Number, Root, Vector, Verdict, count_tie, sign_of_determinant,
+};
 use crate::numeric::{EDGE_ROUNDING, EDGE_VALUE_ERROR, NORMAL_SINE};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
@@ -167,7 +169,11 @@ pub(super) fn meet_together(first: &[DVec3; 3], second: &[DVec3; 3], ray: &Ray) 
             through(a, b) && through(a, c)
         }
     };
-    at_edge_or_corner || second.iter().all(|p| common_plane(first, *p))
+    let together = at_edge_or_corner || second.iter().all(|p| common_plane(first, *p));
+    if together {
+        count_tie();
+    }
+    together
 }
 
 /// Whether a point lies in the plane of a triangle.

@@ -57,7 +57,9 @@ impl<S: Simd> Searcher<'_, S> {
             self.decide_all(packet, best, packet.live, prim);
         }
         for &prim in &shapes.bounded {
-            self.try_prim(packet, best, prim);
+            if !(columns.instance(prim).is_some() && self.later.takes(prim)) {
+                self.try_prim(packet, best, prim);
+            }
         }
         if !shapes.faces.is_empty() {
             *best = self.try_faces(packet, *best, &shapes.faces);

@@ -71,12 +71,18 @@ impl<S: Simd> Searcher<'_, S> {
         let snapshot = self.snapshot;
         let Some(mesh) = snapshot.mesh_at(instance.prim) else { return true };
         let rays = &mut room[..packets.len()];
-        let lines = |number: usize| {
-            let packet = &packets[number];
-            let live = if which >> number & 1 == 1 { packet.live } else { M::splat(self.s, false) };
-            self.own_lines(packet, instance, live)
-        };
-        let Some(bundle) = RayBundle::of(self.s, rays, lines, self.reach(instance)) else { return false };
+        let bundle = RayBundle::of(
+            self.s,
+            rays,
+            #[inline(always)]
+            |number| {
+                let packet = &packets[number];
+                let live = if which >> number & 1 == 1 { packet.live } else { M::splat(self.s, false) };
+                self.own_lines(packet, instance, live)
+            },
+            self.reach(instance),
+        );
+        let Some(bundle) = bundle else { return false };
         for ((rays, packet), best) in rays.iter_mut().zip(packets).zip(&*best) {
             // From metres to depth.
             let scale = rays.scale * packet.inverse_length;

@@ -30,15 +30,22 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for OwnSegments<'_, S, P> {
         room: &mut [BundledRays<S>],
     ) -> Option<CommonOrigin> {
         let (s, reach) = (search.s, search.reach(instance));
-        let lines = |number: usize, backwards: bool| {
-            let Shadows { segments, open, .. } = &shadows[number];
-            let [start, end] = segments.0.precise.ends(s, segments.0.at);
-            let (start, end) = (instance.own_points(s, start), instance.own_points(s, end));
-            let (origin, other) = if backwards { (end, start) } else { (start, end) };
-            Lines { origin, direction: other - origin, live: *open }
+        let mut bundle_of = |backwards: bool| {
+            RayBundle::of(
+                s,
+                room,
+                #[inline(always)]
+                |number| {
+                    let Shadows { segments, open, .. } = &shadows[number];
+                    let [start, end] = segments.0.precise.ends(s, segments.0.at);
+                    let (start, end) = (instance.own_points(s, start), instance.own_points(s, end));
+                    let (origin, other) = if backwards { (end, start) } else { (start, end) };
+                    Lines { origin, direction: other - origin, live: *open }
+                },
+                reach,
+            )
         };
-        let bundle = RayBundle::of(s, room, |number| lines(number, false), reach)
-            .or_else(|| RayBundle::of(s, room, |number| lines(number, true), reach))?;
+        let bundle = bundle_of(false).or_else(|| bundle_of(true))?;
         for (rays, shadows) in room.iter_mut().zip(shadows) {
             let [begin, end] = ends_of_segments(s, rays.scale, bundle.slack);
             rays.start(s, begin, end, shadows.rays.leaving.facets_of(s, instance.prim));

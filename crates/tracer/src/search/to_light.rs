@@ -4,6 +4,7 @@
 use catoptra_core::geometry::Mesh;
 use catoptra_core::{Arithmetic, Geometry, LaneMask, Ray, Span};
 use fearless_simd::Simd;
+use smallvec::SmallVec;
 
 use super::Searcher;
 use super::occluded::{Segments, ShadowRays, Shadows};
@@ -44,9 +45,9 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
             return None;
         }
         let common = instance.own_points(s, splat_wide(s, light.position));
-        let mut starts = [(common, F::splat(s, 0.0)); GROUP];
-        for (start, Shadows { segments, rays, open }) in starts.iter_mut().zip(shadows) {
-            *start = segments.own_starts(search, rays, *open, instance);
+        let mut starts: SmallVec<[(D3<S>, F<S>); GROUP]> = SmallVec::new();
+        for Shadows { segments, rays, open } in shadows {
+            starts.push(segments.own_starts(search, rays, *open, instance));
         }
         bundle_backwards(search, shadows, &starts, common, instance, room)
     }
@@ -120,11 +121,16 @@ pub(super) fn bundle_backwards<S: Simd, G>(
     room: &mut [BundledRays<S>],
 ) -> Option<CommonOrigin> {
     let (s, zero) = (search.s, F::splat(search.s, 0.0));
-    let lines = |number: usize| {
-        let (start, _) = starts[number];
-        Lines { origin: common, direction: start - common, live: shadows[number].open }
-    };
-    let bundle = RayBundle::of(s, room, lines, search.reach(instance))?;
+    let bundle = RayBundle::of(
+        s,
+        room,
+        #[inline(always)]
+        |number| {
+            let (start, _) = starts[number];
+            Lines { origin: common, direction: start - common, live: shadows[number].open }
+        },
+        search.reach(instance),
+    )?;
     let mut steepest = 0.0_f32;
     for ((rays, (_, off)), shadows) in room.iter_mut().zip(starts).zip(shadows) {
         let error = rays.scale.mul_add(F::splat(s, END_ERROR), *off);

@@ -3,13 +3,14 @@
 use catoptra_core::light::LightVisitor;
 use catoptra_core::{Arithmetic, Arrival, Emitter, Lane, LaneMask};
 use fearless_simd::Simd;
+use smallvec::SmallVec;
 
 use super::Shader;
 use super::chunk::{CHUNK, Chunk};
 use crate::kernel::{Leaving, Rays, Target};
 use crate::lanes::{F, F3, M, magnitude, outlined};
 use crate::numeric::POINT_ERROR;
-use crate::search::{ShadowRays, Shadows, ToLight, drift};
+use crate::search::{Packet, ShadowRays, Shadows, ToLight, drift};
 use crate::snapshot::LightRow;
 use crate::stream::Batch;
 
@@ -107,13 +108,12 @@ impl<S: Simd, B: Batch<S>> AddLight<'_, '_, S, B> {
     fn add_past_meshes<E: Emitter>(&mut self, light: &E, smooth: bool) -> Faced {
         let color = F3::of(F::splat(self.shader.s, 0.0), light.color());
         let mut faced = Faced::default();
-        let count = self.count.min(CHUNK);
-        let mut facing = [face(self.shader.chunk, light, 0, smooth, &mut Faced::default()); CHUNK];
-        for (packet, facing) in facing[..count].iter_mut().enumerate() {
-            *facing = face(self.shader.chunk, light, packet, smooth, &mut faced);
+        let mut facing: SmallVec<[Facing<S>; CHUNK]> = SmallVec::new();
+        for packet in 0..self.count.min(CHUNK) {
+            facing.push(face(self.shader.chunk, light, packet, smooth, &mut faced));
         }
-        let reached = self.shader.reached_past_meshes(self.batch, self.light, &facing[..count]);
-        for (packet, facing) in facing[..count].iter().enumerate() {
+        let reached = self.shader.reached_past_meshes(self.batch, self.light, &facing);
+        for (packet, facing) in facing.iter().enumerate() {
             self.shader.add_reached(packet, facing, reached[packet], color);
         }
         faced
@@ -254,18 +254,25 @@ impl<S: Simd> Shader<'_, S> {
                     .error
                     .mul_add(F::splat(self.s, 1.0 / POINT_ERROR), magnitude(point) + F::splat(self.s, reach)),
             },
-            leaving: Leaving { prim: best.prim, facet: best.facet, any: true },
+            leaving: self.leaving(packet),
             live: facing.lanes,
             target: Target { distance: arrival.distance, end: Some(row.end()) },
             behind: &row.behind,
         }
     }
 
+    /// The surfaces that shadow rays of a packet of the chunk leave.
+    #[inline(always)]
+    fn leaving(&self, packet: usize) -> Leaving<S> {
+        let best = &self.chunk.best[packet];
+        Leaving { prim: best.prim, facet: best.facet, any: true }
+    }
+
     /// Lanes of the first packets of the chunk whose shadow rays to a light nothing blocks. See [`outlined`].
     #[inline(always)]
-    fn reached_past_meshes(
+    fn reached_past_meshes<B: Batch<S>>(
         &mut self,
-        batch: &impl Batch<S>,
+        batch: &B,
         light: usize,
         facing: &[Facing<S>],
     ) -> [M<S>; CHUNK] {
@@ -276,27 +283,24 @@ impl<S: Simd> Shader<'_, S> {
             #[inline(always)]
             || {
                 let row = &self.search.snapshot.light_rows()[light];
-                let mut packets = [batch.packet(self.s, self.chunk.at[first]); CHUNK];
-                let (mut which, mut count) = ([first; CHUNK], 0);
+                let mut packets: SmallVec<[(usize, Packet<'_, S, B::Precise>); CHUNK]> = SmallVec::new();
                 for packet in (first..facing.len()).filter(|&packet| facing[packet].lanes.any()) {
-                    (packets[count], which[count]) = (batch.packet(self.s, self.chunk.at[packet]), packet);
-                    count += 1;
+                    packets.push((packet, batch.packet(self.s, self.chunk.at[packet])));
                 }
-                let rays = which.map(|packet| self.shadow_rays(packet, row, &facing[packet]));
-                let segments: [ToLight<'_, S, _>; CHUNK] = std::array::from_fn(|number| ToLight {
-                    packet: &packets[number],
-                    from: rays[number].leaving,
-                    light: row,
-                });
-                let mut shadows: [Shadows<'_, S, _>; CHUNK] = std::array::from_fn(|number| Shadows {
-                    segments: &segments[number],
-                    rays: rays[number],
-                    open: rays[number].live,
-                });
+                let mut segments: SmallVec<[ToLight<'_, S, B::Precise>; CHUNK]> = SmallVec::new();
+                for (number, packet) in &packets {
+                    segments.push(ToLight { packet, from: self.leaving(*number), light: row });
+                }
+                let mut shadows: SmallVec<[Shadows<'_, S, ToLight<'_, S, B::Precise>>; CHUNK]> =
+                    SmallVec::new();
+                for ((number, _), segments) in packets.iter().zip(&segments) {
+                    let rays = self.shadow_rays(*number, row, &facing[*number]);
+                    shadows.push(Shadows { segments, rays, open: rays.live });
+                }
                 let occluders = &self.plan.occluders[light];
-                self.search.occluded_together(&mut shadows[..count], occluders, self.bundle);
-                for (packet, shadows) in which.iter().zip(&shadows[..count]) {
-                    reached[*packet] = shadows.open;
+                self.search.occluded_together(&mut shadows, occluders, self.bundle);
+                for ((number, _), shadows) in packets.iter().zip(&shadows) {
+                    reached[*number] = shadows.open;
                 }
             },
         );

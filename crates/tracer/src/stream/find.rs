@@ -1,6 +1,7 @@
 //! What do the rays of a batch meet?
 
 use fearless_simd::Simd;
+use smallvec::SmallVec;
 
 use super::Batch;
 use crate::cull::Candidates;
@@ -32,15 +33,16 @@ impl<S: Simd> Searcher<'_, S> {
             return;
         };
         let mut best = [Hits::nothing(self.s); GROUP];
-        while let Some(first) = places.next() {
-            let mut packets = [batch.packet(self.s, first); GROUP];
-            let mut count = 1;
-            for (packet, at) in packets[1..].iter_mut().zip(&mut places) {
-                *packet = batch.packet(self.s, at);
-                count += 1;
+        loop {
+            let mut packets: SmallVec<[Packet<'_, S, B::Precise>; GROUP]> = SmallVec::new();
+            for at in places.by_ref().take(GROUP) {
+                packets.push(batch.packet(self.s, at));
             }
-            self.closest_together(&packets[..count], shapes, &mut best, room);
-            for (packet, best) in packets[..count].iter().zip(&best) {
+            if packets.is_empty() {
+                break;
+            }
+            self.closest_together(&packets, shapes, &mut best, room);
+            for (packet, best) in packets.iter().zip(&best) {
                 show(packet, best);
             }
         }

@@ -151,7 +151,7 @@ impl<S: Simd> Searcher<'_, S> {
             };
             rays.start(self.s, begin, end, of.query.leaving(self.s, at).facets_of(self.s, of.instance.prim));
         }
-        let mut exact = of.resolver(self.snapshot, group.at);
+        let mut exact = of.resolver(group.at);
         let common_origin = if of.any { bundle.common_origin.for_any() } else { bundle.common_origin };
         common_origin.search(self.s, &of.instance.tree.tree, self.visits, rays, &mut exact);
         self.count_visits();
@@ -210,7 +210,7 @@ impl<S: Simd> Searcher<'_, S> {
     fn find_each(&mut self, of: &MeshQuery<'_>, packet: &Group<S>) -> U<S> {
         of.query.rays.prefetch(packet.start(GROUP));
         let leaving = of.query.leaving(self.s, packet.at).facets_of(self.s, of.instance.prim);
-        let mut exact = of.resolver(self.snapshot, packet.at);
+        let mut exact = of.resolver(packet.at);
         let lines = of.query.own_lines(self.s, packet.at, of.instance, packet.live[0]);
         let slots = self.ray_setup(&lines, of.instance).search(
             self.s,
@@ -261,14 +261,13 @@ impl<S: Simd> Searcher<'_, S> {
 
 impl<'a> MeshQuery<'a> {
     /// The exact resolver of a group of packets whose first ray is `at`.
-    fn resolver(&self, snapshot: &'a Snapshot, at: usize) -> ClosestOfQuery<'a> {
-        ClosestOfQuery { snapshot, of: *self, at }
+    fn resolver(&self, at: usize) -> ClosestOfQuery<'a> {
+        ClosestOfQuery { of: *self, at }
     }
 }
 
 /// Exact hits of a caller's rays on a single mesh.
 struct ClosestOfQuery<'a> {
-    snapshot: &'a Snapshot,
     of: MeshQuery<'a>,
     /// The ray of lane 0.
     at: usize,
