@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use glam::{DVec2, DVec3};
 
-use crate::exact::{Bounded, Dyadic, Located, Number, Root, Verdict, decide};
+use crate::exact::{Bounded, Dyadic, Located, Number, Root, Verdict, count_order, decide};
 
 /// The half line `origin + t * direction`, t > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,6 +111,24 @@ impl Crossing {
         bounded: impl FnOnce() -> [Verdict<Option<Root<Bounded>>>; 2],
         exact: impl FnOnce() -> [Verdict<Option<Root<Dyadic>>>; 2],
     ) -> Ordering {
+        self.located().order(&other.located(), together, bounded, exact)
+    }
+
+    /// Where it is.
+    const fn located(&self) -> Located {
+        Located { t: self.t, error: self.error }
+    }
+}
+
+impl Located {
+    /// As [`Crossing::order`].
+    pub(crate) fn order(
+        &self,
+        other: &Self,
+        together: impl FnOnce() -> bool,
+        bounded: impl FnOnce() -> [Verdict<Option<Root<Bounded>>>; 2],
+        exact: impl FnOnce() -> [Verdict<Option<Root<Dyadic>>>; 2],
+    ) -> Ordering {
         // Comparisons of rounded sums hold for the sums themselves, as rounding keeps order.
         if self.t + self.error < other.t - other.error {
             Ordering::Less
@@ -130,7 +148,11 @@ pub fn order_of_roots(
     bounded: impl FnOnce() -> [Verdict<Option<Root<Bounded>>>; 2],
     exact: impl FnOnce() -> [Verdict<Option<Root<Dyadic>>>; 2],
 ) -> Ordering {
-    decide(|| compare(bounded()), || compare(exact())).unwrap_or(Ordering::Equal)
+    let exact = || {
+        count_order();
+        compare(exact())
+    };
+    decide(|| compare(bounded()), exact).unwrap_or(Ordering::Equal)
 }
 
 /// How two roots compare, if there are two.

@@ -81,6 +81,6 @@ pub use render::render;
 pub use snapshot::{
     Changed, Extraction, Hit, Needs, PartDiff, Presence, Prim, ShapeDiff, Snapshot, SnapshotDiff, SurfaceId,
 };
-pub use stats::{EdgePixels, LampStats, Rays, Skipped, Stats, Tests};
+pub use stats::{EdgePixels, ExactKinds, LampStats, Rays, Skipped, Stats, Tests};
 pub use target::{Reached, Scale, Target, render_until};
 pub use view::{Edges, LampLight, Moments, Region, Size, Skip, View};

@@ -1,6 +1,6 @@
 //! Counts of what a render did: rays, tests, skipped work.
 
-use catoptra_core::exact::answered_exactly;
+use catoptra_core::exact;
 use serde::Serialize;
 
 /// Rays traced, by kind.
@@ -88,6 +88,17 @@ pub struct EdgePixels {
     pub pieces: u64,
 }
 
+/// Answers by exact arithmetic, by what was asked.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct ExactKinds {
+    /// On which side of a line an edge passes, or whether points lie in one plane.
+    pub sides: u64,
+    /// Whether and where a ray meets a surface.
+    pub places: u64,
+    /// Which of two surfaces comes first.
+    pub orders: u64,
+}
+
 /// Counts of one render, or of a part of it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Stats {
@@ -105,6 +116,11 @@ pub struct Stats {
     pub settled: u64,
     /// Answers that `f64` could not decide and exact arithmetic did.
     pub exact: u64,
+    /// What was asked there.
+    pub exact_kinds: ExactKinds,
+    /// Triangles that rays were seen to meet at one point, in an edge, a corner or a plane that they share: their order
+    /// had not to be worked out.
+    pub ties: u64,
     /// Radiances that were not finite: what was past every number became the largest, what was no number black.
     pub not_finite: u64,
 }
@@ -126,14 +142,19 @@ add_fields!(Skipped:
     depth_limit, weight_cutoff, below_surface);
 add_fields!(LampStats: facing_away, open, dark, past_a_ball, partly, sampled);
 add_fields!(EdgePixels: parted, quartered, sampled, pieces);
-add_fields!(Stats: rays, tests, lamps, skipped, edges, settled, exact, not_finite);
+add_fields!(ExactKinds: sides, places, orders);
+add_fields!(Stats: rays, tests, lamps, skipped, edges, settled, exact, exact_kinds, ties, not_finite);
 
 impl Stats {
-    /// The counts of some work on this thread, and how many of its questions exact arithmetic has answered.
+    /// The counts of some work on this thread, and how many of its questions exact arithmetic has answered, by kind.
     pub(crate) fn with_exact(work: impl FnOnce() -> Self) -> Self {
-        let before = answered_exactly();
-        let stats = work();
-        Self { exact: stats.exact + answered_exactly() - before, ..stats }
+        let before = exact::answers();
+        let mut stats = work();
+        let exact::Answers { exact, sides, orders, ties } = exact::answers() - before;
+        stats.exact += exact;
+        stats.exact_kinds += ExactKinds { sides, orders, places: exact - sides - orders };
+        stats.ties += ties;
+        stats
     }
 }
 

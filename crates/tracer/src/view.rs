@@ -201,14 +201,17 @@ pub struct Skip {
     pub unreached: bool,
     /// Tiles that show nothing are not written again where they showed nothing before.
     pub blank: bool,
+    /// Trees of meshes are not walked by each packet of rays alone where rays side by side have a common origin.
+    pub walks: bool,
 }
 
 impl Skip {
     /// Everything that can be left out is.
-    pub const ALL: Self = Self { hidden: true, shafts: true, beams: true, unreached: true, blank: true };
+    pub const ALL: Self =
+        Self { hidden: true, shafts: true, beams: true, unreached: true, blank: true, walks: true };
     /// Nothing is left out.
     pub const NOTHING: Self =
-        Self { hidden: false, shafts: false, beams: false, unreached: false, blank: false };
+        Self { hidden: false, shafts: false, beams: false, unreached: false, blank: false, walks: false };
 }
 
 impl View {

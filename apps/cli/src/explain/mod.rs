@@ -7,7 +7,7 @@ mod reasons;
 mod slow;
 
 use catoptra_core::Light;
-use catoptra_tracer::{EdgePixels, Edges, Needs, Stats};
+use catoptra_tracer::{EdgePixels, Edges, ExactKinds, Needs, Stats};
 use miette::Result;
 use serde_json::{Map, Value, json};
 
@@ -229,10 +229,18 @@ impl Found<'_> {
         let rate = |count: u64| {
             format!("{:.1} of a million tests", count as f64 * 1e6 / stats.tests.shapes.max(1) as f64)
         };
+        let ExactKinds { sides, places, orders } = stats.exact_kinds;
         let (settled, exact) = (counted(stats.settled, "answer"), counted(stats.exact, "answer"));
         vec![
             format!("{settled} f32 could not decide, and f64 did: {}", rate(stats.settled)),
             format!("{exact} f64 could not decide, and exact arithmetic did: {}", rate(stats.exact)),
+            format!("  {:>12}  on which side of a ray an edge passes", thousands(sides)),
+            format!("  {:>12}  where a surface is met, if it is", thousands(places)),
+            format!("  {:>12}  which of two surfaces comes first", thousands(orders)),
+            format!(
+                "{} of triangles that rays meet at one point, seen by their corners and planes",
+                counted(stats.ties, "tie")
+            ),
             format!(
                 "{} not finite, put to the largest number or to black",
                 counted(stats.not_finite, "colour")

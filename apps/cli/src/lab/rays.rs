@@ -36,7 +36,7 @@ pub(crate) struct RaysArgs {
 /// Sides of the squares of pixels that rays are written in the order of: those of the inner within those of the outer ones.
 const SQUARES: [u32; 2] = [4, 16];
 
-/// The share of the way to a light at whose ends nothing is searched: `f32` does not tell on which side of its surface a ray begins.
+/// The share of the way to a light at whose begin nothing is searched: `f32` does not tell on which side of its surface a ray begins.
 const SHARE: f64 = 1e-3;
 
 /// Writes the rays.
@@ -98,7 +98,7 @@ fn shadow_rays(scene: &Scene, caster: &Caster, ray: &Ray) -> Result<Vec<Record>>
         scene.world_lights().into_iter().filter(|light| light.part.lamp().is_none() && light.part.shadow());
     let rays = lights.filter_map(|light| {
         let (to_light, end) = match (light.part.position(), light.part.direction()) {
-            (Some(position), _) => (position - hit.point, 1.0 - SHARE),
+            (Some(position), _) => (position - hit.point, 1.0),
             (None, Some(direction)) => (-direction, f64::INFINITY),
             (None, None) => return None,
         };

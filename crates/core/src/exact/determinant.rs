@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use ethnum::I256;
 use glam::DVec3;
 
-use super::{Dyadic, Vector, answer_exactly};
+use super::{Dyadic, Vector, answer_exactly, count_side};
 
 /// A vector: `to − from`, without rounding.
 #[derive(Debug, Clone, Copy)]
@@ -86,6 +86,7 @@ impl Digits {
 #[inline(never)]
 #[must_use]
 pub fn sign_of_determinant(rows: &[Difference; 3]) -> Ordering {
+    count_side();
     answer_exactly(|| match rows.each_ref().map(Difference::whole) {
         [Some(a), Some(b), Some(c)] => sign_of_whole(&a, &b, &c),
         _ => {

@@ -127,14 +127,55 @@ pub trait Number: Clone {
     }
 }
 
-thread_local! {
-    static EXACT: Cell<u64> = const { Cell::new(0) };
+/// Answers that `f64` could not give, counted.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Answers {
+    /// By exact arithmetic, whatever was asked.
+    pub exact: u64,
+    /// Of those, on which side of a line an edge passes, or whether points lie in one plane.
+    pub sides: u64,
+    /// Of those, which of two places on a ray comes first.
+    pub orders: u64,
+    /// Triangles that a ray was seen to meet at one point, so that no order had to be worked out.
+    pub ties: u64,
 }
 
-/// How many questions this thread has answered by exact arithmetic since it started.
+impl std::ops::Sub for Answers {
+    type Output = Self;
+
+    fn sub(self, before: Self) -> Self {
+        Self {
+            exact: self.exact - before.exact,
+            sides: self.sides - before.sides,
+            orders: self.orders - before.orders,
+            ties: self.ties - before.ties,
+        }
+    }
+}
+
+thread_local! {
+    static ANSWERS: Cell<Answers> = const { Cell::new(Answers { exact: 0, sides: 0, orders: 0, ties: 0 }) };
+}
+
+/// What this thread has answered beyond `f64` since it started.
 #[must_use]
-pub fn answered_exactly() -> u64 {
-    EXACT.get()
+pub fn answers() -> Answers {
+    ANSWERS.get()
+}
+
+/// Counts triangles that are seen to be met together.
+pub(crate) fn count_tie() {
+    ANSWERS.set(Answers { ties: ANSWERS.get().ties + 1, ..ANSWERS.get() });
+}
+
+/// Counts a side that was answered exactly, beside the answer itself.
+fn count_side() {
+    ANSWERS.set(Answers { sides: ANSWERS.get().sides + 1, ..ANSWERS.get() });
+}
+
+/// Counts an order of two places that was answered exactly, beside the answer itself.
+pub(crate) fn count_order() {
+    ANSWERS.set(Answers { orders: ANSWERS.get().orders + 1, ..ANSWERS.get() });
 }
 
 /// The answer of numbers that know their error, or where they have none, of exact arithmetic.
@@ -155,6 +196,6 @@ fn exactly<T>(exact: impl FnOnce() -> Verdict<Option<T>>) -> Option<T> {
 
 /// Counts an answer of exact arithmetic.
 fn answer_exactly<T>(answer: impl FnOnce() -> T) -> T {
-    EXACT.set(EXACT.get() + 1);
+    ANSWERS.set(Answers { exact: ANSWERS.get().exact + 1, ..ANSWERS.get() });
     answer()
 }

@@ -7,9 +7,9 @@ use glam::DVec3;
 use super::crossings::Crossings;
 use super::parametrization::{BARYCENTRIC, in_triangle};
 use super::subdivision::MOST_LEVELS;
-use super::triangle::{area, meet_together, meet_triangle, unit_normal, weights};
+use super::triangle::{area, meet_plane, meet_together, meet_triangle, unit_normal, weights};
 use super::{FacetRoot, Geometry, Parametrization};
-use crate::exact::{Located, Number, Vector, Verdict};
+use crate::exact::{Bounded, Located, Number, Vector, Verdict};
 use crate::part::Given;
 use crate::solid::Passage;
 use crate::{
@@ -102,6 +102,34 @@ impl Mesh {
         let corners = |mesh: &Self, of: u32| mesh.triangles.corners(of);
         self.to_object == other.to_object
             && meet_together(&corners(self, triangle), &corners(other, of_other), own)
+    }
+
+    /// The `t` at which a ray in the mesh's own space meets a triangle on `span`, if it does so before another that it is known to
+    /// meet there; of two met at one point the lower comes first. As [`cross_piece`](Geometry::cross_piece) tells, without how the
+    /// triangles look where they are met.
+    #[must_use]
+    pub fn met_before(
+        &self,
+        [triangle, held]: [u32; 2],
+        own: &Ray,
+        span: Span,
+        leaving: Option<u32>,
+    ) -> Option<f64> {
+        let (met, _) = self.locate_piece(triangle, own, span, leaving)?;
+        let [corners, of_held] = [triangle, held].map(|triangle| self.triangles.corners(triangle));
+        let held_at = meet_plane(&of_held, own).and_then(|root| match root {
+            Some(root) => Bounded::locate(&root, span),
+            None => Ok(None),
+        });
+        // Where `f64` does not say where the other is met, it may be anywhere.
+        let held_at = held_at.ok().flatten().unwrap_or(Located { t: met.t, error: f64::INFINITY });
+        let order = met.order(
+            &held_at,
+            || meet_together(&corners, &of_held, own),
+            || [&corners, &of_held].map(|corners| meet_plane(corners, own)),
+            || [&corners, &of_held].map(|corners| meet_plane(corners, own)),
+        );
+        order.then(triangle.cmp(&held)).is_lt().then_some(met.t)
     }
 
     /// How much each corner of a triangle counts at a point.

@@ -98,14 +98,25 @@ pub trait Geometry {
 
     /// The nearest crossing with one piece of a ray in the shape's own space.
     fn cross_piece(&self, piece: u32, own: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
+        let (at, facet) = self.locate_piece(piece, own, span, leaving)?;
+        self.crossing(own, at, facet)
+    }
+
+    /// The same without how it looks there: where it is met, and on which facet.
+    fn locate_piece(
+        &self,
+        piece: u32,
+        own: &Ray,
+        span: Span,
+        leaving: Option<u32>,
+    ) -> Option<(Located, u32)> {
         if !own.is_valid() {
             return None;
         }
-        let (at, facet) = decide(
+        decide(
             || self.nearest_root::<Bounded>(piece, own, span, leaving).map(located),
             || self.nearest_root::<Dyadic>(piece, own, span, leaving).map(located),
-        )?;
-        self.crossing(own, at, facet)
+        )
     }
 
     /// The root behind a crossing that [`cross_piece`](Self::cross_piece) has found on a facet.

@@ -6,7 +6,9 @@ use glam::{DVec2, DVec3};
 
 use super::parametrization::{BARYCENTRIC, in_triangle};
 use super::{FacetRoot, Geometry, Parametrization};
-use crate::exact::{Difference, Dyadic, Located, Number, Root, Vector, Verdict, sign_of_determinant};
+use crate::exact::{
+    Difference, Dyadic, Located, Number, Root, Vector, Verdict, count_tie, sign_of_determinant,
+};
 use crate::numeric::{EDGE_ROUNDING, EDGE_VALUE_ERROR, NORMAL_SINE};
 use crate::part::Given;
 use crate::{Aabb, Crossing, Field, FieldKind, InvalidPart, Part, Placement, Ray, Span, Value, Values};
@@ -101,13 +103,18 @@ pub(super) fn meet_triangle<N: Number>(
     if signs.contains(&Ordering::Less) && signs.contains(&Ordering::Greater) {
         return Ok(None);
     }
-    let a = Vector::<N>::of(corners[0]).minus(&Vector::of(ray.origin));
-    let direction = Vector::of(ray.direction);
-    let normal = area(corners);
-    match Root::ratio(&normal.dot(&a), &normal.dot(&direction))? {
+    match meet_plane(corners, ray)? {
         Some(root) => FacetRoot::on(span, root, facet),
         None => Ok(None),
     }
+}
+
+/// Where a ray meets the plane of a triangle, whether within the triangle or not; nowhere where it runs within the plane.
+pub(super) fn meet_plane<N: Number>(corners: &[DVec3; 3], ray: &Ray) -> Verdict<Option<Root<N>>> {
+    let a = Vector::<N>::of(corners[0]).minus(&Vector::of(ray.origin));
+    let direction = Vector::of(ray.direction);
+    let normal = area(corners);
+    Root::ratio(&normal.dot(&a), &normal.dot(&direction))
 }
 
 /// The signs of the three volumes, of the edges bc, ca and ab; where two are opposite, that of the third may be left out.
@@ -162,7 +169,11 @@ pub(super) fn meet_together(first: &[DVec3; 3], second: &[DVec3; 3], ray: &Ray) 
             through(a, b) && through(a, c)
         }
     };
-    at_edge_or_corner || second.iter().all(|p| common_plane(first, *p))
+    let together = at_edge_or_corner || second.iter().all(|p| common_plane(first, *p));
+    if together {
+        count_tie();
+    }
+    together
 }
 
 /// Whether a point lies in the plane of a triangle.

@@ -93,6 +93,12 @@ impl Candidates {
         self.planes.is_empty() && self.bounded.is_empty() && self.faces.is_empty() && !self.tree
     }
 
+    /// Whether there are meshes among them, or may be.
+    pub(crate) fn hold_meshes(&self, columns: &Columns) -> bool {
+        (self.tree && !columns.instances.is_empty())
+            || self.bounded.iter().any(|&prim| columns.instance(prim).is_some())
+    }
+
     /// Every shape there is.
     pub(crate) fn all(&mut self, columns: &Columns) {
         self.keep(columns, |_, _| true, |_, _| true);

@@ -57,7 +57,9 @@ impl<S: Simd> Searcher<'_, S> {
             self.decide_all(packet, best, packet.live, prim);
         }
         for &prim in &shapes.bounded {
-            self.try_prim(packet, best, prim);
+            if !(columns.instance(prim).is_some() && self.later.takes(prim)) {
+                self.try_prim(packet, best, prim);
+            }
         }
         if !shapes.faces.is_empty() {
             *best = self.try_faces(packet, *best, &shapes.faces);
@@ -282,8 +284,10 @@ impl<S: Simd, P: PreciseRays<S>> KernelVisitor for TryShape<'_, '_, '_, S, P> {
 
     #[inline(always)]
     fn visit_mesh(self, instance: &Instance) -> Hits<S> {
-        let Self { search, packet, mut best, .. } = self;
-        search.walk_mesh(&packet, &mut best, instance);
+        let Self { search, packet, mut best, prim } = self;
+        if !search.later.takes(prim) {
+            search.walk_mesh(&packet, &mut best, instance);
+        }
         best
     }
 

@@ -5,7 +5,7 @@ use catoptra_core::{Arithmetic, Lane, LaneMask, Ray, Span};
 use fearless_simd::Simd;
 
 use super::Searcher;
-use super::exact_resolver::ClosestOfPacket;
+use super::exact_resolver::ClosestOfPackets;
 use super::hits::Hits;
 use super::packet::{Packet, PreciseRays, drift};
 use crate::SurfaceId;
@@ -42,25 +42,61 @@ impl<S: Simd> Searcher<'_, S> {
         best: &mut Hits<S>,
         instance: &Instance,
     ) {
+        let mut rays = [BundledRays::nothing(self.s)];
+        let (alone, alone_best) = (std::slice::from_ref(packet), std::slice::from_mut(&mut *best));
+        if self.walk_as_bundle(alone, 1, alone_best, instance, &mut rays) {
+            return;
+        }
         let snapshot = self.snapshot;
         let Some(mesh) = snapshot.mesh_at(instance.prim) else { return };
         let before = *best;
-        let mut exact = ClosestOfPacket { snapshot, mesh, prim: instance.prim, packet, before: &before };
+        let (packets, before) = (std::slice::from_ref(packet), std::slice::from_ref(&before));
+        let mut exact = ClosestOfPackets { snapshot, mesh, prim: instance.prim, packets, before };
         let lines = self.own_lines(packet, instance, packet.live);
-        let mut rays = [BundledRays::nothing(self.s)];
-        let slots = if let Some(bundle) = RayBundle::of(self.s, &mut rays, |_| lines, self.reach(instance)) {
-            // From metres to depth.
-            let scale = rays[0].scale * packet.inverse_length;
-            let (begin, end) = (self.begin(packet, scale), self.end(best, scale));
-            rays[0].start(self.s, begin, end, packet.leaving.facets_of(self.s, instance.prim));
-            bundle.common_origin.search(self.s, &instance.tree.tree, self.visits, &mut rays, &mut exact);
-            self.stats.settled += rays[0].decided;
-            rays[0].slot
-        } else {
-            self.search_each(packet, &lines, best, instance, &mut exact)
-        };
+        let slots = self.search_each(packet, &lines, best, instance, &mut exact);
         self.count_visits();
         self.take(packet, best, instance, slots);
+    }
+
+    /// Finds the nearest triangle for some packets, told by bits, if their rays have a common origin; returns whether they do.
+    #[inline(always)]
+    pub(super) fn walk_as_bundle<P: PreciseRays<S>>(
+        &mut self,
+        packets: &[Packet<'_, S, P>],
+        which: u32,
+        best: &mut [Hits<S>],
+        instance: &Instance,
+        room: &mut [BundledRays<S>],
+    ) -> bool {
+        let snapshot = self.snapshot;
+        let Some(mesh) = snapshot.mesh_at(instance.prim) else { return true };
+        let rays = &mut room[..packets.len()];
+        let bundle = RayBundle::of(
+            self.s,
+            rays,
+            #[inline(always)]
+            |number| {
+                let packet = &packets[number];
+                let live = if which >> number & 1 == 1 { packet.live } else { M::splat(self.s, false) };
+                self.own_lines(packet, instance, live)
+            },
+            self.reach(instance),
+        );
+        let Some(bundle) = bundle else { return false };
+        for ((rays, packet), best) in rays.iter_mut().zip(packets).zip(&*best) {
+            // From metres to depth.
+            let scale = rays.scale * packet.inverse_length;
+            let (begin, end) = (self.begin(packet, scale), self.end(best, scale));
+            rays.start(self.s, begin, end, packet.leaving.facets_of(self.s, instance.prim));
+        }
+        let mut exact = ClosestOfPackets { snapshot, mesh, prim: instance.prim, packets, before: &*best };
+        bundle.common_origin.search(self.s, &instance.tree.tree, self.visits, rays, &mut exact);
+        self.count_visits();
+        for ((rays, packet), best) in rays.iter().zip(packets).zip(best) {
+            self.stats.settled += rays.decided;
+            self.take(packet, best, instance, rays.slot);
+        }
+        true
     }
 
     /// Depths between which the spans of a packet begin.
@@ -91,7 +127,7 @@ impl<S: Simd> Searcher<'_, S> {
         lines: &Lines<S>,
         best: &Hits<S>,
         instance: &Instance,
-        exact: &mut ClosestOfPacket<'_, S, P>,
+        exact: &mut ClosestOfPackets<'_, '_, S, P>,
     ) -> U<S> {
         let leaving = packet.leaving.facets_of(self.s, instance.prim);
         self.ray_setup(lines, instance).search(

@@ -14,6 +14,7 @@ mod self_hit;
 mod surface;
 mod to_light;
 mod to_points;
+mod together;
 mod view_cones;
 mod walk;
 
@@ -23,13 +24,14 @@ use crate::kernel::mesh::Visits;
 use crate::{Snapshot, Stats};
 
 pub(crate) use hits::{HitColumns, Hits};
-pub(crate) use occluded::ShadowRays;
+pub(crate) use occluded::{ShadowRays, Shadows};
 pub(crate) use own_segments::OwnSegments;
 pub(crate) use packet::{Packet, PreciseRays, drift, kernel_rays, nearly_unit_rays};
 pub(crate) use refine::Refined;
 pub(crate) use surface::Surface;
 pub(crate) use to_light::ToLight;
 pub(crate) use to_points::ToPoints;
+pub(crate) use together::{BundleRoom, Later, bundle_room};
 pub(crate) use view_cones::ViewCones;
 
 /// Searches a snapshot with packets of rays.
@@ -39,6 +41,8 @@ pub(crate) struct Searcher<'a, S: Simd> {
     pub(crate) stats: Stats,
     /// Stacks for walks through trees of meshes.
     pub(crate) visits: &'a mut Visits,
+    /// Meshes that packets are to walk together.
+    pub(crate) later: Later,
     /// Whether every ray stays outside all convex solids.
     pub(crate) outside: bool,
 }

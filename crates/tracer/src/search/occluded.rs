@@ -41,6 +41,14 @@ impl<S: Simd> ShadowRays<'_, S> {
     }
 }
 
+/// The shadow rays of a packet, and those of them that nothing has been found to block.
+#[derive(Clone, Copy)]
+pub(crate) struct Shadows<'a, S: Simd, G> {
+    pub(crate) segments: &'a G,
+    pub(crate) rays: ShadowRays<'a, S>,
+    pub(crate) open: M<S>,
+}
+
 /// A shape that may block segments, or one facet of it.
 #[derive(Clone, Copy)]
 struct Blocker {
@@ -59,14 +67,16 @@ pub(crate) trait Segments<S: Simd> {
         None
     }
 
-    /// The open ones as a bundle in the mesh's own space, if they have a common origin.
+    /// The open ones of some packets as a bundle in the mesh's own space, if they have a common origin. Fills `room`, which has
+    /// as many places as there are packets.
     fn bundle(
-        &self,
+        shadows: &[Shadows<'_, S, Self>],
         search: &Searcher<'_, S>,
-        rays: &ShadowRays<'_, S>,
-        open: M<S>,
         instance: &Instance,
-    ) -> Option<(CommonOrigin, [BundledRays<S>; 1])>;
+        room: &mut [BundledRays<S>],
+    ) -> Option<CommonOrigin>
+    where
+        Self: Sized;
 
     /// The open ones as single rays in the mesh's own space, and which of them are rays at all.
     fn single_rays(
@@ -271,6 +281,9 @@ impl<S: Simd, G: Segments<S>> KernelVisitor for OccludeBy<'_, '_, '_, S, G> {
 
     #[inline(always)]
     fn visit_mesh(self, instance: &Instance) -> M<S> {
+        if self.search.later.takes(self.prim) {
+            return self.open;
+        }
         self.search.occlude_by_mesh(self.segments, &self.rays, self.open, instance)
     }
 

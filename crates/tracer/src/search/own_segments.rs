@@ -6,7 +6,7 @@ use fearless_simd::Simd;
 
 use super::Searcher;
 use super::mesh::ends_of_segments;
-use super::occluded::{Segments, ShadowRays};
+use super::occluded::{Segments, ShadowRays, Shadows};
 use super::packet::{Packet, PreciseRays};
 use crate::Snapshot;
 use crate::kernel::mesh::{BundledRays, CommonOrigin, Lines, RayBundle, RaySetup};
@@ -24,23 +24,33 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for OwnSegments<'_, S, P> {
     /// Forwards where all start at one point, backwards where all end at one.
     #[inline(always)]
     fn bundle(
-        &self,
+        shadows: &[Shadows<'_, S, Self>],
         search: &Searcher<'_, S>,
-        rays: &ShadowRays<'_, S>,
-        open: M<S>,
         instance: &Instance,
-    ) -> Option<(CommonOrigin, [BundledRays<S>; 1])> {
-        let s = search.s;
-        let [start, end] = self.0.precise.ends(s, self.0.at);
-        let (start, end) = (instance.own_points(s, start), instance.own_points(s, end));
-        let ahead = Lines { origin: start, direction: end - start, live: open };
-        let back = Lines { origin: end, direction: start - end, live: open };
-        let (mut bundled, reach) = ([BundledRays::nothing(s)], search.reach(instance));
-        let bundle = RayBundle::of(s, &mut bundled, |_| ahead, reach)
-            .or_else(|| RayBundle::of(s, &mut bundled, |_| back, reach))?;
-        let [begin, end] = ends_of_segments(s, bundled[0].scale, bundle.slack);
-        bundled[0].start(s, begin, end, rays.leaving.facets_of(s, instance.prim));
-        Some((bundle.common_origin.for_any(), bundled))
+        room: &mut [BundledRays<S>],
+    ) -> Option<CommonOrigin> {
+        let (s, reach) = (search.s, search.reach(instance));
+        let mut bundle_of = |backwards: bool| {
+            RayBundle::of(
+                s,
+                room,
+                #[inline(always)]
+                |number| {
+                    let Shadows { segments, open, .. } = &shadows[number];
+                    let [start, end] = segments.0.precise.ends(s, segments.0.at);
+                    let (start, end) = (instance.own_points(s, start), instance.own_points(s, end));
+                    let (origin, other) = if backwards { (end, start) } else { (start, end) };
+                    Lines { origin, direction: other - origin, live: *open }
+                },
+                reach,
+            )
+        };
+        let bundle = bundle_of(false).or_else(|| bundle_of(true))?;
+        for (rays, shadows) in room.iter_mut().zip(shadows) {
+            let [begin, end] = ends_of_segments(s, rays.scale, bundle.slack);
+            rays.start(s, begin, end, shadows.rays.leaving.facets_of(s, instance.prim));
+        }
+        Some(bundle.common_origin.for_any())
     }
 
     #[inline(always)]

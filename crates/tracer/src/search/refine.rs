@@ -123,8 +123,7 @@ impl<S: Simd> Searcher<'_, S> {
         instance: &Instance,
     ) -> Refined<S> {
         let mesh = instance.tree.mesh();
-        let at_corners = |of: &[[f32; 3]]| instance.at_corners(self.s, best.facet, mask, of).wide();
-        let [a, b, c] = at_corners(mesh.positions());
+        let [a, b, c] = instance.at_corners(self.s, best.facet, mask, mesh.positions()).wide();
         let (e, f) = (b - a, c - a);
         let across = cross(e, f);
         let own_normal = unit(self.s, across);
@@ -137,7 +136,7 @@ impl<S: Simd> Searcher<'_, S> {
         let from = instance.own_points(self.s, point) - a;
         let weights = [across.dot(cross(from, f)), across.dot(cross(e, from))];
         let [of_b, of_c] = weights.map(|weight| weight / across.dot(across));
-        let [at_a, at_b, at_c] = at_corners(normals);
+        let [at_a, at_b, at_c] = instance.at_corners(self.s, best.facet, mask, normals).wide();
         let blend = (at_c - at_a).scale_add(of_c, (at_b - at_a).scale_add(of_b, at_a));
         // Normals that cancel out give no direction, nor does NaN.
         let (zero, size) = (D::splat(self.s, 0.0), blend.dot(blend));

@@ -4,13 +4,14 @@
 use catoptra_core::geometry::Mesh;
 use catoptra_core::{Arithmetic, Geometry, LaneMask, Ray, Span};
 use fearless_simd::Simd;
+use smallvec::SmallVec;
 
 use super::Searcher;
-use super::occluded::{Segments, ShadowRays};
+use super::occluded::{Segments, ShadowRays, Shadows};
 use super::packet::{Packet, PreciseRays};
 use crate::Snapshot;
 use crate::kernel::Leaving;
-use crate::kernel::mesh::{BundledRays, CommonOrigin, Lines, RayBundle, RaySetup};
+use crate::kernel::mesh::{BundledRays, CommonOrigin, GROUP, Lines, RayBundle, RaySetup};
 use crate::lanes::{D3, F, M, pick3, splat_wide, widen3};
 use crate::numeric::{BUNDLE_STEEP, END_ERROR, POINT_ERROR, START_ERROR};
 use crate::snapshot::{Instance, LightRow};
@@ -34,28 +35,21 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
 
     #[inline(always)]
     fn bundle(
-        &self,
+        shadows: &[Shadows<'_, S, Self>],
         search: &Searcher<'_, S>,
-        rays: &ShadowRays<'_, S>,
-        open: M<S>,
         instance: &Instance,
-    ) -> Option<(CommonOrigin, [BundledRays<S>; 1])> {
-        if self.light.at_infinity {
+        room: &mut [BundledRays<S>],
+    ) -> Option<CommonOrigin> {
+        let (s, light) = (search.s, shadows.first()?.segments.light);
+        if light.at_infinity {
             return None;
         }
-        let s = search.s;
-        let common = instance.own_points(s, splat_wide(s, self.light.position));
-        let (start, off) = self.own_starts(search, rays, open, instance);
-        let lines = Lines { origin: common, direction: start - common, live: open };
-        let mut bundled = [BundledRays::nothing(s)];
-        let bundle = RayBundle::of(s, &mut bundled, |_| lines, search.reach(instance))?;
-        let (scale, zero) = (bundled[0].scale, F::splat(s, 0.0));
-        let error = scale.mul_add(F::splat(s, END_ERROR), off);
-        let leaving = rays.leaving.facets_of(s, instance.prim);
-        bundled[0].start(s, [zero, zero], [scale, error], leaving);
-        let steep = bundled[0].error_where_off(s, off);
-        // So close to the light that the slopes have no useful bound, rays are traced one by one.
-        (steep < 2.0 - BUNDLE_STEEP).then(|| (bundle.common_origin.for_any().with_slopes_off(steep), bundled))
+        let common = instance.own_points(s, splat_wide(s, light.position));
+        let mut starts: SmallVec<[(D3<S>, F<S>); GROUP]> = SmallVec::new();
+        for Shadows { segments, rays, open } in shadows {
+            starts.push(segments.own_starts(search, rays, *open, instance));
+        }
+        bundle_backwards(search, shadows, &starts, common, instance, room)
     }
 
     #[inline(always)]
@@ -113,4 +107,39 @@ impl<S: Simd, P: PreciseRays<S>> ToLight<'_, S, P> {
         let refined = lines.direction.scale_add(t, lines.origin);
         (pick3(own, refined, start), F::pick(own, reach * F::splat(s, START_ERROR), off))
     }
+}
+
+/// The segments of some packets as a bundle of rays from where all of them end, backwards to their starts; those are given in the
+/// mesh's own space, each with how far it may be off.
+#[inline(always)]
+pub(super) fn bundle_backwards<S: Simd, G>(
+    search: &Searcher<'_, S>,
+    shadows: &[Shadows<'_, S, G>],
+    starts: &[(D3<S>, F<S>)],
+    common: D3<S>,
+    instance: &Instance,
+    room: &mut [BundledRays<S>],
+) -> Option<CommonOrigin> {
+    let (s, zero) = (search.s, F::splat(search.s, 0.0));
+    let bundle = RayBundle::of(
+        s,
+        room,
+        #[inline(always)]
+        |number| {
+            let (start, _) = starts[number];
+            Lines { origin: common, direction: start - common, live: shadows[number].open }
+        },
+        search.reach(instance),
+    )?;
+    let mut steepest = 0.0_f32;
+    for ((rays, (_, off)), shadows) in room.iter_mut().zip(starts).zip(shadows) {
+        let error = rays.scale.mul_add(F::splat(s, END_ERROR), *off);
+        let leaving = shadows.rays.leaving.facets_of(s, instance.prim);
+        rays.start(s, [zero, zero], [rays.scale, error], leaving);
+        let steep = rays.error_where_off(s, *off);
+        // Written so that NaN counts.
+        steepest = if steep <= steepest { steepest } else { steep };
+    }
+    // So close to the end that the slopes have no useful bound, rays are traced one by one.
+    (steepest < 2.0 - BUNDLE_STEEP).then(|| bundle.common_origin.for_any().with_slopes_off(steepest))
 }

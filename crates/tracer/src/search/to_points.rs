@@ -3,17 +3,18 @@
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, Geometry, Lane, LaneMask, Ray, Span};
+use catoptra_core::{Geometry, Lane, LaneMask, Ray, Span};
 use fearless_simd::Simd;
 
-use super::occluded::{Segments, ShadowRays};
+use super::occluded::{Segments, ShadowRays, Shadows};
+use super::to_light::bundle_backwards;
 use super::{Searcher, drift};
 use crate::Snapshot;
 use crate::cull::Candidates;
-use crate::kernel::mesh::{BundledRays, CommonOrigin, Lines, RayBundle, RaySetup};
+use crate::kernel::mesh::{BundledRays, CommonOrigin, Lines, RaySetup};
 use crate::kernel::{Leaving, Rays, Target};
 use crate::lanes::{D, D3, F, M, magnitude, narrow3, splat_wide};
-use crate::numeric::{BUNDLE_STEEP, END_ERROR, START_ERROR};
+use crate::numeric::START_ERROR;
 use crate::snapshot::Instance;
 
 /// Segments from points to others, one in every lane; relative to the snapshot's origin.
@@ -58,25 +59,17 @@ impl<S: Simd> Segments<S> for ToPoints<S> {
 
     #[inline(always)]
     fn bundle(
-        &self,
+        shadows: &[Shadows<'_, S, Self>],
         search: &Searcher<'_, S>,
-        rays: &ShadowRays<'_, S>,
-        open: M<S>,
         instance: &Instance,
-    ) -> Option<(CommonOrigin, [BundledRays<S>; 1])> {
+        room: &mut [BundledRays<S>],
+    ) -> Option<CommonOrigin> {
         let s = search.s;
-        let common = instance.own_points(s, splat_wide(s, self.common_end(s, open)?));
+        let [Shadows { segments, rays, open }] = shadows else { return None };
+        let common = instance.own_points(s, splat_wide(s, segments.common_end(s, *open)?));
         let off = rays.rays.reach * F::splat(s, instance.scale() * START_ERROR);
-        let lines =
-            Lines { origin: common, direction: instance.own_points(s, self.from) - common, live: open };
-        let mut bundled = [BundledRays::nothing(s)];
-        let bundle = RayBundle::of(s, &mut bundled, |_| lines, search.reach(instance))?;
-        let (scale, zero) = (bundled[0].scale, F::splat(s, 0.0));
-        let error = scale.mul_add(F::splat(s, END_ERROR), off);
-        bundled[0].start(s, [zero, zero], [scale, error], rays.leaving.facets_of(s, instance.prim));
-        let steep = bundled[0].error_where_off(s, off);
-        // So close to the end that the slopes have no useful bound, rays are traced one by one.
-        (steep < 2.0 - BUNDLE_STEEP).then(|| (bundle.common_origin.for_any().with_slopes_off(steep), bundled))
+        let start = instance.own_points(s, segments.from);
+        bundle_backwards(search, shadows, &[(start, off)], common, instance, room)
     }
 
     #[inline(always)]

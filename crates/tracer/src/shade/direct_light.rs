@@ -3,13 +3,15 @@
 use catoptra_core::light::LightVisitor;
 use catoptra_core::{Arithmetic, Arrival, Emitter, Lane, LaneMask};
 use fearless_simd::Simd;
+use smallvec::SmallVec;
 
 use super::Shader;
 use super::chunk::{CHUNK, Chunk};
 use crate::kernel::{Leaving, Rays, Target};
 use crate::lanes::{F, F3, M, magnitude, outlined};
 use crate::numeric::POINT_ERROR;
-use crate::search::{ShadowRays, ToLight, drift};
+use crate::search::{Packet, ShadowRays, Shadows, ToLight, drift};
+use crate::snapshot::LightRow;
 use crate::stream::Batch;
 
 /// Adds what a light contributes to the first packets of the chunk.
@@ -28,7 +30,13 @@ impl<S: Simd, B: Batch<S>> LightVisitor for AddLight<'_, '_, S, B> {
     fn visit<E: Emitter>(mut self, light: &E) {
         let open = self.shader.is_open(self.light, light.shadow());
         let smooth = self.shader.search.snapshot.columns().smooth;
-        let faced = if open && !smooth { self.add_open(light) } else { self.add(light, open, smooth) };
+        let faced = if open && !smooth {
+            self.add_open(light)
+        } else if !open && self.shader.walks_together(self.light) {
+            self.add_past_meshes(light, smooth)
+        } else {
+            self.add(light, open, smooth)
+        };
         let stats = &mut self.shader.search.stats;
         let in_cone = if E::HAS_CONE { faced.in_cone } else { self.lit };
         stats.skipped.out_of_cone += self.lit - in_cone;
@@ -49,6 +57,7 @@ struct Faced {
 }
 
 /// Lanes that face a light, and what arrives at them.
+#[derive(Clone, Copy)]
 pub(super) struct Facing<S: Simd> {
     pub(super) arrival: Arrival<F<S>>,
     pub(super) cosine: F<S>,
@@ -80,8 +89,7 @@ impl<S: Simd, B: Batch<S>> AddLight<'_, '_, S, B> {
     /// Adds any light.
     #[inline(always)]
     fn add<E: Emitter>(&mut self, light: &E, open: bool, smooth: bool) -> Faced {
-        let zero = F::splat(self.shader.s, 0.0);
-        let color = F3::of(zero, light.color());
+        let color = F3::of(F::splat(self.shader.s, 0.0), light.color());
         let mut faced = Faced::default();
         for packet in 0..self.count.min(CHUNK) {
             let facing = face(self.shader.chunk, light, packet, smooth, &mut faced);
@@ -90,12 +98,23 @@ impl<S: Simd, B: Batch<S>> AddLight<'_, '_, S, B> {
             } else {
                 facing.lanes & !self.shader.shadowed(self.batch, packet, self.light, &facing)
             };
-            let arriving = F::pick(reached, facing.cosine * facing.arrival.strength, zero);
-            let irradiance = &mut self.shader.chunk.irradiance[packet];
-            *irradiance = color.scale_add(arriving, *irradiance);
-            if self.shader.chunk.glossy[packet] {
-                self.shader.add_specular(packet, &facing, reached, color);
-            }
+            self.shader.add_reached(packet, &facing, reached, color);
+        }
+        faced
+    }
+
+    /// Adds a light that meshes may occlude: their trees are walked by the packets together.
+    #[inline(always)]
+    fn add_past_meshes<E: Emitter>(&mut self, light: &E, smooth: bool) -> Faced {
+        let color = F3::of(F::splat(self.shader.s, 0.0), light.color());
+        let mut faced = Faced::default();
+        let mut facing: SmallVec<[Facing<S>; CHUNK]> = SmallVec::new();
+        for packet in 0..self.count.min(CHUNK) {
+            facing.push(face(self.shader.chunk, light, packet, smooth, &mut faced));
+        }
+        let reached = self.shader.reached_past_meshes(self.batch, self.light, &facing);
+        for (packet, facing) in facing.iter().enumerate() {
+            self.shader.add_reached(packet, facing, reached[packet], color);
         }
         faced
     }
@@ -154,6 +173,26 @@ impl<S: Simd> Shader<'_, S> {
         !shadow || (self.plan.occluders[light].is_empty() && general.is_empty())
     }
 
+    /// Whether packets of the chunk are to walk meshes together on their ways to a light; those to the sun have no common origin.
+    #[inline(always)]
+    fn walks_together(&self, light: usize) -> bool {
+        let snapshot = self.search.snapshot;
+        self.view.skip.walks
+            && !snapshot.light_rows()[light].at_infinity
+            && self.plan.occluders[light].hold_meshes(snapshot.columns())
+    }
+
+    /// Adds what arrives of a light at the lanes of a packet that it reaches.
+    #[inline(always)]
+    fn add_reached(&mut self, packet: usize, facing: &Facing<S>, reached: M<S>, color: F3<S>) {
+        let arriving = F::pick(reached, facing.cosine * facing.arrival.strength, F::splat(self.s, 0.0));
+        let irradiance = &mut self.chunk.irradiance[packet];
+        *irradiance = color.scale_add(arriving, *irradiance);
+        if self.chunk.glossy[packet] {
+            self.add_specular(packet, facing, reached, color);
+        }
+    }
+
     /// Adds what glossy lobes show of a light in the lanes that it reaches.
     #[inline(always)]
     pub(super) fn add_specular(&mut self, packet: usize, facing: &Facing<S>, reached: M<S>, color: F3<S>) {
@@ -180,27 +219,11 @@ impl<S: Simd> Shader<'_, S> {
     /// Lanes whose shadow rays to a light are blocked.
     #[inline(always)]
     fn shadowed(&mut self, batch: &impl Batch<S>, packet: usize, light: usize, facing: &Facing<S>) -> M<S> {
-        let Facing { arrival, lanes, .. } = facing;
-        if !lanes.any() {
-            return *lanes;
+        if !facing.lanes.any() {
+            return facing.lanes;
         }
-        let (best, point) = (self.chunk.best[packet], self.chunk.point[packet]);
         let row = &self.search.snapshot.light_rows()[light];
-        let rays = ShadowRays {
-            rays: Rays {
-                origin: point,
-                direction: arrival.direction,
-                reach: best.error.mul_add(
-                    F::splat(self.s, 1.0 / POINT_ERROR),
-                    magnitude(point)
-                        + F::splat(self.s, row.reach + drift(self.search.snapshot.origin_in_frame())),
-                ),
-            },
-            leaving: Leaving { prim: best.prim, facet: best.facet, any: true },
-            live: *lanes,
-            target: Target { distance: arrival.distance, end: Some(row.end()) },
-            behind: &row.behind,
-        };
+        let rays = self.shadow_rays(packet, row, facing);
         let occluders = &self.plan.occluders[light];
         if let Some(blocked) = self.search.occluded_for_certain(&rays, occluders) {
             return blocked;
@@ -216,5 +239,71 @@ impl<S: Simd> Shader<'_, S> {
                 self.search.occluded(&segments, &copy, occluders)
             },
         )
+    }
+
+    /// The shadow rays of a packet of the chunk to a light that it faces.
+    #[inline(always)]
+    fn shadow_rays<'r>(&self, packet: usize, row: &'r LightRow, facing: &Facing<S>) -> ShadowRays<'r, S> {
+        let (best, point, arrival) = (self.chunk.best[packet], self.chunk.point[packet], &facing.arrival);
+        let reach = row.reach + drift(self.search.snapshot.origin_in_frame());
+        ShadowRays {
+            rays: Rays {
+                origin: point,
+                direction: arrival.direction,
+                reach: best
+                    .error
+                    .mul_add(F::splat(self.s, 1.0 / POINT_ERROR), magnitude(point) + F::splat(self.s, reach)),
+            },
+            leaving: self.leaving(packet),
+            live: facing.lanes,
+            target: Target { distance: arrival.distance, end: Some(row.end()) },
+            behind: &row.behind,
+        }
+    }
+
+    /// The surfaces that shadow rays of a packet of the chunk leave.
+    #[inline(always)]
+    fn leaving(&self, packet: usize) -> Leaving<S> {
+        let best = &self.chunk.best[packet];
+        Leaving { prim: best.prim, facet: best.facet, any: true }
+    }
+
+    /// Lanes of the first packets of the chunk whose shadow rays to a light nothing blocks. See [`outlined`].
+    #[inline(always)]
+    fn reached_past_meshes<B: Batch<S>>(
+        &mut self,
+        batch: &B,
+        light: usize,
+        facing: &[Facing<S>],
+    ) -> [M<S>; CHUNK] {
+        let mut reached = [M::splat(self.s, false); CHUNK];
+        let Some(first) = facing.iter().position(|facing| facing.lanes.any()) else { return reached };
+        outlined(
+            self.s,
+            #[inline(always)]
+            || {
+                let row = &self.search.snapshot.light_rows()[light];
+                let mut packets: SmallVec<[(usize, Packet<'_, S, B::Precise>); CHUNK]> = SmallVec::new();
+                for packet in (first..facing.len()).filter(|&packet| facing[packet].lanes.any()) {
+                    packets.push((packet, batch.packet(self.s, self.chunk.at[packet])));
+                }
+                let mut segments: SmallVec<[ToLight<'_, S, B::Precise>; CHUNK]> = SmallVec::new();
+                for (number, packet) in &packets {
+                    segments.push(ToLight { packet, from: self.leaving(*number), light: row });
+                }
+                let mut shadows: SmallVec<[Shadows<'_, S, ToLight<'_, S, B::Precise>>; CHUNK]> =
+                    SmallVec::new();
+                for ((number, _), segments) in packets.iter().zip(&segments) {
+                    let rays = self.shadow_rays(*number, row, &facing[*number]);
+                    shadows.push(Shadows { segments, rays, open: rays.live });
+                }
+                let occluders = &self.plan.occluders[light];
+                self.search.occluded_together(&mut shadows, occluders, self.bundle);
+                for ((number, _), shadows) in packets.iter().zip(&shadows) {
+                    reached[*number] = shadows.open;
+                }
+            },
+        );
+        reached
     }
 }

@@ -23,7 +23,7 @@ use crate::View;
 use crate::cull::TilePlan;
 use crate::lanes::{F3, splat3};
 use crate::sample::Sample;
-use crate::search::Searcher;
+use crate::search::{BundleRoom, Searcher};
 use crate::stream::{LaneBounds, Queue};
 
 pub(crate) use chunk::Chunk;
@@ -59,6 +59,8 @@ pub(crate) struct Shader<'a, S: Simd> {
     pub(crate) next: &'a mut Queue,
     /// Where those start, and the unit vectors along which they run.
     pub(crate) sent: &'a mut LaneBounds<S, 2>,
+    /// Room for packets that walk meshes together.
+    pub(crate) bundle: &'a mut BundleRoom<S>,
 }
 
 /// No light in any lane.

@@ -124,6 +124,14 @@ impl Columns {
         matches!(self.rows[prim as usize], Row::Sphere(_))
     }
 
+    /// The mesh with its placement that a shape is, if it is one.
+    pub(crate) fn instance(&self, prim: u32) -> Option<&Instance> {
+        match self.rows[prim as usize] {
+            Row::Instance(row) => Some(&self.instances[row as usize]),
+            _ => None,
+        }
+    }
+
     /// Whether a shape with a kernel is flat or a convex solid: rays that leave it outwards do not meet it again.
     pub(crate) fn is_convex(&self, prim: u32) -> bool {
         match self.rows[prim as usize] {

@@ -31,8 +31,8 @@ pub(crate) use lighting::{LightRow, MaterialRow};
 pub(crate) use matter::{Matter, is_a_sheet};
 pub use needs::Needs;
 pub(crate) use rows::{KernelVisitor, Row};
-pub(crate) use search::RaySegment;
 pub use search::{Hit, SurfaceId};
+pub(crate) use search::{RaySegment, leaving_facet};
 
 use crate::accel::{MeshTree, Preset, Tree};
 use extraction::Parts;

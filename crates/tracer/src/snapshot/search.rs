@@ -336,6 +336,7 @@ fn cross_mesh(mesh: &Mesh, tree: &WideTree, own: &Ray, span: Span, leaving: Opti
     best
 }
 
-pub(super) fn leaving_facet(prim: u32, leaving: Option<SurfaceId>) -> Option<u32> {
+/// The facet of a shape that a ray leaves, if it leaves that shape.
+pub(crate) fn leaving_facet(prim: u32, leaving: Option<SurfaceId>) -> Option<u32> {
     leaving.filter(|surface| surface.prim == prim).map(|surface| surface.facet)
 }

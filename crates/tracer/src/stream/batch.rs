@@ -32,6 +32,12 @@ pub(crate) trait Batch<S: Simd> {
         false
     }
 
+    /// Whether all rays start at one point.
+    #[inline(always)]
+    fn has_common_origin(&self) -> bool {
+        false
+    }
+
     /// The packet that starts with ray `at`.
     fn packet(&self, s: S, at: usize) -> Packet<'_, S, Self::Precise>;
 
@@ -139,6 +145,11 @@ impl<'a, S: Simd> Batch<S> for Part<'a, S> {
     #[inline(always)]
     fn is_idle(&self, at: usize) -> bool {
         self.camera.is_masked() && self.camera.active(at) == 0
+    }
+
+    #[inline(always)]
+    fn has_common_origin(&self) -> bool {
+        self.camera.start_at_the_eye()
     }
 
     #[inline(always)]

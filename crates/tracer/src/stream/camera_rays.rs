@@ -198,6 +198,11 @@ impl<'a, S: Simd> CameraPackets<'a, S> {
         }
     }
 
+    /// Whether all rays start at the eye.
+    pub(crate) fn start_at_the_eye(&self) -> bool {
+        self.start.is_none()
+    }
+
     /// Whether the hits of this sample are kept as the pixels' surfaces and depths.
     pub(crate) fn is_kept(&self) -> bool {
         self.sample.kept

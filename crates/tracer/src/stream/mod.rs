@@ -2,6 +2,7 @@
 
 mod batch;
 mod camera_rays;
+mod find;
 mod lane_bounds;
 mod queue;
 

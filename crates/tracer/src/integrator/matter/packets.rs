@@ -17,7 +17,7 @@ use crate::integrator::{Integrate, Trees};
 use crate::kernel::mesh::Visits;
 use crate::lanes::{F, Work, at_level, outlined};
 use crate::sample::Sample;
-use crate::search::{HitColumns, PreciseRays, Searcher};
+use crate::search::{HitColumns, Later, PreciseRays, Searcher, bundle_room};
 use crate::stream::{Batch, CameraPackets, CameraRays, Part, Queue};
 use crate::{Frame, Hit, Instructions, Region, Size, Stats, SurfaceId, Tile};
 
@@ -165,7 +165,14 @@ impl Work for FindFirst<'_> {
         let Self { frame, sample, tile, room } = self;
         let Room { camera: rays, visits, candidates: [all, visible], hits, .. } = room;
         let (snapshot, view) = (frame.snapshot, frame.view);
-        let mut search = Searcher { s, snapshot, stats: Stats::default(), visits, outside: false };
+        let mut search = Searcher {
+            s,
+            snapshot,
+            stats: Stats::default(),
+            visits,
+            outside: false,
+            later: Later::default(),
+        };
         let region = Region::from(Size::new(tile.width, tile.height));
         all.all(snapshot.columns());
         let seen = if view.skip.hidden && frame.is_pinhole() {
@@ -184,15 +191,15 @@ impl Work for FindFirst<'_> {
         let part = Part { camera: &camera, region };
         search.stats.rays.primary += part.live();
         hits.clear();
-        for stretch in 0..part.stretches() {
-            for at in part.stretch(stretch).step_by(F::<S>::LANES) {
-                if part.is_idle(at) {
-                    continue;
-                }
-                let packet = part.packet(s, at);
-                let best = search.closest(&packet, seen);
+        let mut bundle = view.skip.walks.then(|| bundle_room(s));
+        search.find_hits(
+            &part,
+            seen,
+            bundle.as_mut(),
+            #[inline(always)]
+            |packet, best| {
                 for lane in packet.live.lanes() {
-                    let (ray, pixel) = (packet.precise.ray(at + lane), (at + lane) as u32);
+                    let (ray, pixel) = (packet.ray(lane), (packet.at + lane) as u32);
                     hits.push(FoundHit {
                         ray,
                         prim: best.prim.lane(lane),
@@ -200,8 +207,8 @@ impl Work for FindFirst<'_> {
                         pixel,
                     });
                 }
-            }
-        }
+            },
+        );
         search.stats
     }
 }
@@ -220,7 +227,14 @@ impl Work for FindNext<'_> {
         let Self { frame, room } = self;
         let Room { queue, visits, candidates: [all, _], found, rays, hits, .. } = room;
         let snapshot = frame.snapshot;
-        let mut search = Searcher { s, snapshot, stats: Stats::default(), visits, outside: false };
+        let mut search = Searcher {
+            s,
+            snapshot,
+            stats: Stats::default(),
+            visits,
+            outside: false,
+            later: Later::default(),
+        };
         queue.start(snapshot.origin_in_frame(), f64::INFINITY);
         for TileRay { path, pixel } in &*rays {
             queue.push_one::<S>(&path.ray, path.leaving, *pixel);

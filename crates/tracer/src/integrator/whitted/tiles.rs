@@ -15,9 +15,9 @@ use super::pieces::PieceRoom;
 use super::streams::Bounce;
 use crate::cull::{Candidates, Frustum, Planner, PointBounds, TilePlan, quarters};
 use crate::kernel::mesh::Visits;
-use crate::lanes::{F, Work, at_level, outlined};
+use crate::lanes::{Work, at_level, outlined};
 use crate::sample::Sample;
-use crate::search::{HitColumns, Searcher};
+use crate::search::{BundleRoom, HitColumns, Later, Searcher, bundle_room};
 use crate::shade::{Chunk, Gathers, LampRoom, Shader};
 use crate::stream::{Batch, CameraPackets, CameraRays, LaneBounds, Part, Queue};
 use crate::{Frame, Instructions, Region, Size, Stats, Tile};
@@ -59,6 +59,7 @@ struct Registers<S: Simd> {
     seen: LaneBounds<S, 1>,
     /// Bounds of the rays that surfaces send on: where they start, and their unit directions.
     sent: LaneBounds<S, 2>,
+    bundle: BundleRoom<S>,
 }
 
 impl<S: Simd> Registers<S> {
@@ -69,6 +70,7 @@ impl<S: Simd> Registers<S> {
                 chunk: Chunk::new(s),
                 seen: LaneBounds::nothing(s),
                 sent: LaneBounds::nothing(s),
+                bundle: bundle_room(s),
             })
         };
         kept.and_then(|kept| kept.downcast().ok()).unwrap_or_else(new)
@@ -101,15 +103,16 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, gathers: Gather
     let (snapshot, view) = (frame.snapshot, frame.view);
     let Room { next, bounce, found, visible, plan, points, visits, rays, lamps, pieces, registers } = room;
     let mut own = Registers::take(s, registers.take());
-    let Registers { chunk, seen, sent } = &mut *own;
+    let Registers { chunk, seen, sent, bundle } = &mut *own;
     for queue in [&mut *next, &mut bounce.stream] {
         queue.start(snapshot.origin_in_frame(), f64::INFINITY);
     }
     plan.start(snapshot);
     let outside = frame.outside_solids;
-    let search = Searcher { s, snapshot, stats: Stats::default(), visits, outside };
+    let search = Searcher { s, snapshot, stats: Stats::default(), visits, outside, later: Later::default() };
     let sample = Sample::new(view, 0);
-    let shader = Shader { s, search, view, gathers, plan, chunk, lamp_room: lamps, sample, next, sent };
+    let shader =
+        Shader { s, search, view, gathers, plan, chunk, lamp_room: lamps, sample, next, sent, bundle };
     let planner = Planner { snapshot, skip: view.skip, outside };
     let mut tracer = TileTracer { s, frame, planner, shader, found, seen, points };
     visible[0].all(snapshot.columns());
@@ -217,7 +220,8 @@ impl<S: Simd> TileTracer<'_, S> {
             || camera.make_rays(self.s, &region),
         );
         let part = &Part { camera, region };
-        if candidates.points.is_empty() {
+        let walks = self.frame.view.skip.walks && candidates.hold_meshes(self.frame.snapshot.columns());
+        if candidates.points.is_empty() || walks {
             self.trace(part, candidates, tile, 0);
             return;
         }
@@ -262,17 +266,17 @@ impl<S: Simd> TileTracer<'_, S> {
     #[inline(always)]
     fn find(&mut self, batch: &impl Batch<S>, candidates: &Candidates) {
         self.seen.clear();
-        for stretch in 0..batch.stretches() {
-            for at in batch.stretch(stretch).step_by(F::<S>::LANES) {
-                if batch.is_idle(at) {
-                    continue;
-                }
-                let packet = batch.packet(self.s, at);
-                let best = self.shader.search.closest(&packet, candidates);
-                best.store(self.found, at);
+        let Shader { search, bundle, view, .. } = &mut self.shader;
+        search.find_hits(
+            batch,
+            candidates,
+            view.skip.walks.then_some(bundle),
+            #[inline(always)]
+            |packet, best| {
+                best.store(self.found, packet.at);
                 self.seen.add(best.hits() & packet.live, best.prim, &[packet.point(best.t)]);
-            }
-        }
+            },
+        );
         self.points.clear();
         for at in 0..self.seen.len() {
             let (prim, [bounds]) = self.seen.get(at);

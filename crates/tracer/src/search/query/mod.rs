@@ -9,7 +9,7 @@ use fearless_simd::{Level, Simd};
 
 use single_mesh::single_mesh;
 
-use super::{Hits, OwnSegments, Packet, PreciseRays, Searcher, ShadowRays, drift, kernel_rays};
+use super::{Hits, Later, OwnSegments, Packet, PreciseRays, Searcher, ShadowRays, drift, kernel_rays};
 use crate::cull::Candidates;
 use crate::film::NOTHING;
 use crate::kernel::mesh::{Lines, Visits};
@@ -264,7 +264,8 @@ impl Work for Answer<'_, '_, '_> {
         let Self { snapshot, rays, mut answers } = self;
         let mut visits = Visits::default();
         let stats = Stats::default();
-        let mut search = Searcher { s, snapshot, stats, visits: &mut visits, outside: false };
+        let mut search =
+            Searcher { s, snapshot, stats, visits: &mut visits, outside: false, later: Later::default() };
         let query = RayQuery { rays, snapshot };
         match single_mesh(snapshot) {
             Some(mesh) => search.answer_of_mesh(&query, mesh, &mut answers),

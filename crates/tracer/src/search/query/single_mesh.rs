@@ -14,7 +14,7 @@ use crate::kernel::mesh::{
 use crate::lanes::{F, M, U, outlined};
 use crate::search::Searcher;
 use crate::search::mesh::{NONE, ends_of_segments};
-use crate::snapshot::{Instance, RaySegment, Row};
+use crate::snapshot::{Instance, Row, leaving_facet};
 
 /// Rays of a caller, and the only mesh of the scene.
 #[derive(Clone, Copy)]
@@ -151,7 +151,7 @@ impl<S: Simd> Searcher<'_, S> {
             };
             rays.start(self.s, begin, end, of.query.leaving(self.s, at).facets_of(self.s, of.instance.prim));
         }
-        let mut exact = of.resolver(self.snapshot, group.at);
+        let mut exact = of.resolver(group.at);
         let common_origin = if of.any { bundle.common_origin.for_any() } else { bundle.common_origin };
         common_origin.search(self.s, &of.instance.tree.tree, self.visits, rays, &mut exact);
         self.count_visits();
@@ -210,7 +210,7 @@ impl<S: Simd> Searcher<'_, S> {
     fn find_each(&mut self, of: &MeshQuery<'_>, packet: &Group<S>) -> U<S> {
         of.query.rays.prefetch(packet.start(GROUP));
         let leaving = of.query.leaving(self.s, packet.at).facets_of(self.s, of.instance.prim);
-        let mut exact = of.resolver(self.snapshot, packet.at);
+        let mut exact = of.resolver(packet.at);
         let lines = of.query.own_lines(self.s, packet.at, of.instance, packet.live[0]);
         let slots = self.ray_setup(&lines, of.instance).search(
             self.s,
@@ -261,14 +261,13 @@ impl<S: Simd> Searcher<'_, S> {
 
 impl<'a> MeshQuery<'a> {
     /// The exact resolver of a group of packets whose first ray is `at`.
-    fn resolver(&self, snapshot: &'a Snapshot, at: usize) -> ClosestOfQuery<'a> {
-        ClosestOfQuery { snapshot, of: *self, at }
+    fn resolver(&self, at: usize) -> ClosestOfQuery<'a> {
+        ClosestOfQuery { of: *self, at }
     }
 }
 
 /// Exact hits of a caller's rays on a single mesh.
 struct ClosestOfQuery<'a> {
-    snapshot: &'a Snapshot,
     of: MeshQuery<'a>,
     /// The ray of lane 0.
     at: usize,
@@ -284,11 +283,11 @@ impl ExactResolver for ClosestOfQuery<'_> {
     #[inline(never)]
     fn decide(&mut self, lane: usize, facet: u32, held: Option<u32>) -> Option<f64> {
         let (ray, span, leaving) = self.of.query.segment(self.at + lane);
-        let prim = self.of.instance.prim;
-        let cross = |facet: u32| self.snapshot.cross_part(prim, Some(facet), &ray, span, leaving);
-        let hit = cross(facet)?;
-        let segment = RaySegment::new(&ray, span, leaving);
-        let other = held.and_then(cross);
-        other.is_none_or(|other| self.snapshot.precedes(&segment, &hit, &other)).then_some(hit.crossing.t)
+        let (mesh, leaving) = (self.of.mesh, leaving_facet(self.of.instance.prim, leaving));
+        let own = mesh.own_ray(&ray);
+        match held {
+            Some(held) => mesh.met_before([facet, held], &own, span, leaving),
+            None => mesh.locate_piece(facet, &own, span, leaving).map(|(at, _)| at.t),
+        }
     }
 }
