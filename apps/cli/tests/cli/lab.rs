@@ -33,7 +33,7 @@ fn rays_of_a_file_are_traced_and_summed_up() {
 
 /// A floor of two triangles from 3 m above, a ball that throws a shadow on it, and a lamp.
 const LIT: &str = "camera \"c\" { eye 0 3 0; target 0 0 0; up 0 0 -1; fov 60 }\nmatte \"m\" { color 0.7 }\n\
-    box \"floor\" material=\"m\" { from -9 -1 -9; to 9 0 9 }\n\
+    box \"floor\" material=\"m\" { min -9 -1 -9; max 9 0 9 }\n\
     sphere \"ball\" material=\"m\" { center 0.8 0.5 0; radius 0.3 }\n\
     point-light \"lamp\" { position 1 4 0; intensity 9 }\n";
 
