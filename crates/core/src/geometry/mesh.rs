@@ -7,9 +7,9 @@ use glam::DVec3;
 use super::crossings::Crossings;
 use super::parametrization::{BARYCENTRIC, in_triangle};
 use super::subdivision::MOST_LEVELS;
-use super::triangle::{area, meet_plane, meet_together, meet_triangle, unit_normal, weights};
+use super::triangle::{area, meet_together, meet_triangle, met_beside, unit_normal, weights};
 use super::{FacetRoot, Geometry, Parametrization};
-use crate::exact::{Bounded, Located, Number, Vector, Verdict};
+use crate::exact::{Located, Number, Vector, Verdict};
 use crate::part::Given;
 use crate::solid::Passage;
 use crate::{
@@ -115,20 +115,11 @@ impl Mesh {
         span: Span,
         leaving: Option<u32>,
     ) -> Option<f64> {
-        let (met, _) = self.locate_piece(triangle, own, span, leaving)?;
+        if !own.is_valid() || leaving.is_some_and(|left| self.triangles.lie_in_one_place(left, triangle)) {
+            return None;
+        }
         let [corners, of_held] = [triangle, held].map(|triangle| self.triangles.corners(triangle));
-        let held_at = meet_plane(&of_held, own).and_then(|root| match root {
-            Some(root) => Bounded::locate(&root, span),
-            None => Ok(None),
-        });
-        // Where `f64` does not say where the other is met, it may be anywhere.
-        let held_at = held_at.ok().flatten().unwrap_or(Located { t: met.t, error: f64::INFINITY });
-        let order = met.order(
-            &held_at,
-            || meet_together(&corners, &of_held, own),
-            || [&corners, &of_held].map(|corners| meet_plane(corners, own)),
-            || [&corners, &of_held].map(|corners| meet_plane(corners, own)),
-        );
+        let (met, order) = met_beside(&corners, &of_held, own, span)?;
         order.then(triangle.cmp(&held)).is_lt().then_some(met.t)
     }
 

@@ -7,7 +7,8 @@ use glam::{DVec2, DVec3};
 use super::parametrization::{BARYCENTRIC, in_triangle};
 use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{
-    Difference, Dyadic, Located, Number, Root, Vector, Verdict, count_tie, sign_of_determinant,
+    Bounded, Difference, Dyadic, Located, Number, Root, Vector, Verdict, count_tie, decide,
+    sign_of_determinant,
 };
 use crate::numeric::{EDGE_ROUNDING, EDGE_VALUE_ERROR, NORMAL_SINE};
 use crate::part::Given;
@@ -99,8 +100,7 @@ pub(super) fn meet_triangle<N: Number>(
     span: Span,
     facet: u32,
 ) -> Verdict<Option<FacetRoot<N>>> {
-    let signs = sides(corners, ray);
-    if signs.contains(&Ordering::Less) && signs.contains(&Ordering::Greater) {
+    if are_opposite(&sides(corners, ray)) {
         return Ok(None);
     }
     match meet_plane(corners, ray)? {
@@ -110,7 +110,7 @@ pub(super) fn meet_triangle<N: Number>(
 }
 
 /// Where a ray meets the plane of a triangle, whether within the triangle or not; nowhere where it runs within the plane.
-pub(super) fn meet_plane<N: Number>(corners: &[DVec3; 3], ray: &Ray) -> Verdict<Option<Root<N>>> {
+fn meet_plane<N: Number>(corners: &[DVec3; 3], ray: &Ray) -> Verdict<Option<Root<N>>> {
     let a = Vector::<N>::of(corners[0]).minus(&Vector::of(ray.origin));
     let direction = Vector::of(ray.direction);
     let normal = area(corners);
@@ -129,15 +129,24 @@ fn sides(corners: &[DVec3; 3], ray: &Ray) -> [Ordering; 3] {
             Ordering::Equal
         }
     });
-    if certain.contains(&Ordering::Less) && certain.contains(&Ordering::Greater) {
+    if are_opposite(&certain) {
         return certain;
     }
-    let [a, b, c] = *corners;
-    let edges = [[c, b], [a, c], [b, a]];
+    let edges = edges(corners);
     std::array::from_fn(|i| match certain[i] {
         Ordering::Equal => side_of_edge(edges[i], ray),
         sign => sign,
     })
+}
+
+/// The edges bc, ca and ab.
+fn edges(&[a, b, c]: &[DVec3; 3]) -> [[DVec3; 2]; 3] {
+    [[c, b], [a, c], [b, a]]
+}
+
+/// Whether a line passes by a triangle: two of its volumes have opposite signs.
+fn are_opposite(signs: &[Ordering; 3]) -> bool {
+    signs.contains(&Ordering::Less) && signs.contains(&Ordering::Greater)
 }
 
 /// The sign of the volume that an edge spans with the direction as seen from the origin; 0 where the line of the ray meets
@@ -150,30 +159,60 @@ fn side_of_edge([p, q]: [DVec3; 2], ray: &Ray) -> Ordering {
 /// Whether a ray meets two triangles, both of which it meets, at one point for a reason that is seen without working out where:
 /// it passes through an edge or a corner of both, or they lie in one plane.
 pub(super) fn meet_together(first: &[DVec3; 3], second: &[DVec3; 3], ray: &Ray) -> bool {
-    let common = |p: &DVec3| second.contains(p);
-    let [mut a, mut b, mut c] = *first;
-    let through = |p: DVec3, q: DVec3| side_of_edge([p, q], ray).is_eq();
-    let at_edge_or_corner = match first.map(|p| common(&p)) {
+    are_together(first, second, |edge| side_of_edge(edges(first)[edge], ray).is_eq())
+}
+
+/// The same where it is known whether the line of the ray meets the lines of the first one's edges bc, ca and ab.
+fn are_together(first: &[DVec3; 3], second: &[DVec3; 3], through: impl Fn(usize) -> bool) -> bool {
+    let common = first.map(|p| second.contains(&p));
+    let at_edge_or_corner = match common {
         [true, true, true] => true,
-        [true, true, false] => through(a, b),
-        [false, true, true] => through(b, c),
-        [true, false, true] => through(c, a),
+        [false, true, true] => through(0),
+        [true, false, true] => through(1),
+        [true, true, false] => through(2),
+        // The line lies in the planes that it spans with both edges at a corner: it is the line in which they cross.
+        [true, false, false] => through(1) && through(2),
+        [false, true, false] => through(2) && through(0),
+        [false, false, true] => through(0) && through(1),
         [false, false, false] => false,
-        [_, at_b, at_c] => {
-            if at_b {
-                (a, b) = (b, a);
-            } else if at_c {
-                (a, c) = (c, a);
-            }
-            // The line lies in the planes that it spans with both edges: it is the line in which they cross.
-            through(a, b) && through(a, c)
-        }
     };
     let together = at_edge_or_corner || second.iter().all(|p| common_plane(first, *p));
     if together {
         count_tie();
     }
     together
+}
+
+/// Where a ray meets a triangle, and how that compares with where it meets another that it is known to meet; `None` where it misses.
+pub(super) fn met_beside(
+    corners: &[DVec3; 3],
+    held: &[DVec3; 3],
+    ray: &Ray,
+    span: Span,
+) -> Option<(Located, Ordering)> {
+    let signs = sides(corners, ray);
+    if are_opposite(&signs) {
+        return None;
+    }
+    let met = decide(|| locate::<Bounded>(corners, ray, span), || locate::<Dyadic>(corners, ray, span))?;
+    // Where `f64` does not say where the other is met, it may be anywhere.
+    let held_at = locate::<Bounded>(held, ray, span).ok().flatten();
+    let held_at = held_at.unwrap_or(Located { t: met.t, error: f64::INFINITY });
+    let order = met.order(
+        &held_at,
+        || are_together(corners, held, |edge| signs[edge].is_eq()),
+        || [corners, held].map(|corners| meet_plane(corners, ray)),
+        || [corners, held].map(|corners| meet_plane(corners, ray)),
+    );
+    Some((met, order))
+}
+
+/// Where on a span a ray meets the plane of a triangle.
+fn locate<N: Number>(corners: &[DVec3; 3], ray: &Ray, span: Span) -> Verdict<Option<Located>> {
+    match meet_plane::<N>(corners, ray)? {
+        Some(root) => N::locate(&root, span),
+        None => Ok(None),
+    }
 }
 
 /// Whether a point lies in the plane of a triangle.
@@ -362,6 +401,11 @@ mod tests {
                 for eye in [eye, eye.round()] {
                     let ray = Ray::new(eye, at - eye);
                     let roots = [&first, &second].map(|corners| exactly(corners, &ray));
+                    if let [a, Some(b)] = &roots {
+                        let everywhere = Span { min: f64::NEG_INFINITY, max: f64::INFINITY };
+                        let order = met_beside(&first, &second, &ray, everywhere).map(|(_, order)| order);
+                        prop_assert_eq!(order, a.as_ref().map(|a| a.compare(b).unwrap()));
+                    }
                     if let [Some(a), Some(b)] = roots {
                         let equal = a.compare(&b).unwrap().is_eq();
                         let together = meet_together(&first, &second, &ray);
