@@ -22,6 +22,11 @@ const MOST: u64 = 1032;
 /// # Errors
 /// A file that cannot be written; a size without pixels.
 pub fn write_exr(path: &Path, size: [u32; 2], pixel: impl Fn(u32, u32) -> [f32; 3] + Sync) -> io::Result<()> {
+    if size.contains(&0) {
+        let [width, height] = size;
+        let message = format!("{width} x {height} pixels are no picture");
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
+    }
     // It is written with jumps back to its start. Where bytes go straight out, it is made in memory first.
     if !atomic::is_straight(path) {
         return atomic::write(path, |out| encode(size, pixel, out));
