@@ -14,6 +14,9 @@ use crate::search::{Packet, ShadowRays, Shadows, ToLight, drift};
 use crate::snapshot::LightRow;
 use crate::stream::Batch;
 
+/// What packets of the chunk have, each.
+type OfChunk<T> = SmallVec<[T; CHUNK]>;
+
 /// Adds what a light contributes to the first packets of the chunk.
 struct AddLight<'t, 'a, S: Simd, B> {
     shader: &'t mut Shader<'a, S>,
@@ -108,7 +111,7 @@ impl<S: Simd, B: Batch<S>> AddLight<'_, '_, S, B> {
     fn add_past_meshes<E: Emitter>(&mut self, light: &E, smooth: bool) -> Faced {
         let color = F3::of(F::splat(self.shader.s, 0.0), light.color());
         let mut faced = Faced::default();
-        let mut facing: SmallVec<[Facing<S>; CHUNK]> = SmallVec::new();
+        let mut facing: OfChunk<Facing<S>> = SmallVec::new();
         for packet in 0..self.count.min(CHUNK) {
             facing.push(face(self.shader.chunk, light, packet, smooth, &mut faced));
         }
@@ -283,16 +286,15 @@ impl<S: Simd> Shader<'_, S> {
             #[inline(always)]
             || {
                 let row = &self.search.snapshot.light_rows()[light];
-                let mut packets: SmallVec<[(usize, Packet<'_, S, B::Precise>); CHUNK]> = SmallVec::new();
+                let mut packets: OfChunk<(usize, Packet<'_, S, B::Precise>)> = SmallVec::new();
                 for packet in (first..facing.len()).filter(|&packet| facing[packet].lanes.any()) {
                     packets.push((packet, batch.packet(self.s, self.chunk.at[packet])));
                 }
-                let mut segments: SmallVec<[ToLight<'_, S, B::Precise>; CHUNK]> = SmallVec::new();
+                let mut segments: OfChunk<ToLight<'_, S, B::Precise>> = SmallVec::new();
                 for (number, packet) in &packets {
                     segments.push(ToLight { packet, from: self.leaving(*number), light: row });
                 }
-                let mut shadows: SmallVec<[Shadows<'_, S, ToLight<'_, S, B::Precise>>; CHUNK]> =
-                    SmallVec::new();
+                let mut shadows: OfChunk<Shadows<'_, S, _>> = SmallVec::new();
                 for ((number, _), segments) in packets.iter().zip(&segments) {
                     let rays = self.shadow_rays(*number, row, &facing[*number]);
                     shadows.push(Shadows { segments, rays, open: rays.live });
