@@ -273,6 +273,10 @@ impl ApplicationHandler<Wake> for App {
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         match self.viewer.take_next() {
             Some(Next::Close) => {
+                // What still has to end does so unseen.
+                if let Some(screen) = &self.screen {
+                    screen.window.set_visible(false);
+                }
                 self.viewer.document.settle();
                 // There are no edits to be kept any more.
                 let _ = self.end_keeping(None);

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::browse::{Browser, Purpose};
-use crate::guard::{Answer, Due, Next, Told};
+use crate::guard::{Answer, Due, Next, Question, Told};
 use crate::viewer::{Viewer, Wanted};
 
 impl Viewer {
@@ -74,6 +74,9 @@ impl Viewer {
 
     /// Answers what is asked.
     pub(crate) fn answer(&mut self, answer: Answer) {
+        if let (Some(Question::Picture(_)), Answer::GiveUp) = (self.guard.question(), answer) {
+            self.pictures.cancel();
+        }
         let told = self.guard.answer(answer, &mut self.document);
         self.tell(told);
     }
@@ -81,6 +84,14 @@ impl Viewer {
     /// What is to be done now, once; a file to be saved to is asked for here.
     pub(crate) fn take_next(&mut self) -> Option<Next> {
         match self.guard.take_due()? {
+            Due::Go(Next::Close) => match self.pictures.unfinished() {
+                Some(path) => {
+                    self.guard.ask_about_picture(path.to_owned());
+                    self.stale.panel = true;
+                    None
+                }
+                None => Some(Next::Close),
+            },
             Due::Go(next) => Some(next),
             Due::Choose(next) => {
                 self.save_elsewhere(next);

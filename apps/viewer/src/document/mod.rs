@@ -19,8 +19,9 @@ use crate::recovery::{Kept, Origin};
 /// The scene shown when none is named.
 const WELCOME: &str = include_str!("../../../../scenes/gallery/welcome.kdl");
 
-/// What a new scene begins with: something to stand on, light and a view.
-const EMPTY: &str = "camera \"main\" { eye 3 2.5 6; target 0 0.5 0; fov 40 }
+/// What a new scene begins with: something to stand on, light, a sky and a view.
+const EMPTY: &str = "settings { background 0.35 0.42 0.5 }
+camera \"main\" { eye 3 2.5 6; target 0 0.5 0; fov 40 }
 directional-light \"sun\" { direction -1 -2 -1.5; irradiance 2 }
 ambient-light \"sky\" { radiance 0.25 }
 matte \"grey\" { color 0.6 }

@@ -55,6 +55,8 @@ pub(crate) enum Question {
     Changed(Option<Next>),
     /// An earlier run has kept edits that were not saved.
     Recovered(Kept),
+    /// The window is to close, and a picture for that file is still being made.
+    Picture(PathBuf),
 }
 
 /// What the person may answer.
@@ -102,6 +104,11 @@ impl Guard {
     /// Offers edits that an earlier run has kept.
     pub(crate) fn offer(&mut self, kept: Kept) {
         self.question = Some(Question::Recovered(kept));
+    }
+
+    /// Asks whether the window is to close though a picture is being made.
+    pub(crate) fn ask_about_picture(&mut self, path: PathBuf) {
+        self.question = Some(Question::Picture(path));
     }
 
     /// What is to be done now, once.
@@ -168,7 +175,10 @@ impl Guard {
                 kept.forget();
                 self.go(None)
             }
-            (Question::Recovered(_), Answer::Elsewhere) | (_, Answer::Cancel) => self.go(None),
+            (Question::Picture(_), Answer::GiveUp) => self.go(Some(Next::Close)),
+            (Question::Recovered(_), Answer::Elsewhere)
+            | (Question::Picture(_), Answer::Write | Answer::Elsewhere)
+            | (_, Answer::Cancel) => self.go(None),
         }
     }
 

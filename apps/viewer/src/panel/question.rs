@@ -119,6 +119,12 @@ fn words(question: &Question, viewer: &Viewer) -> Words {
             usual: Answer::Cancel,
         },
         Question::Recovered(kept) => recovered(kept),
+        Question::Picture(path) => Words {
+            title: "Close though a picture is being made?".to_owned(),
+            text: format!("{} is not written if the window closes now.", path.display()),
+            buttons: vec![(Answer::GiveUp, "Give it up"), (Answer::Cancel, "Keep the window open")],
+            usual: Answer::Cancel,
+        },
     }
 }
 

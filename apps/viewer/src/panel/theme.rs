@@ -28,6 +28,8 @@ pub(crate) fn set_theme(context: &Context) {
         style.spacing.indent = 12.0;
         style.spacing.slider_width = 96.0;
         style.spacing.combo_width = 96.0;
+        // Room for all kinds of the longest list.
+        style.spacing.combo_height = 420.0;
         for (name, size) in [(TextStyle::Body, 12.5), (TextStyle::Button, 12.5), (TextStyle::Small, 10.5)] {
             if let Some(font) = style.text_styles.get_mut(&name) {
                 font.size = size;

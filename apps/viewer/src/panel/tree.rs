@@ -155,11 +155,10 @@ fn show_row(ui: &mut Ui, viewer: &mut Viewer, rows: &[Row], row: &Row) {
             making::rename(viewer);
         } else if label.clicked() {
             let held = ui.input(|input| input.modifiers);
-            let alone = viewer.selection.ids() == [row.id];
             match () {
                 () if held.shift => viewer.select_all(viewer.selection.with(range(viewer, rows, row.id))),
                 () if held.command || held.ctrl => viewer.click_on(Some(row.id), Picking::Toggle),
-                () => viewer.select(if alone { None } else { Some(row.id) }),
+                () => viewer.select(Some(row.id)),
             }
         }
         if lighting::shines(viewer.document.scene(), row.id) {

@@ -105,6 +105,12 @@ impl Pictures {
         self.under_way.as_ref()
     }
 
+    /// The file of a picture that is being made and has not been given up.
+    pub(crate) fn unfinished(&self) -> Option<&Path> {
+        let under_way = self.under_way.as_ref().filter(|under_way| !under_way.control.is_cancelled());
+        under_way.map(|under_way| under_way.path.as_path())
+    }
+
     /// Gives up the picture that is being made.
     pub(crate) fn cancel(&self) {
         if let Some(under_way) = &self.under_way {

@@ -7,6 +7,7 @@ use catoptra_tracer::{Film, Pool, Snapshot, backend_named, render};
 
 use super::*;
 use crate::document::Document;
+use crate::guard::{Answer, Next, Question};
 use crate::loader::{self, Opened};
 use crate::pass::PASSES;
 
@@ -157,4 +158,23 @@ fn without_a_file_it_goes_to_the_persons_pictures() {
     let place = viewer.picture_place();
     assert_eq!(place.parent().map(Path::to_owned), pictures_folder());
     assert!(place.file_name().unwrap().to_string_lossy().starts_with("welcome"));
+}
+
+#[test]
+fn closing_asks_while_a_picture_is_made() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut viewer = viewer(folder.path(), "");
+    let (spec, path) = (spec(&mut viewer), folder.path().join("a.png"));
+    viewer.want_picture(path.clone(), spec);
+    let order = viewer.take_picture_order().unwrap();
+    viewer.leave(Next::Close);
+    assert_eq!(viewer.take_next(), None);
+    assert_eq!(viewer.guard.question(), Some(&Question::Picture(path)));
+    viewer.answer(Answer::Cancel);
+    assert_eq!((viewer.take_next(), viewer.guard.question()), (None, None));
+    viewer.leave(Next::Close);
+    assert_eq!(viewer.take_next(), None);
+    viewer.answer(Answer::GiveUp);
+    assert_eq!(viewer.take_next(), Some(Next::Close));
+    assert!(make::make(&order, 1).is_err() && !folder.path().join("a.png").exists());
 }
