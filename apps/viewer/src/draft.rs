@@ -5,7 +5,7 @@ use catoptra_core::Integrator;
 use catoptra_tracer::{LampLight, View};
 
 /// Rays to a lamp in a draft: the fewest that the tracer sends.
-const LAMP_RAYS: u32 = 2;
+const LAMP_RAYS: u32 = 4;
 
 /// Rays that could add less than this share of what they meet are left out of a draft: of white, a step of 13 levels in 255.
 const CUTOFF: f32 = 0.05;

@@ -111,7 +111,7 @@ pub struct View {
     /// In how many sequences that know nothing of each other samples are counted off in turn; 1 is the most even.
     pub sequences: u32,
     /// Rays to a lamp from a point where it has no closed form, in all samples of a pixel together; each sample has
-    /// four at least, or two where no more than two are asked for.
+    /// four at least.
     pub lamp_rays: u32,
     /// How light from surfaces is found.
     pub lamp_light: LampLight,
@@ -278,9 +278,8 @@ impl View {
 
     /// Rays to a lamp from a point that one sample leads to, where it has no closed form.
     pub(crate) fn lamp_rays_of_sample(&self) -> u32 {
-        // Fewer would tell too little of how much of the lamp is open, unless so few are wanted at all.
-        let least = self.lamp_rays.clamp(2, 4);
-        self.lamp_rays.div_ceil(self.samples.max(1)).max(least).next_multiple_of(2)
+        // Fewer would tell too little of how much of the lamp is open.
+        self.lamp_rays.div_ceil(self.samples.max(1)).max(4).next_multiple_of(2)
     }
 
     /// The part of the picture that is traced: what of the crop lies within it, or all of it.
