@@ -18,7 +18,8 @@ use crate::document::Document;
 use crate::loader::Opened;
 use crate::viewer::Viewer;
 
-const TEXT: &str = "image-texture \"wood\" { file \"wood.png\"; wrap-v \"clamp\" }\n\
+const TEXT: &str = "settings { background 0.1 0.2 0.3 }\n\
+    image-texture \"wood\" { file \"wood.png\"; wrap-v \"clamp\" }\n\
     noise-texture \"noise\"\nchecker-texture \"tiles\" { scale 2 3 }\nbrick-texture \"bricks\"\nmarble-texture \"marble\"\n\
     matte \"grey\" { color 0.5 0.4 0.3; reflectiveness 0.2 }\n\
     phong \"worn\" { diffuse 0.8 texture=\"wood\"; reflectiveness 0.5 texture=\"noise\" channel=\"g\"\n\
