@@ -150,6 +150,17 @@ fn a_ray_through_a_shared_edge_meets_both_triangles() {
 }
 
 #[test]
+fn what_a_ray_starts_on_it_does_not_meet() {
+    let caster = Caster::from_triangles(&SQUARE, &HALVES).unwrap();
+    let (origins, down) = ([[0.75, 0.5, 0.0]; 20], [[0.0, 0.0, -1.0]; 20]);
+    let rays = RayColumns::new(&origins, &down).unwrap();
+    assert_eq!(caster.nearest(&rays.get(0).unwrap()), None);
+    let hits = caster.nearest_many(&rays, &pool()).unwrap();
+    assert!((0..rays.len()).all(|at| hits.t(at).is_none()));
+    assert_eq!(caster.any_many(&rays, &pool()).unwrap(), [false; 20]);
+}
+
+#[test]
 fn bad_triangles_and_bad_rays_are_refused() {
     let none: [[u32; 3]; 0] = [];
     assert!(Caster::from_triangles(&SQUARE, &none).is_err());

@@ -139,7 +139,10 @@ impl<'a> RayColumns<'a> {
                 rays.clone().try_for_each(|at| self.line(at).map(drop))?;
             }
             match self.ends {
-                None => (block.min, block.max) = ([0.0; RAYS_PER_BLOCK], [f64::INFINITY; RAYS_PER_BLOCK]),
+                None => {
+                    let Span { min, max } = Span::AHEAD;
+                    (block.min, block.max) = ([min; RAYS_PER_BLOCK], [max; RAYS_PER_BLOCK]);
+                }
                 Some(ends) => {
                     for (lane, &ends) in ends[rays].iter().enumerate() {
                         let span = checked_span(ends)?;
