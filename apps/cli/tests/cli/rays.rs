@@ -1,6 +1,7 @@
 //! Do `catoptra pick` and `catoptra cast` say what rays meet, and what is wrong with the question?
 
 use std::fs;
+use std::path::Path;
 
 use serde_json::Value;
 
@@ -46,15 +47,18 @@ fn pixels_that_are_none_are_refused() {
     refused("scene.kdl 0 0 --camera frnt", &["did you mean `front`?"]);
 }
 
+/// What is answered about the rays in a folder.
+fn cast(folder: &Path, more: &[&str]) -> String {
+    let ran = catoptra(folder, &[&["cast", "scene.kdl", "rays"], more].concat());
+    assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{more:?}");
+    ran.out
+}
+
 #[test]
 fn rays_are_answered_line_by_line() {
     let folder = folder();
     fs::write(folder.path().join("rays"), RAYS).unwrap();
-    let cast = |more: &[&str]| {
-        let ran = catoptra(folder.path(), &[&["cast", "scene.kdl", "rays"], more].concat());
-        assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{more:?}");
-        ran.out
-    };
+    let cast = |more: &[&str]| cast(folder.path(), more);
     let nearest = "# down\n7 ball 0 0 2 0 0 1 0\n\n4.5 floor 0 3 0 0 0 1 0\nmiss\nmiss\n";
     for more in [&[][..], &["--backend", "oracle"], &["--threads", "1"]] {
         assert_eq!(cast(more), nearest);
@@ -69,11 +73,7 @@ fn rays_are_answered_line_by_line() {
 fn one_thing_can_be_left_out() {
     let folder = folder();
     fs::write(folder.path().join("rays"), RAYS).unwrap();
-    let cast = |more: &[&str]| {
-        let ran = catoptra(folder.path(), &[&["cast", "scene.kdl", "rays"], more].concat());
-        assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{more:?}");
-        ran.out
-    };
+    let cast = |more: &[&str]| cast(folder.path(), more);
     assert_eq!(
         cast(&["--without", "ball"]),
         "# down\n9 floor 0 0 0 0 0 1 0\n\n4.5 floor 0 3 0 0 0 1 0\nmiss\nmiss\n"

@@ -46,3 +46,10 @@ pub(crate) struct Searcher<'a, S: Simd> {
     /// Whether every ray stays outside all convex solids.
     pub(crate) outside: bool,
 }
+
+impl<'a, S: Simd> Searcher<'a, S> {
+    /// That has searched nothing yet; `outside` where every ray stays outside all convex solids.
+    pub(crate) fn new(s: S, snapshot: &'a Snapshot, visits: &'a mut Visits, outside: bool) -> Self {
+        Self { s, snapshot, stats: Stats::default(), visits, later: Later::default(), outside }
+    }
+}

@@ -8,7 +8,6 @@ use super::Searcher;
 use crate::accel::{Node8, WIDTH};
 use crate::lanes::{D3, F, F3, M, magnitude, narrow3, widen3};
 use crate::numeric::VIEW_MARGIN;
-use crate::snapshot::Row;
 
 /// Planes of a cone: four edges of a lamp, the horizon, and the surface.
 const MOST_PLANES: usize = 6;
@@ -27,9 +26,8 @@ impl<S: Simd> Searcher<'_, S> {
     /// The lanes whose cones may hold something of a mesh, which is a shape of that number. Never a false no; a yes may be false.
     #[inline(always)]
     pub(crate) fn reaches_into(&mut self, prim: u32, cones: &ViewCones<S>) -> M<S> {
-        let (s, columns) = (self.s, self.snapshot.columns());
-        let Row::Instance(row) = columns.rows[prim as usize] else { return cones.lanes };
-        let instance = &columns.instances[row as usize];
+        let s = self.s;
+        let Some(instance) = self.snapshot.columns().instance(prim) else { return cones.lanes };
         let tip = narrow3(instance.own_points(s, cones.tip));
         let planes = cones.planes.map(|plane| narrow3(instance.own_vectors(s, widen3(plane))));
         let tree = &instance.tree.tree;

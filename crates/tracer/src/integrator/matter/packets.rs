@@ -17,7 +17,7 @@ use crate::integrator::{Integrate, Trees};
 use crate::kernel::mesh::Visits;
 use crate::lanes::{F, Work, at_level, outlined};
 use crate::sample::Sample;
-use crate::search::{HitColumns, Later, PreciseRays, Searcher, bundle_room};
+use crate::search::{HitColumns, PreciseRays, Searcher, bundle_room};
 use crate::stream::{Batch, CameraPackets, CameraRays, Part, Queue};
 use crate::{Frame, Hit, Instructions, Region, Size, Stats, SurfaceId, Tile};
 
@@ -165,14 +165,7 @@ impl Work for FindFirst<'_> {
         let Self { frame, sample, tile, room } = self;
         let Room { camera: rays, visits, candidates: [all, visible], hits, .. } = room;
         let (snapshot, view) = (frame.snapshot, frame.view);
-        let mut search = Searcher {
-            s,
-            snapshot,
-            stats: Stats::default(),
-            visits,
-            outside: false,
-            later: Later::default(),
-        };
+        let mut search = Searcher::new(s, snapshot, visits, false);
         let region = Region::from(Size::new(tile.width, tile.height));
         all.all(snapshot.columns());
         let seen = if view.skip.hidden && frame.is_pinhole() {
@@ -227,14 +220,7 @@ impl Work for FindNext<'_> {
         let Self { frame, room } = self;
         let Room { queue, visits, candidates: [all, _], found, rays, hits, .. } = room;
         let snapshot = frame.snapshot;
-        let mut search = Searcher {
-            s,
-            snapshot,
-            stats: Stats::default(),
-            visits,
-            outside: false,
-            later: Later::default(),
-        };
+        let mut search = Searcher::new(s, snapshot, visits, false);
         queue.start(snapshot.origin_in_frame(), f64::INFINITY);
         for TileRay { path, pixel } in &*rays {
             queue.push_one::<S>(&path.ray, path.leaving, *pixel);

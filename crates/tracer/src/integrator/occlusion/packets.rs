@@ -12,7 +12,7 @@ use crate::kernel::mesh::Visits;
 use crate::lanes::{F, F3, M, U, Work, at_level, narrow3, outlined, share_of_one, splat3, widen3};
 use crate::sample::Sample;
 use crate::sampler::pairs;
-use crate::search::{Hits, Later, OwnSegments, Packet, Searcher};
+use crate::search::{Hits, OwnSegments, Packet, Searcher};
 use crate::stream::{Batch, CameraPackets, CameraRays, Part, Queue, QueuedRays};
 use crate::{Frame, Instructions, Region, Size, Stats, Tile};
 
@@ -52,12 +52,8 @@ impl Work for TraceTile<'_> {
     fn with<S: Simd>(self, s: S) -> Stats {
         let Self { frame, tile, room: Room { rays, queue, visits, all, visible } } = self;
         let (snapshot, view) = (frame.snapshot, frame.view);
-        let (stats, outside) = (Stats::default(), frame.outside_solids);
-        let mut tracer = OcclusionTracer {
-            s,
-            search: Searcher { s, snapshot, stats, visits, outside, later: Later::default() },
-            queue,
-        };
+        let outside = frame.outside_solids;
+        let mut tracer = OcclusionTracer { s, search: Searcher::new(s, snapshot, visits, outside), queue };
         let region = Region::from(Size::new(tile.width, tile.height));
         all.all(snapshot.columns());
         let seen = if view.skip.hidden && frame.is_pinhole() {

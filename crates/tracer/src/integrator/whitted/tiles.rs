@@ -17,7 +17,7 @@ use crate::cull::{Candidates, Frustum, Planner, PointBounds, TilePlan, quarters}
 use crate::kernel::mesh::Visits;
 use crate::lanes::{Work, at_level, outlined};
 use crate::sample::Sample;
-use crate::search::{BundleRoom, HitColumns, Later, Searcher, bundle_room};
+use crate::search::{BundleRoom, HitColumns, Searcher, bundle_room};
 use crate::shade::{Chunk, Gathers, LampRoom, Shader};
 use crate::stream::{Batch, CameraPackets, CameraRays, LaneBounds, Part, Queue};
 use crate::{Frame, Instructions, Region, Size, Stats, Tile};
@@ -109,7 +109,7 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, gathers: Gather
     }
     plan.start(snapshot);
     let outside = frame.outside_solids;
-    let search = Searcher { s, snapshot, stats: Stats::default(), visits, outside, later: Later::default() };
+    let search = Searcher::new(s, snapshot, visits, outside);
     let sample = Sample::new(view, 0);
     let shader =
         Shader { s, search, view, gathers, plan, chunk, lamp_room: lamps, sample, next, sent, bundle };

@@ -9,7 +9,7 @@ use fearless_simd::{Level, Simd};
 
 use single_mesh::single_mesh;
 
-use super::{Hits, Later, OwnSegments, Packet, PreciseRays, Searcher, ShadowRays, drift, kernel_rays};
+use super::{Hits, OwnSegments, Packet, PreciseRays, Searcher, ShadowRays, drift, kernel_rays};
 use crate::cull::Candidates;
 use crate::film::NOTHING;
 use crate::kernel::mesh::{Lines, Visits};
@@ -17,7 +17,7 @@ use crate::kernel::{Leaving, Target};
 use crate::lanes::{Bits, D, D3, F, F3, M, U, Work, at_level, load_wide3, narrow3, splat_wide};
 use crate::numeric::{END_ERROR, ORDINARY, POINT_ERROR};
 use crate::rays::{HitSlice, RaySlice};
-use crate::snapshot::{Instance, Row};
+use crate::snapshot::Instance;
 use crate::{Snapshot, Stats, SurfaceId};
 
 /// Rays of a caller.
@@ -263,9 +263,7 @@ impl Work for Answer<'_, '_, '_> {
     fn with<S: Simd>(self, s: S) -> Stats {
         let Self { snapshot, rays, mut answers } = self;
         let mut visits = Visits::default();
-        let stats = Stats::default();
-        let mut search =
-            Searcher { s, snapshot, stats, visits: &mut visits, outside: false, later: Later::default() };
+        let mut search = Searcher::new(s, snapshot, &mut visits, false);
         let query = RayQuery { rays, snapshot };
         match single_mesh(snapshot) {
             Some(mesh) => search.answer_of_mesh(&query, mesh, &mut answers),
@@ -364,8 +362,7 @@ impl<S: Simd> Searcher<'_, S> {
             let prim = best.prim.lane(remaining.trailing_zeros() as usize);
             let lanes = M::from_bits(self.s, remaining) & best.prim.is(prim);
             remaining &= !lanes.bits();
-            if let Row::Instance(row) = snapshot.columns().rows[prim as usize] {
-                let instance = &snapshot.columns().instances[row as usize];
+            if let Some(instance) = snapshot.columns().instance(prim) {
                 let triangles = instance.facets(self.s, best.facet, lanes);
                 let lines = self.own_lines(packet, instance, lanes);
                 let of_lane = |lane: usize| packet.segment(lane);
