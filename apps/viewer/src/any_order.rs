@@ -17,7 +17,7 @@ use crate::loader::Opened;
 use crate::making::starters::Addable;
 use crate::selection::Picking;
 use crate::viewer::{Viewer, Wanted};
-use crate::{actions, gestures, making, panel, transform};
+use crate::{actions, gestures, making, panel, transform, turns};
 
 const TEXT: &str = "\
 // everything of everything
@@ -140,7 +140,7 @@ impl Bench {
         let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, size));
         let input = egui::RawInput { screen_rect, events, ..Default::default() };
         let viewer = &mut self.viewer;
-        let _ = self.context.run_ui(input, |ui| {
+        let _ = turns::run(&self.context, input, |ui| {
             panel::show(ui, viewer, "");
         });
     }

@@ -64,6 +64,7 @@ mod shown;
 mod status;
 mod tracing;
 mod transform;
+mod turns;
 mod viewer;
 mod viewpoint;
 mod views;

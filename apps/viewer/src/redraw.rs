@@ -14,7 +14,7 @@ use crate::screen::{Fitted, Screen};
 use crate::status::{FrameFigures, REST, lamp_notes};
 use crate::tracing::Frame;
 use crate::viewer::Viewer;
-use crate::{clipped, outline, panel};
+use crate::{clipped, outline, panel, turns};
 
 /// The status line is written anew this often while frames come in.
 const STATUS_EVERY: Duration = Duration::from_millis(200);
@@ -72,7 +72,7 @@ impl App {
         let line = self.status_line(now);
         let input = screen.input.take_egui_input(&screen.window);
         let mut room = egui::Rect::ZERO;
-        let output = screen.egui.run_ui(input, |ui| room = panel::show(ui, &mut self.viewer, &line));
+        let output = turns::run(&screen.egui, input, |ui| room = panel::show(ui, &mut self.viewer, &line));
         let scale = screen.pixels_per_point();
         let pixels = |points: f32| (points * scale).round().max(0.0) as u32;
         let size = (pixels(room.width()), pixels(room.height()));

@@ -16,6 +16,7 @@ use egui::{Context, Event, Modifiers, PointerButton, Pos2, Rect, Shape};
 use super::show;
 use crate::document::Document;
 use crate::loader::Opened;
+use crate::turns;
 use crate::viewer::Viewer;
 
 const TEXT: &str = "settings { background 0.1 0.2 0.3 }\n\
@@ -59,7 +60,7 @@ impl Bench {
         let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, egui::vec2(1280.0, 2600.0)));
         let input = egui::RawInput { screen_rect, events, ..Default::default() };
         let viewer = &mut self.viewer;
-        let output = self.context.run_ui(input, |ui| {
+        let output = turns::run(&self.context, input, |ui| {
             show(ui, viewer, "");
         });
         viewer.follow_scene();
