@@ -283,6 +283,38 @@ pub(crate) const BUNDLE_TOP: f32 = 8.0 * U;
 /// rounded up.
 pub(crate) const BUNDLE_DEPTH: f32 = 8.0 * U;
 
+/// How far the places of rays that run side by side may be off from their rounding, u, and a box round them, relative to the
+/// largest; rounded up.
+pub(crate) const PARALLEL_PLACE: f32 = 4.0 * U;
+
+/// How far places and depths of rays side by side may be off from what `f64` rounds, per metre of the largest coordinate: three
+/// differences and products of two of them; rounded up by far, as that is nothing beside what `f32` rounds.
+pub(crate) const PARALLEL_WIDE: f32 = 64.0 * W as f32;
+
+/// Error of an edge's value e (q − v) − f (p − u) of rays side by side, relative to E (Q + V) + F (P + U): E and F bound the edge's
+/// components across the main axis, sheared, P and Q those of its corner, U and V those of places.
+///
+/// A sheared component a − l c, |l| ≤ 1, is off by 2u |a| and 4u |c|: of a difference each, the shear's own rounding, and that
+/// of the fused product; so edge and corner are off by 4u of their bounds. A product is off by that of both, 8u, its place's
+/// rounding by u more; then a product and a difference are rounded to the line's last component, 3u, and two fused
+/// products, 3u: at most 12u, rounded up. A box of slopes has room for as much again, as of [`BUNDLE_EDGE`].
+pub(crate) const PARALLEL_EDGE: f32 = 14.0 * U;
+
+/// Error of N·p − N_u u − N_v v of rays side by side, N = e × f of sheared edges, relative to the sum of its products' sizes with N
+/// bounded by both its products: a component along the places is off by 7u of that ((4 + 1 + 1)u of each product, u of
+/// their difference), that along the main axis by 10u; the corner by 4u, a product and the sum by 4u: 18u; what divides it
+/// afterwards is rounded, and its quotient, 2u; rounded up.
+pub(crate) const PARALLEL_TOP: f32 = 22.0 * U;
+
+/// Error of N_z of rays side by side, as of [`PARALLEL_TOP`]; rounded up.
+pub(crate) const PARALLEL_SLOPE: f32 = 12.0 * U;
+
+/// As [`PARALLEL_TOP`], in `f64`.
+pub(crate) const PRECISE_PARALLEL_TOP: f64 = 22.0 * W;
+
+/// As [`PARALLEL_SLOPE`], in `f64`.
+pub(crate) const PRECISE_PARALLEL_SLOPE: f64 = 12.0 * W;
+
 /// Error of top₁ n₂ − top₂ n₁ in `f64`, relative to each product: two roundings of products and one of a difference;
 /// rounded up.
 pub(crate) const ORDER_ERROR: f64 = 4.0 * W;

@@ -1,4 +1,4 @@
-//! Occlusion by a mesh: segments are traced as a bundle where they have a common origin, else ray by ray.
+//! Occlusion by a mesh: segments are traced as a bundle where they have a common origin or direction, else ray by ray.
 
 use catoptra_core::LaneMask;
 use fearless_simd::Simd;
@@ -55,8 +55,8 @@ impl<S: Simd> Searcher<'_, S> {
         open & slots.is(NONE)
     }
 
-    /// Closes the open segments of some packets, told by bits, that a mesh blocks, if they have a common origin; returns whether
-    /// they do.
+    /// Closes the open segments of some packets, told by bits, that a mesh blocks, if they have a common origin or direction; returns
+    /// whether they do.
     #[inline(always)]
     pub(super) fn occlude_as_bundle<G: Segments<S>>(
         &mut self,
@@ -68,14 +68,14 @@ impl<S: Simd> Searcher<'_, S> {
         let snapshot = self.snapshot;
         let Some(mesh) = snapshot.mesh_at(instance.prim) else { return true };
         let rays = &mut room[..shadows.len()];
-        let Some(common_origin) = G::bundle(shadows, self, instance, rays) else { return false };
+        let Some(bundle) = G::bundle(shadows, self, instance, rays) else { return false };
         for (number, rays) in rays.iter_mut().enumerate() {
             if which >> number & 1 == 0 {
                 rays.live = M::splat(self.s, false);
             }
         }
         let mut exact = AnyInTheWay { snapshot, mesh, prim: instance.prim, shadows: &*shadows };
-        common_origin.search(self.s, &instance.tree.tree, self.visits, rays, &mut exact);
+        bundle.search(self.s, &instance.tree.tree, self.visits, rays, &mut exact);
         self.count_visits();
         for (rays, shadows) in rays.iter().zip(shadows) {
             self.stats.settled += rays.decided;

@@ -8,7 +8,7 @@ use super::Searcher;
 use crate::Snapshot;
 use crate::cull::Candidates;
 use crate::film::NOTHING;
-use crate::kernel::mesh::{BundledRays, CommonOrigin, RaySetup};
+use crate::kernel::mesh::{AnyBundle, BundledRays, RaySetup};
 use crate::kernel::{Blocking, Kernel, Leaving, Obstacle, PlaneRow, Rays, Target, Tried};
 use crate::lanes::{Bits, F, M, U};
 use crate::numeric::CERTAIN;
@@ -67,14 +67,14 @@ pub(crate) trait Segments<S: Simd> {
         None
     }
 
-    /// The open ones of some packets as a bundle in the mesh's own space, if they have a common origin. Fills `room`, which has
+    /// The open ones of some packets as a bundle in the mesh's own space, if they have a common origin or direction. Fills `room`, which has
     /// as many places as there are packets.
     fn bundle(
         shadows: &[Shadows<'_, S, Self>],
         search: &Searcher<'_, S>,
         instance: &Instance,
         room: &mut [BundledRays<S>],
-    ) -> Option<CommonOrigin>
+    ) -> Option<AnyBundle>
     where
         Self: Sized;
 

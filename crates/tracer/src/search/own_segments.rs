@@ -9,7 +9,7 @@ use super::mesh::ends_of_segments;
 use super::occluded::{Segments, ShadowRays, Shadows};
 use super::packet::{Packet, PreciseRays};
 use crate::Snapshot;
-use crate::kernel::mesh::{BundledRays, CommonOrigin, Lines, RayBundle, RaySetup};
+use crate::kernel::mesh::{AnyBundle, BundledRays, Lines, RayBundle, RaySetup};
 use crate::lanes::M;
 use crate::snapshot::Instance;
 
@@ -28,7 +28,7 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for OwnSegments<'_, S, P> {
         search: &Searcher<'_, S>,
         instance: &Instance,
         room: &mut [BundledRays<S>],
-    ) -> Option<CommonOrigin> {
+    ) -> Option<AnyBundle> {
         let (s, reach) = (search.s, search.reach(instance));
         let mut bundle_of = |backwards: bool| {
             RayBundle::of(
@@ -50,7 +50,7 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for OwnSegments<'_, S, P> {
             let [begin, end] = ends_of_segments(s, rays.scale, bundle.slack);
             rays.start(s, begin, end, shadows.rays.leaving.facets_of(s, instance.prim));
         }
-        Some(bundle.common_origin.for_any())
+        Some(AnyBundle::Through(bundle.common_origin.for_any()))
     }
 
     #[inline(always)]

@@ -1,7 +1,8 @@
 //! Shadow rays from hits to a light. Those to a point light are traced backwards as a bundle with a common origin, those
-//! to a directional light one by one.
+//! to a directional light as one with a common direction.
 
 use catoptra_core::geometry::Mesh;
+use catoptra_core::glam::DVec3;
 use catoptra_core::{Arithmetic, Geometry, LaneMask, Ray, Span};
 use fearless_simd::Simd;
 use smallvec::SmallVec;
@@ -11,7 +12,7 @@ use super::occluded::{Segments, ShadowRays, Shadows};
 use super::packet::{Packet, PreciseRays};
 use crate::Snapshot;
 use crate::kernel::Leaving;
-use crate::kernel::mesh::{BundledRays, CommonOrigin, GROUP, Lines, RayBundle, RaySetup};
+use crate::kernel::mesh::{AnyBundle, Bundle, BundledRays, GROUP, Lines, RayBundle, RaySetup, Starts};
 use crate::lanes::{D3, F, M, pick3, splat_wide, widen3};
 use crate::numeric::{BUNDLE_STEEP, END_ERROR, POINT_ERROR, START_ERROR};
 use crate::snapshot::{Instance, LightRow};
@@ -39,16 +40,17 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
         search: &Searcher<'_, S>,
         instance: &Instance,
         room: &mut [BundledRays<S>],
-    ) -> Option<CommonOrigin> {
+    ) -> Option<AnyBundle> {
         let (s, light) = (search.s, shadows.first()?.segments.light);
-        if light.at_infinity {
-            return None;
-        }
-        let common = instance.own_points(s, splat_wide(s, light.position));
         let mut starts: SmallVec<[(D3<S>, F<S>); GROUP]> = SmallVec::new();
         for Shadows { segments, rays, open } in shadows {
             starts.push(segments.own_starts(search, rays, *open, instance));
         }
+        if light.at_infinity {
+            let sunwards = search.snapshot.mesh_at(instance.prim)?.to_object().vector(light.in_frame);
+            return bundle_along(search, shadows, &starts, sunwards, instance, room);
+        }
+        let common = instance.own_points(s, splat_wide(s, light.position));
         bundle_backwards(search, shadows, &starts, common, instance, room)
     }
 
@@ -109,6 +111,25 @@ impl<S: Simd, P: PreciseRays<S>> ToLight<'_, S, P> {
     }
 }
 
+/// The segments of some packets as a bundle of rays in one direction, of the mesh's own space as their starts.
+#[inline(always)]
+fn bundle_along<S: Simd, G>(
+    search: &Searcher<'_, S>,
+    shadows: &[Shadows<'_, S, G>],
+    starts: &[(D3<S>, F<S>)],
+    direction: DVec3,
+    instance: &Instance,
+    room: &mut [BundledRays<S>],
+) -> Option<AnyBundle> {
+    let mut all: SmallVec<[Starts<S>; GROUP]> = SmallVec::new();
+    for (&(origin, off), shadows) in starts.iter().zip(shadows) {
+        let leaving = shadows.rays.leaving.facets_of(search.s, instance.prim);
+        all.push(Starts { origin, off, live: shadows.open, leaving });
+    }
+    let bundle = Bundle::along(search.s, room, &all, direction, instance.tree.reach)?;
+    Some(AnyBundle::Along(bundle.for_any()))
+}
+
 /// The segments of some packets as a bundle of rays from where all of them end, backwards to their starts; those are given in the
 /// mesh's own space, each with how far it may be off.
 #[inline(always)]
@@ -119,7 +140,7 @@ pub(super) fn bundle_backwards<S: Simd, G>(
     common: D3<S>,
     instance: &Instance,
     room: &mut [BundledRays<S>],
-) -> Option<CommonOrigin> {
+) -> Option<AnyBundle> {
     let (s, zero) = (search.s, F::splat(search.s, 0.0));
     let bundle = RayBundle::of(
         s,
@@ -141,5 +162,6 @@ pub(super) fn bundle_backwards<S: Simd, G>(
         steepest = if steep <= steepest { steepest } else { steep };
     }
     // So close to the end that the slopes have no useful bound, rays are traced one by one.
-    (steepest < 2.0 - BUNDLE_STEEP).then(|| bundle.common_origin.for_any().with_slopes_off(steepest))
+    (steepest < 2.0 - BUNDLE_STEEP)
+        .then(|| AnyBundle::Through(bundle.common_origin.for_any().with_slopes_off(steepest)))
 }

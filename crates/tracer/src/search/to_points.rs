@@ -11,7 +11,7 @@ use super::to_light::bundle_backwards;
 use super::{Searcher, drift};
 use crate::Snapshot;
 use crate::cull::Candidates;
-use crate::kernel::mesh::{BundledRays, CommonOrigin, Lines, RaySetup};
+use crate::kernel::mesh::{AnyBundle, BundledRays, Lines, RaySetup};
 use crate::kernel::{Leaving, Rays, Target};
 use crate::lanes::{D, D3, F, M, magnitude, narrow3, splat_wide};
 use crate::numeric::START_ERROR;
@@ -63,7 +63,7 @@ impl<S: Simd> Segments<S> for ToPoints<S> {
         search: &Searcher<'_, S>,
         instance: &Instance,
         room: &mut [BundledRays<S>],
-    ) -> Option<CommonOrigin> {
+    ) -> Option<AnyBundle> {
         let s = search.s;
         let [Shadows { segments, rays, open }] = shadows else { return None };
         let common = instance.own_points(s, splat_wide(s, segments.common_end(s, *open)?));

@@ -176,13 +176,11 @@ impl<S: Simd> Shader<'_, S> {
         !shadow || (self.plan.occluders[light].is_empty() && general.is_empty())
     }
 
-    /// Whether packets of the chunk are to walk meshes together on their ways to a light; those to the sun have no common origin.
+    /// Whether packets of the chunk are to walk meshes together on their ways to a light.
     #[inline(always)]
     fn walks_together(&self, light: usize) -> bool {
         let snapshot = self.search.snapshot;
-        self.view.skip.walks
-            && !snapshot.light_rows()[light].at_infinity
-            && self.plan.occluders[light].hold_meshes(snapshot.columns())
+        self.view.skip.walks && self.plan.occluders[light].hold_meshes(snapshot.columns())
     }
 
     /// Adds what arrives of a light at the lanes of a packet that it reaches.

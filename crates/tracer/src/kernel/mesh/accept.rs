@@ -4,9 +4,10 @@ use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
+use super::bundle::{Bundle, BundledRays, Common};
 use super::edges::Prepared;
 use super::planes::Crossing;
-use super::{BundledRays, CommonOrigin, Decision, Edges, ExactResolver, RayTriangle, decide};
+use super::{Decision, Edges, ExactResolver, RayTriangle, decide};
 use crate::accel::{WIDTH, WideTree};
 use crate::kernel::bound;
 use crate::lanes::{Bits, F, M, U, outlined};
@@ -63,7 +64,7 @@ impl<S: Simd> BundledRays<S> {
     }
 }
 
-impl CommonOrigin {
+impl<C: Common> Bundle<C> {
     /// Takes over a triangle where it is nearer; returns whether it is, or may be, for any ray.
     #[inline(always)]
     pub(super) fn accept<S: Simd>(
@@ -87,7 +88,7 @@ impl CommonOrigin {
             return false;
         }
         let inside = error.less(low) | high.less(-error);
-        let crossing = rays.cross(s, &prepared.plane(at));
+        let crossing = rays.cross(s, self, &prepared.plane(at));
         let take = candidate & inside & crossing.nearer;
         let open = candidate & !take & !crossing.beside;
         if take.any() {
@@ -144,14 +145,14 @@ impl CommonOrigin {
     ) -> u64 {
         let s = rays.slot.0.token();
         let TreeTriangle { tree, slot, .. } = triangle;
-        let precise = self.precise_plane(&triangle.corners());
-        let plane = self.plane_of(&precise);
+        let precise = self.common.precise_plane(self, &triangle.corners());
+        let plane = self.common.plane_of(self, &precise);
         outlined(
             s,
             #[inline(always)]
             || {
                 let (mut open, inside) = (M::from_bits(s, lanes.open), M::from_bits(s, lanes.inside));
-                let crossing = rays.cross(s, &plane);
+                let crossing = rays.cross(s, self, &plane);
                 let take = open & inside & crossing.nearer;
                 rays.take(s, take, slot, &crossing, self.any);
                 open = open & !take & !crossing.beside;
@@ -159,8 +160,8 @@ impl CommonOrigin {
                 let both = open & inside & ahead & !rays.slot.is(u32::MAX);
                 // Surfaces so close together that depths in `f32` give no order.
                 for (held, lanes) in rays.slot.groups(both) {
-                    let held = self.precise_plane(&tree.triangle(held));
-                    let Some((m, error)) = self.order([&precise, &held]) else { continue };
+                    let held = self.common.precise_plane(self, &tree.triangle(held));
+                    let Some((m, error)) = self.common.order(self, [&precise, &held]) else { continue };
                     let (order, error) = (rays.value(s, m), F::splat(s, error));
                     let before = lanes & order.less(-error);
                     rays.take(s, before, slot, &crossing, self.any);

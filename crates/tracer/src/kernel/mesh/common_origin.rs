@@ -1,321 +1,252 @@
-//! Walks a mesh's tree with rays that have a common origin: all of them together against eight boxes at a time, and
-//! against triangles whose edges span planes with the common origin.
+//! Rays through one point: those of a camera, and backwards those to a point light.
 //!
-//! A ray is its slopes (u, v) over the axis that all rays run along, and its depth z is the parameter. An edge e that is
-//! seen from the origin in the direction p spans the plane n = e × p, so a ray's edge value is n·(u, v, 1): two fused
-//! products. The planes n, and whether all rays together pass an edge on the outside, are computed for eight triangles at
-//! a time.
+//! The place of a ray are its slopes over the axis that all rays run along. An edge e that is seen from the common origin in
+//! the direction p spans the plane n = e × p, which is the edge's line.
 
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Lane, LaneMask};
+use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::accept::{PacketRays, TreeTriangle};
-use super::edges::{Prepared, Slopes};
-use super::packets::{Packets, SeenBox};
+use super::bundle::{Bundle, BundledRays, Common, Sides};
+use super::edges::{Around, Prepared, cross, dot, largest, minus, products, seen, stored, weighted};
+use super::planes::Plane;
 use super::ray_bundle::Aim;
-use super::{ExactResolver, GROUP, LeafBlock, Visit, Visits, Waiting};
-use crate::accel::{Node8, WIDTH, WideTree};
-use crate::lanes::{Bits, F, M, U, outlined};
-use crate::numeric::{BUNDLE_BOX, BUNDLE_PAD, BUNDLE_SLOPE};
+use super::{LeafBlock, bound_eight};
+use crate::lanes::{F, MulAdd8};
+use crate::numeric::{
+    BUNDLE_BOX, BUNDLE_DEPTH, BUNDLE_EDGE, BUNDLE_PLANE, BUNDLE_SLOPE, BUNDLE_TOP, ORDER_ERROR, ORDER_SHEAR,
+    PRECISE_SLOPE_ERROR, PRECISE_TOP_ERROR,
+};
 
-/// What the rays of a bundle share: their common origin, main axis and bounds.
+/// A point that rays pass through, more or less.
 pub(crate) struct CommonOrigin {
-    /// Axes of the slopes, then the one that all rays run along.
-    pub(super) axes: [usize; 3],
-    /// 1 or −1: their sign along that axis. All space is mirrored through the zero point for those that run backwards.
-    pub(super) sign: f32,
-    /// The common origin, mirrored as the rays are, axis by axis as in `axes`.
-    pub(super) origin: [f32; 3],
-    /// How far a ray may pass the common origin by.
-    pub(super) slack: f32,
-    /// The common origin in `f64`, and how far a ray may pass that by.
-    pub(super) precise_origin: DVec3,
-    pub(super) precise_slack: f32,
+    /// How far a ray may pass it by.
+    slack: f32,
+    /// The point in `f64`, mirrored as the rays are, and how far a ray may pass that by.
+    precise: DVec3,
+    precise_slack: f32,
     /// How far slopes may be off beyond their own rounding.
-    pub(super) slopes_off: f32,
-    /// Box round the slopes of all rays, up to their error.
-    pub(super) low: [f32; 2],
-    pub(super) high: [f32; 2],
-    /// How far boxes are widened.
-    pad: f32,
-    /// Whether any crossing will do (occlusion).
-    pub(super) any: bool,
+    slopes_off: f32,
 }
 
-/// One packet of a bundle: the slopes of its rays, and their nearest hits.
-#[derive(Clone, Copy)]
-pub(crate) struct BundledRays<S: Simd> {
-    pub(crate) u: F<S>,
-    pub(crate) v: F<S>,
-    /// Box round the slopes.
-    pub(crate) slopes: [[f32; 2]; 2],
-    /// Depths between which the stretch begins.
-    pub(crate) begin: [F<S>; 2],
-    /// Depths between which the nearest crossing so far lies, or the end of the stretch.
-    pub(crate) end: [F<S>; 2],
-    /// Slot of the nearest triangle in the tree's blocks; [`u32::MAX`] for none.
-    pub(crate) slot: U<S>,
-    /// Triangle that each ray leaves from.
-    pub(crate) leaving: U<S>,
-    /// Depth per `t`.
-    pub(crate) scale: F<S>,
-    pub(crate) live: M<S>,
-    /// How often a triangle was decided on in `f64`.
-    pub(crate) decided: u64,
+/// What the bounds of edges grow with.
+pub(crate) struct RayBounds {
+    slopes: Around,
+    /// Errors of an edge's value per size of its plane's components, axis by axis, and per length of the edge.
+    shares: [f32; 3],
+    beside: f32,
 }
 
-impl<S: Simd> BundledRays<S> {
-    /// Box round the slopes of the rays that are still followed, of which there are some.
-    #[inline(always)]
-    fn around_live(&self, s: S) -> [[f32; 2]; 2] {
-        let (most, least) = (F::splat(s, f32::INFINITY), F::splat(s, f32::NEG_INFINITY));
-        let low = |slopes| F::pick(self.live, slopes, most).0.reduce_min();
-        let high = |slopes| F::pick(self.live, slopes, least).0.reduce_max();
-        [[low(self.u), low(self.v)], [high(self.u), high(self.v)]]
+/// The plane of a triangle in `f64`, seen from the common origin.
+pub(crate) struct PrecisePlane {
+    normal: DVec3,
+    top: f64,
+    /// Errors of both from `f64`: of the normal times a direction, and of the top.
+    slope_error: f64,
+    top_error: f64,
+    /// Square of the triangle's largest extent.
+    size: f64,
+    /// Depth of its deepest corner.
+    deepest: f64,
+}
+
+impl Bundle<CommonOrigin> {
+    /// Rays within a box of slopes, each at most 2 in magnitude, that pass a point by at most `slack`; through a mesh
+    /// whose corners' coordinates stay within `reach`.
+    pub(super) fn through(aim: &Aim, origin: DVec3, slack: f32, slopes: [[f32; 2]; 2], reach: f32) -> Self {
+        let ([u, v, z], sign) = (aim.axes, f64::from(aim.sign));
+        let precise = DVec3::new(origin[u] * sign, origin[v] * sign, origin[z] * sign);
+        let rounded = precise.as_vec3();
+        let off = (precise - rounded.as_dvec3()).abs().max_element() as f32;
+        let (precise_slack, slack) = (slack, (slack + off).next_up());
+        let common = CommonOrigin { slack, precise, precise_slack, slopes_off: 0.0 };
+        Self::new(aim, rounded.to_array(), slopes, [reach, 4.0 * slack], common)
     }
-}
 
-/// The packets of a walk.
-struct Group<'a, S: Simd> {
-    rays: &'a [BundledRays<S>],
-    /// The boxes round their slopes.
-    packets: &'a Packets,
-    /// The depth up to which any of them still searches.
-    far: f32,
-}
+    /// The same with slopes that may be off by `more` beside.
+    pub(crate) fn with_slopes_off(mut self, more: f32) -> Self {
+        self.common.slopes_off += more;
+        self
+    }
 
-/// A block of which rays may meet some triangles.
-struct SeenBlock<'a> {
-    leaf: LeafBlock<'a>,
-    prepared: &'a Prepared,
-    /// Triangles that rays may meet, bit by bit.
-    seen: u64,
-}
-
-impl<'a> SeenBlock<'a> {
-    #[inline(always)]
-    fn triangle(&self, at: usize) -> TreeTriangle<'a> {
-        let LeafBlock { tree, block, .. } = self.leaf;
-        TreeTriangle { tree, slot: self.leaf.slot(at), facet: tree.blocks[block].facet[at] }
+    /// At most the size of any ray's slopes, and the 1 along the main axis.
+    fn spread(&self) -> DVec3 {
+        let [u, v] = self.steepest().map(f64::from);
+        DVec3::new(u, v, 1.0)
     }
 }
 
 impl CommonOrigin {
-    /// Rays within a box of slopes, each at most 2 in magnitude, that pass a point by at most `slack`; through a mesh
-    /// whose corners' coordinates stay within `reach`.
-    pub(crate) fn new(aim: &Aim, origin: DVec3, slack: f32, slopes: [[f32; 2]; 2], reach: f32) -> Self {
-        let ([u, v, z], sign) = (aim.axes, f64::from(aim.sign));
-        let own = DVec3::new(origin[u] * sign, origin[v] * sign, origin[z] * sign);
-        let rounded = own.as_vec3();
-        let off = (own - rounded.as_dvec3()).abs().max_element() as f32;
-        let (precise_slack, slack) = (slack, (slack + off).next_up());
-        let size = reach + rounded.abs().max_element();
-        let [low, high] = slopes;
-        Self {
-            axes: aim.axes,
-            sign: aim.sign,
-            origin: rounded.to_array(),
-            slack,
-            precise_origin: own,
-            precise_slack,
-            slopes_off: 0.0,
-            low,
-            high,
-            pad: BUNDLE_PAD * size + 4.0 * slack + f32::MIN_POSITIVE,
-            any: false,
-        }
-    }
-
-    /// Searches for any crossing (occlusion) rather than the nearest.
-    pub(crate) fn for_any(self) -> Self {
-        Self { any: true, ..self }
-    }
-
-    /// The same with slopes that may be off by `more` beside.
-    pub(crate) fn with_slopes_off(self, more: f32) -> Self {
-        Self { slopes_off: self.slopes_off + more, ..self }
-    }
-
-    /// A box round slopes below 2, widened by their error, and for the rounding of its own ends.
-    #[inline(always)]
-    pub(super) fn widened(&self, [low, high]: [[f32; 2]; 2]) -> [[f32; 2]; 2] {
-        let wider = self.slopes_off + 3.0 * BUNDLE_SLOPE;
-        [[low[0] - wider, low[1] - wider], [high[0] + wider, high[1] + wider]]
-    }
-
-    /// At most the size of any ray's slopes.
-    #[inline(always)]
-    pub(super) fn steepest(&self) -> [f32; 2] {
-        let [low, high] = self.widened([self.low, self.high]);
-        [low[0].abs().max(high[0].abs()), low[1].abs().max(high[1].abs())]
-    }
-
-    /// Finds the nearest triangle for every ray of up to [`GROUP`] packets, or any. The resolver counts lanes from the
-    /// first packet's on. See [`outlined`].
-    pub(crate) fn search<S: Simd>(
-        &self,
-        s: S,
-        tree: &WideTree,
-        visits: &mut Visits,
-        rays: &mut [BundledRays<S>],
-        exact: &mut dyn ExactResolver,
-    ) {
-        outlined(
-            s,
-            #[inline(always)]
-            || self.walk(s, tree, visits, rays, exact),
-        );
-    }
-
-    #[inline(always)]
-    fn walk<S: Simd>(
-        &self,
-        s: S,
-        tree: &WideTree,
-        visits: &mut Visits,
-        rays: &mut [BundledRays<S>],
-        exact: &mut dyn ExactResolver,
-    ) {
-        let Some(mut waiting) = visits.start() else { return };
-        let mut packets = Packets::NONE;
-        for (at, rays) in rays.iter_mut().enumerate().take(GROUP) {
-            rays.slopes = self.widened(rays.slopes);
-            packets.set(at, rays.slopes, self.far(s, rays));
-        }
-        waiting.push(Visit { near: 0.0, link: 0, count: 0, packets: (1 << rays.len().min(GROUP)) - 1 });
-        let mut farthest = packets.farthest(s);
-        let ray_bounds = self.ray_bounds();
-        while let Some(visit) = waiting.pop(farthest) {
-            if visit.count == 0 {
-                *waiting.nodes += 1;
-                let group = Group { rays, packets: &packets, far: farthest };
-                self.enter(s, tree, visit, &group, &mut waiting);
-                continue;
-            }
-            for leaf in visit.blocks(tree) {
-                *waiting.blocks += 1;
-                let within = u64::from(visit.packets & packets.within(s, visit.near));
-                let Some((prepared, seen)) = self.prepare(s, &leaf, &ray_bounds) else { continue };
-                let block = SeenBlock { leaf, prepared: &prepared, seen };
-                let changed = self.pass(s, &block, within, rays, exact);
-                for packet in Bits(changed) {
-                    let rays = &mut rays[packet];
-                    if self.any && rays.live.any() {
-                        rays.slopes = self.widened(rays.around_live(s));
-                    }
-                    packets.set(packet % GROUP, rays.slopes, self.far(s, rays));
-                }
-                if changed != 0 {
-                    farthest = packets.farthest(s);
-                }
-            }
-        }
-    }
-
-    /// At least the depth up to which boxes are still searched.
-    #[inline(always)]
-    fn far<S: Simd>(&self, s: S, rays: &BundledRays<S>) -> f32 {
-        let none = F::splat(s, f32::NEG_INFINITY);
-        F::pick(rays.live, rays.end[1], none).0.reduce_max()
-    }
-
-    /// A row of a node as seen from the common origin; `side` 0 for the lower sides, 1 for the upper.
-    #[inline(always)]
-    fn row<S: Simd>(&self, s: S, node: &Node8, which: usize, side: usize) -> f32x8<S> {
-        let upper = (self.sign > 0.0) == (side == 1);
-        let row = &node.bounds[self.axes[which]][usize::from(upper)];
-        let start = if side == 0 { self.origin[which] + self.pad } else { self.origin[which] - self.pad };
-        f32x8::load_array_ref(s, row).mul_sub_precise(f32x8::splat(s, self.sign), f32x8::splat(s, start))
-    }
-
-    /// Adds the children of a node that some ray may enter up to a depth, the nearest last.
-    #[inline(always)]
-    fn enter<S: Simd>(
-        &self,
-        s: S,
-        tree: &WideTree,
-        visit: Visit,
-        group: &Group<'_, S>,
-        waiting: &mut Waiting<'_>,
-    ) {
-        let node = &tree.nodes[visit.link as usize];
-        let (one, zero) = (f32x8::splat(s, 1.0), f32x8::splat(s, 0.0));
-        let (near, away) = (self.row(s, node, 2, 0).max(zero), self.row(s, node, 2, 1));
-        let mut met = near.simd_le(f32x8::splat(s, group.far)) & near.simd_le(away);
-        let (of_near, of_away) = (one / near, one / away);
-        let wider = f32x8::splat(s, BUNDLE_BOX + BUNDLE_SLOPE + self.slopes_off);
-        let mut sides = [[0.0; WIDTH]; 4];
-        for which in 0..2 {
-            let (low, high) = (self.row(s, node, which, 0), self.row(s, node, which, 1));
-            let low = low * low.simd_lt(zero).select(of_near, of_away) - wider;
-            let high = high * high.simd_lt(zero).select(of_away, of_near) + wider;
-            // Written so that NaN, of a box with the origin in a face, counts as met.
-            let beside = low.simd_gt(f32x8::splat(s, self.high[which]))
-                | high.simd_lt(f32x8::splat(s, self.low[which]));
-            met &= !beside;
-            (sides[2 * which], sides[2 * which + 1]) = (low.to_array(), high.to_array());
-        }
-        let (near, first) = (near.to_array(), waiting.depth);
-        for child in Bits(met.to_bitmask() & ((1 << node.children) - 1)) {
-            let child = child % WIDTH;
-            let seen = SeenBox {
-                low: [sides[0][child], sides[2][child]],
-                high: [sides[1][child], sides[3][child]],
-                near: near[child],
-            };
-            let maybe = visit.packets & group.packets.entering(s, &seen);
-            let unsure = maybe & group.packets.larger_than_half(s, &seen);
-            let packets = (maybe & !unsure) | entering(s, group.rays, unsure, &seen);
-            if packets != 0 {
-                waiting.insert(first, Visit { packets, ..Visit::ahead(tree, node, child, &near) });
-            }
-        }
-    }
-
-    /// Tests the rays of some packets against triangles of a block; which packets have changed.
-    #[inline(always)]
-    fn pass<S: Simd>(
-        &self,
-        s: S,
-        block: &SeenBlock<'_>,
-        packets: u64,
-        rays: &mut [BundledRays<S>],
-        exact: &mut dyn ExactResolver,
-    ) -> u64 {
-        let mut changed = 0;
-        for packet in Bits(packets) {
-            let Some(packet_rays) = rays.get_mut(packet) else { continue };
-            let seen = if block.seen & (block.seen - 1) == 0 {
-                block.seen
-            } else {
-                block.seen & block.prepared.seen_by(s, &Slopes::of(packet_rays.slopes))
-            };
-            for at in Bits(seen) {
-                let at = at % WIDTH;
-                let triangle = block.triangle(at);
-                let packet_rays = PacketRays { rays: &mut *packet_rays, packet };
-                let met = self.accept(s, &triangle, block.prepared, packet_rays, exact);
-                changed |= u64::from(met) << packet;
-            }
-        }
-        changed
+    /// How far the tops of rays may lie from the point's.
+    fn top_error(&self, plane: &PrecisePlane) -> f64 {
+        f64::from(self.precise_slack) * plane.normal.abs().element_sum() + plane.top_error
     }
 }
 
-/// Which of some packets have a ray whose slopes lie within a box, and whose nearest hit lies beyond that depth.
-#[inline(always)]
-fn entering<S: Simd>(s: S, rays: &[BundledRays<S>], packets: u32, seen: &SeenBox) -> u32 {
-    let mut entering = 0;
-    for packet in Bits(u64::from(packets)) {
-        let Some(rays) = rays.get(packet) else { continue };
-        let beside = rays.u.less(F::splat(s, seen.low[0]))
-            | F::splat(s, seen.high[0]).less(rays.u)
-            | rays.v.less(F::splat(s, seen.low[1]))
-            | F::splat(s, seen.high[1]).less(rays.v);
-        let behind = rays.end[1].less(F::splat(s, seen.near));
-        entering |= u32::from((rays.live & !(beside | behind)).any()) << packet;
+impl Common for CommonOrigin {
+    type RayBounds = RayBounds;
+    type PrecisePlane = PrecisePlane;
+
+    #[inline(always)]
+    fn error(&self) -> f32 {
+        self.slopes_off + 3.0 * BUNDLE_SLOPE
     }
-    entering
+
+    #[inline(always)]
+    fn sides<S: Simd>(&self, s: S, _: &Bundle<Self>, rows: &[[f32x8<S>; 2]; 3]) -> Sides<S> {
+        let (one, zero) = (f32x8::splat(s, 1.0), f32x8::splat(s, 0.0));
+        let [u, v, [near, away]] = *rows;
+        let near = near.max(zero);
+        let (of_near, of_away) = (one / near, one / away);
+        let wider = f32x8::splat(s, BUNDLE_BOX + BUNDLE_SLOPE + self.slopes_off);
+        let low = [u[0], v[0]].map(
+            #[inline(always)]
+            |low| low * low.simd_lt(zero).select(of_near, of_away) - wider,
+        );
+        let high = [u[1], v[1]].map(
+            #[inline(always)]
+            |high| high * high.simd_lt(zero).select(of_away, of_near) + wider,
+        );
+        Sides { low, high, near, away }
+    }
+
+    fn ray_bounds(&self, bundle: &Bundle<Self>) -> RayBounds {
+        let most = bundle.steepest();
+        RayBounds {
+            slopes: Around::of(bundle.widened([bundle.low, bundle.high])),
+            shares: [
+                BUNDLE_EDGE * most[0] + self.slopes_off,
+                BUNDLE_EDGE * most[1] + self.slopes_off,
+                BUNDLE_EDGE,
+            ],
+            beside: 2.0 * (1.0 + most[0] + most[1]) * self.slack,
+        }
+    }
+
+    #[inline(always)]
+    fn prepare<S: Simd>(
+        &self,
+        s: S,
+        bundle: &Bundle<Self>,
+        leaf: &LeafBlock<'_>,
+        ray_bounds: &RayBounds,
+    ) -> Option<(Prepared, u64)> {
+        let block = &leaf.tree.blocks[leaf.block];
+        let (a, b, c) = (bundle.corner(s, block, 0), bundle.corner(s, block, 1), bundle.corner(s, block, 2));
+        let edges = [minus(c, b), minus(a, c), minus(b, a)];
+        let (p, q, r) = (bundle.from_origin(s, a), bundle.from_origin(s, b), bundle.from_origin(s, c));
+        let planes = [cross(edges[0], q), cross(edges[1], r), cross(edges[2], p)];
+        // Each axis counts with its own sizes: rays run mostly along one, and edges often along few.
+        let size = largest(edges);
+        let far = [p[0].abs() + size[0], p[1].abs() + size[1], p[2].abs() + size[2]];
+        let length = size[0].max(size[1]).max(size[2]);
+        let least = f32x8::splat(s, f32::MIN_POSITIVE);
+        let of_point = length.fused(f32x8::splat(s, ray_bounds.beside), least);
+        let edge_error = bound_eight(s, weighted(s, products(size, far), ray_bounds.shares, of_point));
+        let seen = seen(s, &planes, edge_error, &ray_bounds.slopes) & leaf.own;
+        if seen == 0 {
+            return None;
+        }
+        let normal = cross(edges[1], edges[2]);
+        let top = dot(p, normal);
+        let areas = [size[1] * size[2], size[2] * size[0], size[0] * size[1]];
+        let of_point = (length * length).fused(f32x8::splat(s, 6.0 * self.slack), least);
+        let top_error = dot(areas, far).fused(f32x8::splat(s, 2.0 * BUNDLE_TOP), of_point);
+        let slope_error = weighted(s, areas, ray_bounds.shares.map(|share| share + share), least);
+        let deepest = p[2].max(q[2]).max(r[2]).max(f32x8::splat(s, 0.0)) + f32x8::splat(s, 2.0 * self.slack);
+        let most = (deepest * f32x8::splat(s, 1.5)).fused(slope_error, top_error);
+        let certain = (most * f32x8::splat(s, 4.0)).simd_lt(top.abs());
+        let share = certain.select(f32x8::splat(s, 1.5) / top.abs(), f32x8::splat(s, f32::INFINITY));
+        let of_square = bound_eight(s, slope_error * share);
+        let of_depth = bound_eight(s, top_error.fused(share, f32x8::splat(s, BUNDLE_DEPTH)));
+        let prepared = Prepared {
+            edges: [stored(planes[0]), stored(planes[1]), stored(planes[2])],
+            edge_error: edge_error.to_array(),
+            normal: stored(normal),
+            top: top.to_array(),
+            depth_errors: [of_square.to_array(), of_depth.to_array()],
+        };
+        Some((prepared, seen))
+    }
+
+    /// A ray of slope s = n·(u, v, 1) crosses a plane at the depth z = top / s, where top is the common origin's distance from it
+    /// along n. Off by errors of top and s, z is off by at most (z · error of s + error of top) / (|s| − error of s); and
+    /// |s| is |top| / z. So the error is z (z a + b), where a and b are the errors of s and top over three quarters of
+    /// |top|, as long as |top| is four times what z makes of them. On the triangle z is at most the depth of its deepest
+    /// corner: whether that holds is known for all rays at once.
+    #[inline(always)]
+    fn depths<S: Simd>(s: S, rays: &BundledRays<S>, plane: &Plane) -> [F<S>; 2] {
+        let z = F::splat(s, plane.top) / rays.value(s, plane.normal);
+        let (of_square, of_depth) = (F::splat(s, plane.errors[0]), F::splat(s, plane.errors[1]));
+        [z, z.abs() * z.abs().mul_add(of_square, of_depth)]
+    }
+
+    fn precise_plane(&self, bundle: &Bundle<Self>, corners: &[[f32; 3]; 3]) -> PrecisePlane {
+        let [u, v, z] = bundle.axes;
+        let own = |p: &[f32; 3]| DVec3::new(p[u].into(), p[v].into(), p[z].into()) * f64::from(bundle.sign);
+        let [a, b, c] = [own(&corners[0]), own(&corners[1]), own(&corners[2])];
+        let (e, f, from) = (b - a, c - a, a - self.precise);
+        let normal = e.cross(f);
+        let length = e.abs().max(f.abs()).max_element();
+        let size = length * length;
+        PrecisePlane {
+            normal,
+            top: normal.dot(from),
+            slope_error: PRECISE_SLOPE_ERROR * bundle.spread().element_sum() * size,
+            top_error: PRECISE_TOP_ERROR * size * from.abs().max_element(),
+            size,
+            deepest: (a.z.max(b.z).max(c.z) - self.precise.z).max(0.0) + 2.0 * f64::from(self.precise_slack),
+        }
+    }
+
+    fn plane_of(&self, bundle: &Bundle<Self>, precise: &PrecisePlane) -> Plane {
+        let PrecisePlane { normal, top, .. } = *precise;
+        let size = normal.abs();
+        let slope_error = f64::from(BUNDLE_PLANE) * size.dot(bundle.spread())
+            + f64::from(self.slopes_off) * (size.x + size.y)
+            + precise.slope_error;
+        let top_error = self.top_error(precise);
+        // A normal as large as a unit vector, so that `f32` holds those of tiny triangles as well.
+        let scale = 1.0 / size.max_element();
+        let rounded = (top * scale) as f32;
+        let certain =
+            4.0 * (1.5 * precise.deepest).mul_add(slope_error, top_error) < top.abs() && rounded.is_normal();
+        let share = if certain { 1.5 / top.abs() } else { f64::INFINITY };
+        let above = |error: f64| (error as f32).next_up();
+        Plane {
+            normal: (normal * scale).as_vec3().to_array(),
+            top: rounded,
+            errors: [above(slope_error * share), above(top_error * share + f64::from(BUNDLE_DEPTH))],
+        }
+    }
+
+    /// A vector m whose product with a ray's direction is negative where the ray crosses one plane before another, both
+    /// ahead of it, and positive where it does so behind; and the error of that product. None where the common origin may
+    /// lie in either plane.
+    ///
+    /// Where both tops are positive, z₁ < z₂ means top₁ s₂ < top₂ s₁: m = top₁ n₂ − top₂ n₁, whose terms all but cancel
+    /// where the planes all but coincide: in `f64`, before anything is rounded to `f32`. A ray that passes the origin
+    /// by δ changes the product by δ·(d × (n₁ × n₂)).
+    fn order(&self, bundle: &Bundle<Self>, [first, second]: [&PrecisePlane; 2]) -> Option<([f32; 3], f32)> {
+        if [first, second].iter().any(|plane| plane.top.abs() <= 2.0 * self.top_error(plane)) {
+            return None;
+        }
+        let (a, b) = (first.normal * first.top.signum(), second.normal * second.top.signum());
+        let (top_a, top_b) = (first.top.abs(), second.top.abs());
+        let m = b * top_a - a * top_b;
+        let spread = bundle.spread();
+        let (slope_a, slope_b) = (a.abs().dot(spread), b.abs().dot(spread));
+        let from_tops = (first.top_error + ORDER_ERROR * top_a) * slope_b
+            + (second.top_error + ORDER_ERROR * top_b) * slope_a;
+        let from_slopes = first.slope_error * top_b + second.slope_error * top_a;
+        let from_shear = f64::from(self.precise_slack)
+            * spread.element_sum()
+            * (a.cross(b).abs().element_sum() + ORDER_SHEAR * first.size * second.size);
+        let from_rounding = f64::from(BUNDLE_PLANE) * m.abs().dot(spread)
+            + f64::from(self.slopes_off) * (m.x.abs() + m.y.abs());
+        let error = 1.5 * (from_tops + from_slopes) + from_shear + from_rounding;
+        let scale = 1.0 / m.abs().max_element();
+        Some(((m * scale).as_vec3().to_array(), ((error * scale) as f32).next_up()))
+    }
 }

@@ -1,10 +1,12 @@
-//! Rays against the triangles of a mesh: bundles of rays with a common origin, or single rays, each against eight boxes
+//! Rays against the triangles of a mesh: bundles of rays through one point or side by side, or single rays, each against eight boxes
 //! and eight triangles at a time.
 //!
 //! Both skip what they miss for certain, in `f32` with error bounds. The rest is decided in `f64` with error bounds, and
 //! by an [`ExactResolver`] where those do not decide either.
 
 mod accept;
+mod bundle;
+mod common_direction;
 mod common_origin;
 mod edges;
 #[cfg(test)]
@@ -23,7 +25,8 @@ use fearless_simd::{Simd, f32x8};
 use crate::accel::{MAX_DEPTH, Node8, WIDTH, WideTree};
 use crate::numeric::CERTAIN;
 
-pub(crate) use common_origin::{BundledRays, CommonOrigin};
+pub(crate) use bundle::{AnyBundle, Bundle, BundledRays};
+pub(crate) use common_direction::Starts;
 pub(crate) use precise::LaneTriangles;
 pub(crate) use ray_bundle::{Lines, RayBundle, Reach};
 pub(crate) use ray_setup::{RaySetup, StartingRays};
@@ -145,7 +148,7 @@ impl Visit {
 
 /// A block of a tree, and which of its triangles belong to a leaf.
 #[derive(Clone, Copy)]
-struct LeafBlock<'a> {
+pub(crate) struct LeafBlock<'a> {
     tree: &'a WideTree,
     block: usize,
     /// The leaf's triangles, bit by bit.

@@ -1,11 +1,11 @@
-//! Which packets of a group may enter a box: tested for all of them at once, by boxes round their slopes.
+//! Which packets of a group may enter a box: tested for all of them at once, by boxes round their places.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16};
 
 use super::GROUP;
 
-/// A box as seen from the common origin: its slopes along both axes, and the depth at which rays enter it.
+/// A box as the rays see it: between which places it lies, and the depth at which rays enter it.
 pub(super) struct SeenBox {
     pub(super) low: [f32; 2],
     pub(super) high: [f32; 2],
@@ -14,7 +14,7 @@ pub(super) struct SeenBox {
 
 /// The packets of a group side by side.
 pub(super) struct Packets {
-    /// Boxes round their slopes.
+    /// Boxes round their places.
     low: [[f32; GROUP]; 2],
     high: [[f32; GROUP]; 2],
     /// At least the depth of each packet's farthest hit so far.
@@ -33,7 +33,7 @@ impl Packets {
         self.far[at] = far;
     }
 
-    /// Which of them have a box round their slopes that is larger than half of a seen one: where these touch, that need
+    /// Which of them have a box round their places that is larger than half of a seen one: where these touch, that need
     /// not hold a ray.
     #[inline(always)]
     pub(super) fn larger_than_half<S: Simd>(&self, s: S, seen: &SeenBox) -> u32 {
@@ -59,7 +59,7 @@ impl Packets {
         f32x16::load_array_ref(s, &self.far).simd_ge(f32x16::splat(s, near)).to_bitmask() as u32
     }
 
-    /// Which of them may have a nearer hit in a box, and slopes whose box touches its slopes.
+    /// Which of them may have a nearer hit in a box that the one round their places touches.
     #[inline(always)]
     pub(super) fn entering<S: Simd>(&self, s: S, seen: &SeenBox) -> u32 {
         let row = |row| f32x16::load_array_ref(s, row);

@@ -6,7 +6,8 @@ use catoptra_core::{Lane, LaneMask, Ray};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::common_origin::{BundledRays, CommonOrigin};
+use super::bundle::{Bundle, BundledRays};
+use super::common_origin::CommonOrigin;
 use crate::lanes::{D, D3, F, LaneVectors, M, U, outlined, splat_wide, vector_of};
 use crate::numeric::{BUNDLE_SLOPE, BUNDLE_SPREAD, BUNDLE_STEEP};
 
@@ -29,7 +30,7 @@ pub(crate) struct Reach {
 
 /// A bundle of rays with a common origin.
 pub(crate) struct RayBundle {
-    pub(crate) common_origin: CommonOrigin,
+    pub(crate) common_origin: Bundle<CommonOrigin>,
     /// How far the lines pass the common origin by.
     pub(crate) slack: f32,
 }
@@ -79,8 +80,8 @@ impl RayBundle {
             }
             least = least.min(rays.scale);
             for axis in 0..2 {
-                low[axis] = low[axis].min(rays.slopes[0][axis]);
-                high[axis] = high[axis].max(rays.slopes[1][axis]);
+                low[axis] = low[axis].min(rays.around[0][axis]);
+                high[axis] = high[axis].max(rays.around[1][axis]);
             }
         }
         let least = least.0.reduce_min();
@@ -89,7 +90,7 @@ impl RayBundle {
         if !through_one {
             return None;
         }
-        let common_origin = CommonOrigin::new(&aim, origin, slack, [low, high], reach.mesh)
+        let common_origin = Bundle::through(&aim, origin, slack, [low, high], reach.mesh)
             .with_slopes_off(2.0 * slack / least);
         Some(Self { common_origin, slack })
     }
@@ -173,7 +174,7 @@ impl<S: Simd> BundledRays<S> {
         Self {
             u: zero,
             v: zero,
-            slopes: [[0.0; 2]; 2],
+            around: [[0.0; 2]; 2],
             begin: [zero; 2],
             end: [zero; 2],
             slot: none,
@@ -196,7 +197,7 @@ impl<S: Simd> BundledRays<S> {
         self.scale = F::pick(live, lines.depths(s, aim), model[2]);
         self.live = live;
         let (u, v) = (self.u.0, self.v.0);
-        self.slopes = [[u.reduce_min(), v.reduce_min()], [u.reduce_max(), v.reduce_max()]];
+        self.around = [[u.reduce_min(), v.reduce_min()], [u.reduce_max(), v.reduce_max()]];
     }
 
     /// Lines whose slopes are small enough: that run along the main axis, or at least not much more across it.
@@ -224,8 +225,9 @@ impl<S: Simd> BundledRays<S> {
     }
 }
 
+/// A vector's component along an axis.
 #[inline(always)]
-fn component<S: Simd>(v: &D3<S>, axis: usize) -> D<S> {
+pub(super) fn component<S: Simd>(v: &D3<S>, axis: usize) -> D<S> {
     match axis {
         0 => v.x,
         1 => v.y,

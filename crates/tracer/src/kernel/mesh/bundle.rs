@@ -1,0 +1,408 @@
+//! Walks a mesh's tree with a bundle of rays: all of them together against eight boxes at a time, and against triangles
+//! whose edges are seen as lines.
+//!
+//! Rays of a bundle either pass through one point or run side by side; what differs between the two is told by [`Common`].
+//! In both a ray is a place (u, v) in a plane across the axis that all rays run along, and its depth z is the parameter.
+//! Seen along the rays an edge of a triangle is a line n·(u, v, 1) = 0 of that plane, so a ray's edge value is two fused
+//! products. The lines n, and whether all rays together pass an edge on the outside, are computed for eight triangles at
+//! a time.
+
+use catoptra_core::{Lane, LaneMask};
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f32x8};
+
+use super::accept::{PacketRays, TreeTriangle};
+use super::common_direction::CommonDirection;
+use super::common_origin::CommonOrigin;
+use super::edges::{Around, Prepared};
+use super::packets::{Packets, SeenBox};
+use super::planes::Plane;
+use super::ray_bundle::Aim;
+use super::{ExactResolver, GROUP, LeafBlock, Visit, Visits, Waiting};
+use crate::accel::{Block8, Node8, WIDTH, WideTree};
+use crate::lanes::{Bits, F, M, U, outlined};
+use crate::numeric::BUNDLE_PAD;
+
+/// A vector in each of eight lanes.
+pub(super) type Eight3<S> = [f32x8<S>; 3];
+
+/// What the rays of a bundle have in common: a point that all pass through, or their direction.
+pub(crate) trait Common: Sized {
+    /// Bounds of all rays that every block is tested with.
+    type RayBounds;
+    /// The plane of a triangle in `f64`.
+    type PrecisePlane;
+
+    /// How far the places of rays, and of a box round them, may be off.
+    fn error(&self) -> f32;
+
+    /// Where boxes are seen, and the depths between which they lie; at most and at least.
+    fn sides<S: Simd>(&self, s: S, bundle: &Bundle<Self>, rows: &[[f32x8<S>; 2]; 3]) -> Sides<S>;
+
+    fn ray_bounds(&self, bundle: &Bundle<Self>) -> Self::RayBounds;
+
+    /// A block as the rays see it, and which of a leaf's triangles in it they may meet, if any.
+    fn prepare<S: Simd>(
+        &self,
+        s: S,
+        bundle: &Bundle<Self>,
+        leaf: &LeafBlock<'_>,
+        ray_bounds: &Self::RayBounds,
+    ) -> Option<(Prepared, u64)>;
+
+    /// Depths at which rays cross a plane, and how far those may be off.
+    fn depths<S: Simd>(s: S, rays: &BundledRays<S>, plane: &Plane) -> [F<S>; 2];
+
+    fn precise_plane(&self, bundle: &Bundle<Self>, corners: &[[f32; 3]; 3]) -> Self::PrecisePlane;
+
+    /// A plane from `f64`.
+    fn plane_of(&self, bundle: &Bundle<Self>, precise: &Self::PrecisePlane) -> Plane;
+
+    /// A vector whose product with (u, v, 1) is negative where a ray crosses the first plane before the second, both ahead of it,
+    /// and positive where it does so behind; and the error of that product. None where it is not known, as where any
+    /// crossing will do.
+    fn order(&self, _: &Bundle<Self>, _: [&Self::PrecisePlane; 2]) -> Option<([f32; 3], f32)> {
+        None
+    }
+}
+
+/// Eight boxes as the rays see them: between which places and depths they lie.
+pub(crate) struct Sides<S: Simd> {
+    pub(super) low: [f32x8<S>; 2],
+    pub(super) high: [f32x8<S>; 2],
+    pub(super) near: f32x8<S>,
+    pub(super) away: f32x8<S>,
+}
+
+/// A bundle of rays.
+pub(crate) struct Bundle<C> {
+    /// Axes of the places, then the one that all rays run along.
+    pub(super) axes: [usize; 3],
+    /// 1 or −1: their sign along that axis. All space is mirrored through the zero point for those that run backwards.
+    pub(super) sign: f32,
+    /// What depths are counted from, mirrored as the rays are, axis by axis as in `axes`.
+    pub(super) origin: [f32; 3],
+    /// Box round the places of all rays, up to their error.
+    pub(super) low: [f32; 2],
+    pub(super) high: [f32; 2],
+    /// How far boxes are widened.
+    pad: f32,
+    /// Whether any crossing will do (occlusion).
+    pub(super) any: bool,
+    pub(super) common: C,
+}
+
+/// Rays that pass through one point, or run side by side.
+pub(crate) enum AnyBundle {
+    Through(Bundle<CommonOrigin>),
+    Along(Bundle<CommonDirection>),
+}
+
+impl AnyBundle {
+    /// As [`Bundle::search`].
+    pub(crate) fn search<S: Simd>(
+        &self,
+        s: S,
+        tree: &WideTree,
+        visits: &mut Visits,
+        rays: &mut [BundledRays<S>],
+        exact: &mut dyn ExactResolver,
+    ) {
+        match self {
+            Self::Through(bundle) => bundle.search(s, tree, visits, rays, exact),
+            Self::Along(bundle) => bundle.search(s, tree, visits, rays, exact),
+        }
+    }
+}
+
+/// One packet of a bundle: the places of its rays, which are slopes where they pass through one point, and their nearest hits.
+#[derive(Clone, Copy)]
+pub(crate) struct BundledRays<S: Simd> {
+    pub(crate) u: F<S>,
+    pub(crate) v: F<S>,
+    /// Box round the places.
+    pub(crate) around: [[f32; 2]; 2],
+    /// Depths between which the stretch begins.
+    pub(crate) begin: [F<S>; 2],
+    /// Depths between which the nearest crossing so far lies, or the end of the stretch.
+    pub(crate) end: [F<S>; 2],
+    /// Slot of the nearest triangle in the tree's blocks; [`u32::MAX`] for none.
+    pub(crate) slot: U<S>,
+    /// Triangle that each ray leaves from.
+    pub(crate) leaving: U<S>,
+    /// Depth per `t`.
+    pub(crate) scale: F<S>,
+    pub(crate) live: M<S>,
+    /// How often a triangle was decided on in `f64`.
+    pub(crate) decided: u64,
+}
+
+impl<S: Simd> BundledRays<S> {
+    /// Box round the places of the rays that are still followed, of which there are some.
+    #[inline(always)]
+    fn around_live(&self, s: S) -> [[f32; 2]; 2] {
+        let (most, least) = (F::splat(s, f32::INFINITY), F::splat(s, f32::NEG_INFINITY));
+        let low = |places| F::pick(self.live, places, most).0.reduce_min();
+        let high = |places| F::pick(self.live, places, least).0.reduce_max();
+        [[low(self.u), low(self.v)], [high(self.u), high(self.v)]]
+    }
+}
+
+/// The packets of a walk.
+struct Group<'a, S: Simd> {
+    rays: &'a [BundledRays<S>],
+    /// The boxes round their places.
+    packets: &'a Packets,
+    /// The depth up to which any of them still searches.
+    far: f32,
+}
+
+/// A block of which rays may meet some triangles.
+struct SeenBlock<'a> {
+    leaf: LeafBlock<'a>,
+    prepared: &'a Prepared,
+    /// Triangles that rays may meet, bit by bit.
+    seen: u64,
+}
+
+impl<'a> SeenBlock<'a> {
+    #[inline(always)]
+    fn triangle(&self, at: usize) -> TreeTriangle<'a> {
+        let LeafBlock { tree, block, .. } = self.leaf;
+        TreeTriangle { tree, slot: self.leaf.slot(at), facet: tree.blocks[block].facet[at] }
+    }
+}
+
+impl<C> Bundle<C> {
+    /// Rays within a box of places that have something in common; through a mesh whose corners' coordinates, and that of what
+    /// depths are counted from, stay within `size` together. Boxes are widened by `pad` beside what `f32` rounds.
+    pub(super) fn new(
+        aim: &Aim,
+        origin: [f32; 3],
+        [low, high]: [[f32; 2]; 2],
+        [reach, pad]: [f32; 2],
+        common: C,
+    ) -> Self {
+        let size = origin.iter().fold(0.0_f32, |most, at| most.max(at.abs())) + reach;
+        Self {
+            axes: aim.axes,
+            sign: aim.sign,
+            origin,
+            low,
+            high,
+            pad: BUNDLE_PAD * size + pad + f32::MIN_POSITIVE,
+            any: false,
+            common,
+        }
+    }
+
+    /// Searches for any crossing (occlusion) rather than the nearest.
+    pub(crate) fn for_any(self) -> Self {
+        Self { any: true, ..self }
+    }
+
+    /// A corner of every triangle, axis by axis as in `axes`.
+    #[inline(always)]
+    pub(super) fn corner<S: Simd>(&self, s: S, block: &Block8, corner: usize) -> Eight3<S> {
+        let rows = &block.corners[corner];
+        [
+            f32x8::load_array_ref(s, &rows[self.axes[0]]),
+            f32x8::load_array_ref(s, &rows[self.axes[1]]),
+            f32x8::load_array_ref(s, &rows[self.axes[2]]),
+        ]
+    }
+
+    /// Corners relative to what depths are counted from, mirrored as the rays are.
+    #[inline(always)]
+    pub(super) fn from_origin<S: Simd>(&self, s: S, p: Eight3<S>) -> Eight3<S> {
+        let sign = f32x8::splat(s, self.sign);
+        [
+            p[0].mul_sub_precise(sign, f32x8::splat(s, self.origin[0])),
+            p[1].mul_sub_precise(sign, f32x8::splat(s, self.origin[1])),
+            p[2].mul_sub_precise(sign, f32x8::splat(s, self.origin[2])),
+        ]
+    }
+
+    /// A row of a node as seen from what depths are counted from; `side` 0 for the lower sides, 1 for the upper.
+    #[inline(always)]
+    fn row<S: Simd>(&self, s: S, node: &Node8, which: usize, side: usize) -> f32x8<S> {
+        let upper = (self.sign > 0.0) == (side == 1);
+        let row = &node.bounds[self.axes[which]][usize::from(upper)];
+        let start = if side == 0 { self.origin[which] + self.pad } else { self.origin[which] - self.pad };
+        f32x8::load_array_ref(s, row).mul_sub_precise(f32x8::splat(s, self.sign), f32x8::splat(s, start))
+    }
+}
+
+impl<C: Common> Bundle<C> {
+    /// A box round places, widened by their error.
+    #[inline(always)]
+    pub(super) fn widened(&self, [low, high]: [[f32; 2]; 2]) -> [[f32; 2]; 2] {
+        let wider = self.common.error();
+        [[low[0] - wider, low[1] - wider], [high[0] + wider, high[1] + wider]]
+    }
+
+    /// At most the size of any ray's place.
+    #[inline(always)]
+    pub(super) fn steepest(&self) -> [f32; 2] {
+        let [low, high] = self.widened([self.low, self.high]);
+        [low[0].abs().max(high[0].abs()), low[1].abs().max(high[1].abs())]
+    }
+
+    /// Finds the nearest triangle for every ray of up to [`GROUP`] packets, or any. The resolver counts lanes from the
+    /// first packet's on. See [`outlined`].
+    pub(crate) fn search<S: Simd>(
+        &self,
+        s: S,
+        tree: &WideTree,
+        visits: &mut Visits,
+        rays: &mut [BundledRays<S>],
+        exact: &mut dyn ExactResolver,
+    ) {
+        outlined(
+            s,
+            #[inline(always)]
+            || self.walk(s, tree, visits, rays, exact),
+        );
+    }
+
+    #[inline(always)]
+    fn walk<S: Simd>(
+        &self,
+        s: S,
+        tree: &WideTree,
+        visits: &mut Visits,
+        rays: &mut [BundledRays<S>],
+        exact: &mut dyn ExactResolver,
+    ) {
+        let Some(mut waiting) = visits.start() else { return };
+        let mut packets = Packets::NONE;
+        for (at, rays) in rays.iter_mut().enumerate().take(GROUP) {
+            rays.around = self.widened(rays.around);
+            packets.set(at, rays.around, self.far(s, rays));
+        }
+        waiting.push(Visit { near: f32::MIN, link: 0, count: 0, packets: (1 << rays.len().min(GROUP)) - 1 });
+        let mut farthest = packets.farthest(s);
+        let ray_bounds = self.common.ray_bounds(self);
+        while let Some(visit) = waiting.pop(farthest) {
+            if visit.count == 0 {
+                *waiting.nodes += 1;
+                let group = Group { rays, packets: &packets, far: farthest };
+                self.enter(s, tree, visit, &group, &mut waiting);
+                continue;
+            }
+            for leaf in visit.blocks(tree) {
+                *waiting.blocks += 1;
+                let within = u64::from(visit.packets & packets.within(s, visit.near));
+                let Some((prepared, seen)) = self.common.prepare(s, self, &leaf, &ray_bounds) else {
+                    continue;
+                };
+                let block = SeenBlock { leaf, prepared: &prepared, seen };
+                let changed = self.pass(s, &block, within, rays, exact);
+                for packet in Bits(changed) {
+                    let rays = &mut rays[packet];
+                    if self.any && rays.live.any() {
+                        rays.around = self.widened(rays.around_live(s));
+                    }
+                    packets.set(packet % GROUP, rays.around, self.far(s, rays));
+                }
+                if changed != 0 {
+                    farthest = packets.farthest(s);
+                }
+            }
+        }
+    }
+
+    /// At least the depth up to which boxes are still searched.
+    #[inline(always)]
+    fn far<S: Simd>(&self, s: S, rays: &BundledRays<S>) -> f32 {
+        let none = F::splat(s, f32::NEG_INFINITY);
+        F::pick(rays.live, rays.end[1], none).0.reduce_max()
+    }
+
+    /// Adds the children of a node that some ray may enter up to a depth, the nearest last.
+    #[inline(always)]
+    fn enter<S: Simd>(
+        &self,
+        s: S,
+        tree: &WideTree,
+        visit: Visit,
+        group: &Group<'_, S>,
+        waiting: &mut Waiting<'_>,
+    ) {
+        let node = &tree.nodes[visit.link as usize];
+        let rows = [0, 1, 2].map(
+            #[inline(always)]
+            |which| [self.row(s, node, which, 0), self.row(s, node, which, 1)],
+        );
+        let Sides { low, high, near, away } = self.common.sides(s, self, &rows);
+        let mut met = near.simd_le(f32x8::splat(s, group.far)) & near.simd_le(away);
+        let mut sides = [[0.0; WIDTH]; 4];
+        for which in 0..2 {
+            // Written so that NaN, of a box with a common origin in a face, counts as met.
+            let beside = low[which].simd_gt(f32x8::splat(s, self.high[which]))
+                | high[which].simd_lt(f32x8::splat(s, self.low[which]));
+            met &= !beside;
+            (sides[2 * which], sides[2 * which + 1]) = (low[which].to_array(), high[which].to_array());
+        }
+        let (near, first) = (near.to_array(), waiting.depth);
+        for child in Bits(met.to_bitmask() & ((1 << node.children) - 1)) {
+            let child = child % WIDTH;
+            let seen = SeenBox {
+                low: [sides[0][child], sides[2][child]],
+                high: [sides[1][child], sides[3][child]],
+                near: near[child],
+            };
+            let maybe = visit.packets & group.packets.entering(s, &seen);
+            let unsure = maybe & group.packets.larger_than_half(s, &seen);
+            let packets = (maybe & !unsure) | entering(s, group.rays, unsure, &seen);
+            if packets != 0 {
+                waiting.insert(first, Visit { packets, ..Visit::ahead(tree, node, child, &near) });
+            }
+        }
+    }
+
+    /// Tests the rays of some packets against triangles of a block; which packets have changed.
+    #[inline(always)]
+    fn pass<S: Simd>(
+        &self,
+        s: S,
+        block: &SeenBlock<'_>,
+        packets: u64,
+        rays: &mut [BundledRays<S>],
+        exact: &mut dyn ExactResolver,
+    ) -> u64 {
+        let mut changed = 0;
+        for packet in Bits(packets) {
+            let Some(packet_rays) = rays.get_mut(packet) else { continue };
+            let seen = if block.seen & (block.seen - 1) == 0 {
+                block.seen
+            } else {
+                block.seen & block.prepared.seen_by(s, &Around::of(packet_rays.around))
+            };
+            for at in Bits(seen) {
+                let at = at % WIDTH;
+                let triangle = block.triangle(at);
+                let packet_rays = PacketRays { rays: &mut *packet_rays, packet };
+                let met = self.accept(s, &triangle, block.prepared, packet_rays, exact);
+                changed |= u64::from(met) << packet;
+            }
+        }
+        changed
+    }
+}
+
+/// Which of some packets have a ray whose place lies within a box, and whose nearest hit lies beyond that depth.
+#[inline(always)]
+fn entering<S: Simd>(s: S, rays: &[BundledRays<S>], packets: u32, seen: &SeenBox) -> u32 {
+    let mut entering = 0;
+    for packet in Bits(u64::from(packets)) {
+        let Some(rays) = rays.get(packet) else { continue };
+        let beside = rays.u.less(F::splat(s, seen.low[0]))
+            | F::splat(s, seen.high[0]).less(rays.u)
+            | rays.v.less(F::splat(s, seen.low[1]))
+            | F::splat(s, seen.high[1]).less(rays.v);
+        let behind = rays.end[1].less(F::splat(s, seen.near));
+        entering |= u32::from((rays.live & !(beside | behind)).any()) << packet;
+    }
+    entering
+}
