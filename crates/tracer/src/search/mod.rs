@@ -28,7 +28,7 @@ pub(crate) use occluded::{ShadowRays, Shadows};
 pub(crate) use own_segments::OwnSegments;
 pub(crate) use packet::{Packet, PreciseRays, drift, kernel_rays, nearly_unit_rays};
 pub(crate) use refine::Refined;
-pub(crate) use surface::Surface;
+pub(crate) use surface::{PrecisePoints, Surface};
 pub(crate) use to_light::ToLight;
 pub(crate) use to_points::ToPoints;
 pub(crate) use together::{BundleRoom, Later, bundle_room};
@@ -43,6 +43,8 @@ pub(crate) struct Searcher<'a, S: Simd> {
     pub(crate) visits: &'a mut Visits,
     /// Meshes that packets are to walk together.
     pub(crate) later: Later,
+    /// Where the rays of a packet meet meshes.
+    pub(crate) on_meshes: PrecisePoints<S>,
     /// Whether every ray stays outside all convex solids.
     pub(crate) outside: bool,
 }
@@ -50,6 +52,7 @@ pub(crate) struct Searcher<'a, S: Simd> {
 impl<'a, S: Simd> Searcher<'a, S> {
     /// That has searched nothing yet; `outside` where every ray stays outside all convex solids.
     pub(crate) fn new(s: S, snapshot: &'a Snapshot, visits: &'a mut Visits, outside: bool) -> Self {
-        Self { s, snapshot, stats: Stats::default(), visits, later: Later::default(), outside }
+        let on_meshes = PrecisePoints::none(s);
+        Self { s, snapshot, stats: Stats::default(), visits, later: Later::default(), on_meshes, outside }
     }
 }

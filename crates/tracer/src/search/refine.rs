@@ -10,7 +10,7 @@ use super::Searcher;
 use super::hits::Hits;
 use super::packet::{Packet, PreciseRays};
 use crate::kernel::{Kernel, NearHit};
-use crate::lanes::{D, D3, F, F3, LaneVectors, M, U, cross, narrow3, outlined, pick3, unit};
+use crate::lanes::{D, D3, F, F3, LaneVectors, M, U, cross, outlined, pick3, unit};
 use crate::snapshot::{Instance, KernelVisitor};
 
 /// Points and normals of the lanes that meet something, in `f64`.
@@ -123,15 +123,17 @@ impl<S: Simd> Searcher<'_, S> {
         instance: &Instance,
     ) -> Refined<S> {
         let mesh = instance.tree.mesh();
-        let [a, b, c] = instance.at_corners(self.s, best.facet, mask, mesh.positions()).wide();
+        let triangles = instance.facets(self.s, best.facet, mask);
+        let lines = self.own_lines(packet, instance, mask);
+        let of_lane = |lane: usize| packet.segment(lane);
+        let t = self.refined_t(instance.prim, &lines, &triangles, of_lane);
+        let (origin, direction) = packet.precise(self.s);
+        let point = direction.scale_add(t, origin);
+        let [a, b, c] = triangles.wide();
         let (e, f) = (b - a, c - a);
         let across = cross(e, f);
         let own_normal = unit(self.s, across);
-        let near = near(self.s, packet, best);
-        let off = own_normal.dot(instance.own_points(self.s, near) - a).narrow();
-        let off = off * F::splat(self.s, 1.0 / instance.scale());
         let normal = instance.world_normals(self.s, own_normal);
-        let point = self.step(packet, near, off, narrow3(normal).dot(packet.rays.direction));
         let Some(normals) = mesh.normals() else { return Refined { point, normal, shading: normal } };
         let from = instance.own_points(self.s, point) - a;
         let weights = [across.dot(cross(from, f)), across.dot(cross(e, from))];

@@ -2,14 +2,15 @@
 //!
 //! Shadow tests that `f32` leaves undecided and the origins of reflected rays use the `f64` point instead.
 
+use catoptra_core::glam::DVec3;
 use fearless_simd::Simd;
 
 use super::Searcher;
 use super::hits::Hits;
 use super::packet::{Packet, PreciseRays};
-use super::refine::PacketHit;
+use super::refine::{PacketHit, Refined};
 use crate::kernel::Kernel;
-use crate::lanes::{F3, M, narrow3, outlined};
+use crate::lanes::{D3, F3, M, narrow3, outlined, pick3, splat_wide};
 use crate::snapshot::{Instance, KernelVisitor};
 
 /// Points and normals of the lanes that meet something.
@@ -21,6 +22,28 @@ pub(crate) struct Surface<S: Simd> {
     pub(crate) normal: F3<S>,
     /// To shade with, of unit length.
     pub(crate) shading: F3<S>,
+}
+
+/// Points in `f64` of some lanes, relative to the snapshot's origin.
+#[derive(Clone, Copy)]
+pub(crate) struct PrecisePoints<S: Simd> {
+    pub(crate) point: D3<S>,
+    /// The lanes that have one.
+    pub(crate) lanes: M<S>,
+}
+
+impl<S: Simd> PrecisePoints<S> {
+    #[inline(always)]
+    pub(crate) fn none(s: S) -> Self {
+        Self { point: splat_wide(s, DVec3::ZERO), lanes: M::splat(s, false) }
+    }
+
+    /// Adds the points of some lanes.
+    #[inline(always)]
+    fn add(&mut self, lanes: M<S>, point: D3<S>) {
+        self.point = pick3(lanes, point, self.point);
+        self.lanes = self.lanes | lanes;
+    }
 }
 
 impl<S: Simd> Surface<S> {
@@ -41,7 +64,7 @@ impl<S: Simd> Surface<S> {
 }
 
 impl<S: Simd> Searcher<'_, S> {
-    /// The surface of the lanes of `mask`, which all meet the shape `prim`.
+    /// The surface of the lanes of `mask`, which all meet the shape `prim`. Notes where they meet meshes.
     #[inline(always)]
     pub(crate) fn surface<P: PreciseRays<S>>(
         &mut self,
@@ -97,9 +120,15 @@ struct SurfaceOf<'t, 'a, 'b, S: Simd, P> {
 impl<S: Simd, P: PreciseRays<S>> SurfaceOf<'_, '_, '_, S, P> {
     /// From where the lanes meet the shape in `f64`.
     #[inline(always)]
-    fn refined(self) -> Surface<S> {
-        let refined = self.search.refine_apart(self.packet, self.best, self.mask, self.prim);
-        Surface {
+    fn refined(&mut self) -> Refined<S> {
+        self.search.refine_apart(self.packet, self.best, self.mask, self.prim)
+    }
+}
+
+impl<S: Simd> From<Refined<S>> for Surface<S> {
+    #[inline(always)]
+    fn from(refined: Refined<S>) -> Self {
+        Self {
             point: narrow3(refined.point),
             normal: narrow3(refined.normal),
             shading: narrow3(refined.shading),
@@ -118,12 +147,14 @@ impl<S: Simd, P: PreciseRays<S>> KernelVisitor for SurfaceOf<'_, '_, '_, S, P> {
     }
 
     #[inline(always)]
-    fn visit_mesh(self, _: &Instance) -> Surface<S> {
-        self.refined()
+    fn visit_mesh(mut self, _: &Instance) -> Surface<S> {
+        let refined = self.refined();
+        self.search.on_meshes.add(self.mask, refined.point);
+        refined.into()
     }
 
     #[inline(always)]
-    fn visit_none(self) -> Surface<S> {
-        self.refined()
+    fn visit_none(mut self) -> Surface<S> {
+        self.refined().into()
     }
 }

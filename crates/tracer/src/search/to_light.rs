@@ -3,13 +3,14 @@
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::glam::DVec3;
-use catoptra_core::{Arithmetic, Geometry, LaneMask, Ray, Span};
+use catoptra_core::{Arithmetic, Geometry, Ray, Span};
 use fearless_simd::Simd;
 use smallvec::SmallVec;
 
 use super::Searcher;
 use super::occluded::{Segments, ShadowRays, Shadows};
 use super::packet::{Packet, PreciseRays};
+use super::surface::PrecisePoints;
 use crate::Snapshot;
 use crate::kernel::Leaving;
 use crate::kernel::mesh::{AnyBundle, Bundle, BundledRays, GROUP, Lines, RayBundle, RaySetup, Starts};
@@ -22,6 +23,8 @@ pub(crate) struct ToLight<'a, S: Simd, P> {
     pub(crate) packet: &'a Packet<'a, S, P>,
     /// The surfaces that the rays have hit.
     pub(crate) from: Leaving<S>,
+    /// Where they have hit meshes.
+    pub(crate) on_meshes: PrecisePoints<S>,
     pub(crate) light: &'a LightRow,
 }
 
@@ -43,8 +46,8 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
     ) -> Option<AnyBundle> {
         let (s, light) = (search.s, shadows.first()?.segments.light);
         let mut starts: SmallVec<[(D3<S>, F<S>); GROUP]> = SmallVec::new();
-        for Shadows { segments, rays, open } in shadows {
-            starts.push(segments.own_starts(search, rays, *open, instance));
+        for Shadows { segments, rays, .. } in shadows {
+            starts.push(segments.own_starts(search, rays, instance));
         }
         if light.at_infinity {
             let sunwards = search.snapshot.mesh_at(instance.prim)?.to_object().vector(light.in_frame);
@@ -65,7 +68,7 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
     ) -> (RaySetup, M<S>) {
         let (s, snapshot) = (search.s, search.snapshot);
         if self.light.at_infinity {
-            let (origin, off) = self.own_starts(search, rays, open, instance);
+            let (origin, off) = self.own_starts(search, rays, instance);
             let sunwards = mesh.to_object().vector(self.light.in_frame);
             let lines = Lines { origin, direction: splat_wide(s, sunwards), live: open };
             (RaySetup::of(s, &lines, off, instance.tree.reach), open)
@@ -84,30 +87,20 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
 }
 
 impl<S: Simd, P: PreciseRays<S>> ToLight<'_, S, P> {
-    /// Where segments begin in a mesh's own space, and how far that may be off: refined in `f64` where they leave the
-    /// mesh itself.
+    /// Where segments begin in a mesh's own space, and how far that may be off: known in `f64` where they leave meshes.
     #[inline(always)]
     fn own_starts(
         &self,
         search: &Searcher<'_, S>,
         rays: &ShadowRays<'_, S>,
-        open: M<S>,
         instance: &Instance,
     ) -> (D3<S>, F<S>) {
         let s = search.s;
+        let PrecisePoints { point, lanes } = self.on_meshes;
+        let start = instance.own_points(s, pick3(lanes, point, widen3(rays.rays.origin)));
+        let share = F::pick(lanes, F::splat(s, START_ERROR), F::splat(s, POINT_ERROR));
         let reach = rays.rays.reach * F::splat(s, instance.scale());
-        let start = instance.own_points(s, widen3(rays.rays.origin));
-        let off = reach * F::splat(s, POINT_ERROR);
-        let own = open & rays.leaving.prim.is(instance.prim);
-        if !own.any() {
-            return (start, off);
-        }
-        let triangles = instance.facets(s, rays.leaving.facet, own);
-        let lines = search.own_lines(self.packet, instance, own);
-        let of_lane = |lane: usize| self.packet.segment(lane);
-        let t = search.refined_t(instance.prim, &lines, &triangles, of_lane);
-        let refined = lines.direction.scale_add(t, lines.origin);
-        (pick3(own, refined, start), F::pick(own, reach * F::splat(s, START_ERROR), off))
+        (start, reach.mul_add(share, F::splat(s, search.reach(instance).off)))
     }
 }
 

@@ -8,7 +8,7 @@ use fearless_simd::Simd;
 use super::groups::Groups;
 use crate::film::NOTHING;
 use crate::lanes::{F, F3, M, U};
-use crate::search::Hits;
+use crate::search::{Hits, PrecisePoints};
 
 /// Packets in a chunk.
 pub(crate) const CHUNK: usize = 8;
@@ -20,6 +20,8 @@ pub(crate) struct Chunk<S: Simd> {
     pub(crate) best: [Hits<S>; CHUNK],
     /// Points of their hits, relative to the snapshot's origin.
     pub(crate) point: [F3<S>; CHUNK],
+    /// The same in `f64` of lanes that meet meshes.
+    pub(crate) on_meshes: [PrecisePoints<S>; CHUNK],
     /// Geometric unit normals on the viewer's side.
     pub(crate) normal: [F3<S>; CHUNK],
     /// Lanes that are seen from the side that the shapes' own normals point to.
@@ -50,6 +52,7 @@ impl<S: Simd> Chunk<S> {
             at: [0; CHUNK],
             best: [Hits { t: zero, error: zero, prim: nothing, facet: nothing }; CHUNK],
             point: [dark; CHUNK],
+            on_meshes: [PrecisePoints::none(s); CHUNK],
             normal: [dark; CHUNK],
             front: [none; CHUNK],
             smooth: [dark; CHUNK],

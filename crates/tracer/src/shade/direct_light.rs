@@ -235,8 +235,9 @@ impl<S: Simd> Shader<'_, S> {
             self.s,
             #[inline(always)]
             || {
+                let on_meshes = self.chunk.on_meshes[packet];
                 let packet = batch.packet(self.s, self.chunk.at[packet]);
-                let segments = ToLight { packet: &packet, from: copy.leaving, light: row };
+                let segments = ToLight { packet: &packet, from: copy.leaving, on_meshes, light: row };
                 self.search.occluded(&segments, &copy, occluders)
             },
         )
@@ -290,7 +291,12 @@ impl<S: Simd> Shader<'_, S> {
                 }
                 let mut segments: OfChunk<ToLight<'_, S, B::Precise>> = SmallVec::new();
                 for (number, packet) in &packets {
-                    segments.push(ToLight { packet, from: self.leaving(*number), light: row });
+                    segments.push(ToLight {
+                        packet,
+                        from: self.leaving(*number),
+                        on_meshes: self.chunk.on_meshes[*number],
+                        light: row,
+                    });
                 }
                 let mut shadows: OfChunk<Shadows<'_, S, _>> = SmallVec::new();
                 for ((number, _), segments) in packets.iter().zip(&segments) {

@@ -118,6 +118,8 @@ impl<S: Simd> Shader<'_, S> {
         let dark = dark(self.s);
         self.chunk.at[slot] = at;
         self.chunk.best[slot] = *best;
+        self.chunk.on_meshes[slot].lanes = M::splat(self.s, false);
+        self.search.on_meshes.lanes = M::splat(self.s, false);
         self.chunk.irradiance[slot] = dark;
         self.chunk.specular[slot] = dark;
         self.chunk.glossy[slot] = false;
@@ -151,6 +153,9 @@ impl<S: Simd> Shader<'_, S> {
         let d = packet.rays.direction;
         let away = F::splat(self.s, 0.0).less(surface.normal.dot(d));
         self.chunk.point[slot] = surface.point;
+        if self.search.on_meshes.lanes.any() {
+            self.chunk.on_meshes[slot] = self.search.on_meshes;
+        }
         self.chunk.normal[slot] = face_forward(away, surface.normal);
         self.chunk.front[slot] = !away;
         if self.search.snapshot.columns().smooth {

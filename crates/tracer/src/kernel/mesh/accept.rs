@@ -4,7 +4,9 @@ use catoptra_core::{Lane, LaneMask};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::bundle::{Bundle, BundledRays, Common};
+use super::bundle::Bundle;
+use super::bundled_rays::BundledRays;
+use super::common::Common;
 use super::edges::Prepared;
 use super::planes::Crossing;
 use super::{Decision, Edges, ExactResolver, RayTriangle, decide};

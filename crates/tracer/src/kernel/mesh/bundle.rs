@@ -12,67 +12,17 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
 use super::accept::{PacketRays, TreeTriangle};
+use super::bundled_rays::BundledRays;
+use super::common::{Common, Eight3, Sides};
 use super::common_direction::CommonDirection;
 use super::common_origin::CommonOrigin;
 use super::edges::{Around, Prepared};
 use super::packets::{Packets, SeenBox};
-use super::planes::Plane;
 use super::ray_bundle::Aim;
 use super::{ExactResolver, GROUP, LeafBlock, Visit, Visits, Waiting};
 use crate::accel::{Block8, Node8, WIDTH, WideTree};
-use crate::lanes::{Bits, F, M, U, outlined};
+use crate::lanes::{Bits, F, outlined};
 use crate::numeric::BUNDLE_PAD;
-
-/// A vector in each of eight lanes.
-pub(super) type Eight3<S> = [f32x8<S>; 3];
-
-/// What the rays of a bundle have in common: a point that all pass through, or their direction.
-pub(crate) trait Common: Sized {
-    /// Bounds of all rays that every block is tested with.
-    type RayBounds;
-    /// The plane of a triangle in `f64`.
-    type PrecisePlane;
-
-    /// How far the places of rays, and of a box round them, may be off.
-    fn error(&self) -> f32;
-
-    /// Where boxes are seen, and the depths between which they lie; at most and at least.
-    fn sides<S: Simd>(&self, s: S, bundle: &Bundle<Self>, rows: &[[f32x8<S>; 2]; 3]) -> Sides<S>;
-
-    fn ray_bounds(&self, bundle: &Bundle<Self>) -> Self::RayBounds;
-
-    /// A block as the rays see it, and which of a leaf's triangles in it they may meet, if any.
-    fn prepare<S: Simd>(
-        &self,
-        s: S,
-        bundle: &Bundle<Self>,
-        leaf: &LeafBlock<'_>,
-        ray_bounds: &Self::RayBounds,
-    ) -> Option<(Prepared, u64)>;
-
-    /// Depths at which rays cross a plane, and how far those may be off.
-    fn depths<S: Simd>(s: S, rays: &BundledRays<S>, plane: &Plane) -> [F<S>; 2];
-
-    fn precise_plane(&self, bundle: &Bundle<Self>, corners: &[[f32; 3]; 3]) -> Self::PrecisePlane;
-
-    /// A plane from `f64`.
-    fn plane_of(&self, bundle: &Bundle<Self>, precise: &Self::PrecisePlane) -> Plane;
-
-    /// A vector whose product with (u, v, 1) is negative where a ray crosses the first plane before the second, both ahead of it,
-    /// and positive where it does so behind; and the error of that product. None where it is not known, as where any
-    /// crossing will do.
-    fn order(&self, _: &Bundle<Self>, _: [&Self::PrecisePlane; 2]) -> Option<([f32; 3], f32)> {
-        None
-    }
-}
-
-/// Eight boxes as the rays see them: between which places and depths they lie.
-pub(crate) struct Sides<S: Simd> {
-    pub(super) low: [f32x8<S>; 2],
-    pub(super) high: [f32x8<S>; 2],
-    pub(super) near: f32x8<S>,
-    pub(super) away: f32x8<S>,
-}
 
 /// A bundle of rays.
 pub(crate) struct Bundle<C> {
@@ -112,39 +62,6 @@ impl AnyBundle {
             Self::Through(bundle) => bundle.search(s, tree, visits, rays, exact),
             Self::Along(bundle) => bundle.search(s, tree, visits, rays, exact),
         }
-    }
-}
-
-/// One packet of a bundle: the places of its rays, which are slopes where they pass through one point, and their nearest hits.
-#[derive(Clone, Copy)]
-pub(crate) struct BundledRays<S: Simd> {
-    pub(crate) u: F<S>,
-    pub(crate) v: F<S>,
-    /// Box round the places.
-    pub(crate) around: [[f32; 2]; 2],
-    /// Depths between which the stretch begins.
-    pub(crate) begin: [F<S>; 2],
-    /// Depths between which the nearest crossing so far lies, or the end of the stretch.
-    pub(crate) end: [F<S>; 2],
-    /// Slot of the nearest triangle in the tree's blocks; [`u32::MAX`] for none.
-    pub(crate) slot: U<S>,
-    /// Triangle that each ray leaves from.
-    pub(crate) leaving: U<S>,
-    /// Depth per `t`.
-    pub(crate) scale: F<S>,
-    pub(crate) live: M<S>,
-    /// How often a triangle was decided on in `f64`.
-    pub(crate) decided: u64,
-}
-
-impl<S: Simd> BundledRays<S> {
-    /// Box round the places of the rays that are still followed, of which there are some.
-    #[inline(always)]
-    fn around_live(&self, s: S) -> [[f32; 2]; 2] {
-        let (most, least) = (F::splat(s, f32::INFINITY), F::splat(s, f32::NEG_INFINITY));
-        let low = |places| F::pick(self.live, places, most).0.reduce_min();
-        let high = |places| F::pick(self.live, places, least).0.reduce_max();
-        [[low(self.u), low(self.v)], [high(self.u), high(self.v)]]
     }
 }
 

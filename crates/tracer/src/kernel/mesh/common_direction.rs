@@ -8,7 +8,9 @@ use catoptra_core::{Arithmetic, Lane, LaneMask};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::bundle::{Bundle, BundledRays, Common, Eight3, Sides};
+use super::bundle::Bundle;
+use super::bundled_rays::BundledRays;
+use super::common::{Common, Eight3, Sides};
 use super::edges::{Around, Prepared, cross, dot, largest, minus, seen, stored};
 use super::planes::Plane;
 use super::ray_bundle::{Aim, component};

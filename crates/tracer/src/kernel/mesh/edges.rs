@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use super::bundle::Eight3;
+use super::common::Eight3;
 use crate::accel::WIDTH;
 use crate::lanes::MulAdd8;
 

@@ -6,6 +6,8 @@
 
 mod accept;
 mod bundle;
+mod bundled_rays;
+mod common;
 mod common_direction;
 mod common_origin;
 mod edges;
@@ -25,7 +27,8 @@ use fearless_simd::{Simd, f32x8};
 use crate::accel::{MAX_DEPTH, Node8, WIDTH, WideTree};
 use crate::numeric::CERTAIN;
 
-pub(crate) use bundle::{AnyBundle, Bundle, BundledRays};
+pub(crate) use bundle::{AnyBundle, Bundle};
+pub(crate) use bundled_rays::BundledRays;
 pub(crate) use common_direction::Starts;
 pub(crate) use precise::LaneTriangles;
 pub(crate) use ray_bundle::{Lines, RayBundle, Reach};

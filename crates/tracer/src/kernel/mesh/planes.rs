@@ -4,7 +4,8 @@ use catoptra_core::{Arithmetic, Lane};
 use fearless_simd::Simd;
 
 use super::BundledRays;
-use super::bundle::{Bundle, Common};
+use super::bundle::Bundle;
+use super::common::Common;
 use super::edges::Prepared;
 use crate::kernel::bound;
 use crate::lanes::{F, M};

@@ -6,10 +6,11 @@ use catoptra_core::{Lane, LaneMask, Ray};
 use fearless_simd::Simd;
 use fearless_simd::prelude::*;
 
-use super::bundle::{Bundle, BundledRays};
+use super::bundle::Bundle;
+use super::bundled_rays::BundledRays;
 use super::common_origin::CommonOrigin;
-use crate::lanes::{D, D3, F, LaneVectors, M, U, outlined, splat_wide, vector_of};
-use crate::numeric::{BUNDLE_SLOPE, BUNDLE_SPREAD, BUNDLE_STEEP};
+use crate::lanes::{D, D3, F, LaneVectors, M, outlined, splat_wide, vector_of};
+use crate::numeric::{BUNDLE_SLOPE, BUNDLE_SPREAD};
 
 /// Rays of a packet as lines from a point each.
 #[derive(Clone, Copy)]
@@ -167,24 +168,6 @@ impl<S: Simd> Lines<S> {
 }
 
 impl<S: Simd> BundledRays<S> {
-    /// No rays.
-    #[inline(always)]
-    pub(crate) fn nothing(s: S) -> Self {
-        let (zero, none) = (F::splat(s, 0.0), U::splat(s, u32::MAX));
-        Self {
-            u: zero,
-            v: zero,
-            around: [[0.0; 2]; 2],
-            begin: [zero; 2],
-            end: [zero; 2],
-            slot: none,
-            leaving: none,
-            scale: zero,
-            live: M::splat(s, false),
-            decided: 0,
-        }
-    }
-
     /// Takes over the live lines; other lanes get the slopes of a model.
     #[inline(always)]
     fn follow(&mut self, s: S, aim: &Aim, lines: &Lines<S>, model: [F<S>; 3]) {
@@ -198,30 +181,6 @@ impl<S: Simd> BundledRays<S> {
         self.live = live;
         let (u, v) = (self.u.0, self.v.0);
         self.around = [[u.reduce_min(), v.reduce_min()], [u.reduce_max(), v.reduce_max()]];
-    }
-
-    /// Lines whose slopes are small enough: that run along the main axis, or at least not much more across it.
-    #[inline(always)]
-    fn are_small(&self, s: S) -> M<S> {
-        let most = F::splat(s, BUNDLE_STEEP);
-        self.u.abs().less(most) & self.v.abs().less(most)
-    }
-
-    /// Error of the slopes where a point of each line is off by `off`.
-    #[inline(always)]
-    pub(crate) fn error_where_off(&self, s: S, off: F<S>) -> f32 {
-        // Both coordinates across and the depth, times a slope below 2, count; a quotient and a sum are rounded.
-        let most = off * F::splat(s, 3.5) / self.scale;
-        F::pick(self.live, most, F::splat(s, 0.0)).0.reduce_max()
-    }
-
-    /// Begins a search: `begin` are depths between which the stretch begins, `end` is known within a bound, `leaving` are
-    /// the triangles that the rays leave.
-    #[inline(always)]
-    pub(crate) fn start(&mut self, s: S, begin: [F<S>; 2], [end, error]: [F<S>; 2], leaving: U<S>) {
-        self.begin = begin;
-        self.end = [end - error, end + error];
-        (self.leaving, self.slot, self.decided) = (leaving, U::splat(s, u32::MAX), 0);
     }
 }
 
