@@ -61,6 +61,13 @@ impl<S: Simd> BundledRays<S> {
             self.live = self.live & !lanes;
         }
     }
+
+    /// Which of some lanes, told by bits, leave the plane of a triangle.
+    fn leaving_plane_of(&self, facet: u32, lanes: u64, exact: &dyn ExactResolver) -> u64 {
+        let own = M::from_bits(self.slot.0.token(), lanes) & !self.leaving.is(u32::MAX);
+        let left = self.leaving.groups(own).filter(|(left, _)| exact.leaves(*left, facet));
+        left.fold(0, |all, (_, lanes)| all | lanes.bits())
+    }
 }
 
 impl CommonOrigin {
@@ -112,6 +119,8 @@ impl CommonOrigin {
     ) {
         let PacketRays { rays, packet } = packet;
         let OpenLanes { open, inside } = lanes;
+        let open = open & !rays.leaving_plane_of(triangle.facet, open, exact);
+        let lanes = OpenLanes { open, inside };
         // Where only edges are open, depths have already been compared.
         let open = if open & inside == 0 { open } else { self.decide_by_depths(triangle, lanes, rays) };
         for lane in Bits(open) {

@@ -42,6 +42,10 @@ pub(crate) trait ExactResolver {
     /// The ray of a lane in the mesh's own space, and the span of it that is searched.
     fn ray(&mut self, lane: usize) -> Option<(Ray, Span)>;
 
+    /// Whether rays that leave a triangle leave another with it, as both lie in one plane. Their starts are rounded and stand
+    /// beside that plane by what `f64` may tell from zero, but `f32` never does: only what it leaves open is asked.
+    fn leaves(&self, left: u32, facet: u32) -> bool;
+
     /// The `t` at which the ray of a lane meets a triangle, if that lies before its nearest hit so far: the triangle
     /// `held`, or else the hit it came with.
     fn decide(&mut self, lane: usize, facet: u32, held: Option<u32>) -> Option<f64>;

@@ -253,7 +253,7 @@ impl SingleRay {
     fn decide(&self, tree: &WideTree, slot: u32, best: &mut ClosestHit, exact: &mut dyn ExactResolver) {
         let (facet, held) = (tree.facet(slot), best.slot);
         // A triangle may be in several leaves.
-        if held.is_some_and(|held| tree.facet(held) == facet) {
+        if held.is_some_and(|held| tree.facet(held) == facet) || exact.leaves(self.leaving, facet) {
             return;
         }
         // A rounding of the difference, towards smaller numbers.

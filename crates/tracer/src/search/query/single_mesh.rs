@@ -279,6 +279,10 @@ impl ExactResolver for ClosestOfQuery<'_> {
         Some((self.of.mesh.own_ray(&ray), span))
     }
 
+    fn leaves(&self, left: u32, facet: u32) -> bool {
+        self.of.mesh.triangles().lies_in_plane(left, facet)
+    }
+
     #[cold]
     #[inline(never)]
     fn decide(&mut self, lane: usize, facet: u32, held: Option<u32>) -> Option<f64> {
