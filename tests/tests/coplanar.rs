@@ -1,4 +1,5 @@
-//! Do triangles of a mesh that overlap in one plane look like that plane, to every backend?
+//! Do triangles of a mesh that overlap in one plane look like that plane, to every backend, and is its order the same however it is
+//! worked out?
 
 use catoptra_core::geometry::Mesh;
 use catoptra_core::glam::DVec3;
@@ -7,7 +8,7 @@ use catoptra_core::material::Matte;
 use catoptra_core::{Camera, MeshSource, Ray, Rgb, Scene, TriangleMesh};
 use catoptra_tests::{assert_same_bits, picture, traced};
 use catoptra_tracer::query::{HitList, RayList, find_nearest, find_occluded};
-use catoptra_tracer::{Film, Pool, Size, Snapshot, SurfaceId, View, backends};
+use catoptra_tracer::{Film, Pool, Size, Skip, Snapshot, SurfaceId, View, backends};
 
 const SIZE: Size = Size::new(96, 64);
 
@@ -123,5 +124,15 @@ fn every_backend_meets_the_same_of_a_mass_however_often_it_is_asked() {
     }
     for at in (0..rays.len()).filter(|at| at % 6 > 2) {
         assert_eq!(first.0[at], None, "what leaves the plane meets nothing else");
+    }
+}
+
+#[test]
+fn the_order_in_a_plane_is_the_same_where_its_number_is_not_known() {
+    let scene = scene(3000);
+    let usual = traced(&scene, "wide", &view(), Film::new(SIZE), 2);
+    for skip in [Skip { planes: false, ..Skip::ALL }, Skip { planes: true, ..Skip::NOTHING }, Skip::NOTHING] {
+        let long = traced(&scene, "wide", &View { skip, ..view() }, Film::new(SIZE), 2);
+        assert_same_bits(&usual, &long, &format!("{skip:?}"));
     }
 }

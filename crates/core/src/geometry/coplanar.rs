@@ -36,7 +36,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::exact::{Dyadic, Number, Vector};
+    use crate::exact::{Dyadic, Vector};
 
     /// The volume that a point spans with a triangle, exactly.
     fn is_flat(&[a, b, c]: &[DVec3; 3], p: DVec3) -> bool {

@@ -152,8 +152,11 @@ impl Geometry for Mesh {
         span: Span,
         leaving: Option<u32>,
     ) -> Verdict<Option<FacetRoot<N>>> {
+        if leaving == Some(triangle) {
+            return Ok(None);
+        }
         let met = meet_triangle(&self.triangles.corners(triangle), own, span, triangle);
-        // Asked last, as most are missed.
+        // Planes are asked about last, as most triangles are missed.
         if !matches!(met, Ok(None)) && self.leaves(leaving, triangle) { Ok(None) } else { met }
     }
 

@@ -16,7 +16,7 @@ use super::edges::{Prepared, Slopes};
 use super::packets::{Packets, SeenBox};
 use super::ray_bundle::Aim;
 use super::{ExactResolver, GROUP, LeafBlock, Visit, Visits, Waiting};
-use crate::accel::{Node8, WIDTH, WideTree};
+use crate::accel::{Node8, Planes, WIDTH, WideTree};
 use crate::lanes::{Bits, F, M, U, outlined};
 use crate::numeric::{BUNDLE_BOX, BUNDLE_PAD, BUNDLE_SLOPE};
 
@@ -92,13 +92,15 @@ struct SeenBlock<'a> {
     prepared: &'a Prepared,
     /// Triangles that rays may meet, bit by bit.
     seen: u64,
+    planes: Option<&'a Planes>,
 }
 
 impl<'a> SeenBlock<'a> {
     #[inline(always)]
     fn triangle(&self, at: usize) -> TreeTriangle<'a> {
         let LeafBlock { tree, block, .. } = self.leaf;
-        TreeTriangle { tree, slot: self.leaf.slot(at), facet: tree.blocks[block].facet[at] }
+        let facet = tree.blocks[block].facet[at];
+        TreeTriangle { tree, slot: self.leaf.slot(at), facet, planes: self.planes }
     }
 }
 
@@ -178,9 +180,13 @@ impl CommonOrigin {
         rays: &mut [BundledRays<S>],
         exact: &mut dyn ExactResolver,
     ) {
+        let planes = visits.planes_of(tree);
         let Some(mut waiting) = visits.start() else { return };
         let mut packets = Packets::NONE;
         for (at, rays) in rays.iter_mut().enumerate().take(GROUP) {
+            if let Some(planes) = planes {
+                rays.leave_planes(s, planes);
+            }
             rays.slopes = self.widened(rays.slopes);
             packets.set(at, rays.slopes, self.far(s, rays));
         }
@@ -198,7 +204,7 @@ impl CommonOrigin {
                 *waiting.blocks += 1;
                 let within = u64::from(visit.packets & packets.within(s, visit.near));
                 let Some((prepared, seen)) = self.prepare(s, &leaf, &ray_bounds) else { continue };
-                let block = SeenBlock { leaf, prepared: &prepared, seen };
+                let block = SeenBlock { leaf, prepared: &prepared, seen, planes };
                 let changed = self.pass(s, &block, within, rays, exact);
                 for packet in Bits(changed) {
                     let rays = &mut rays[packet];

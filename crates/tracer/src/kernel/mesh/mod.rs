@@ -20,7 +20,7 @@ use catoptra_core::{Ray, Span};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use crate::accel::{MAX_DEPTH, Node8, WIDTH, WideTree};
+use crate::accel::{MAX_DEPTH, Node8, Planes, WIDTH, WideTree};
 use crate::numeric::CERTAIN;
 
 pub(crate) use common_origin::{BundledRays, CommonOrigin};
@@ -175,6 +175,8 @@ pub(crate) struct Visits {
     /// Nodes and blocks that have been looked at.
     pub(crate) nodes: u64,
     pub(crate) blocks: u64,
+    /// Whether triangles in one plane are each held against a ray, even where their planes are numbered.
+    pub(crate) one_by_one: bool,
 }
 
 /// A tree to be walked, with the stack and counters for that.
@@ -184,6 +186,12 @@ pub(crate) struct TreeWalk<'a> {
 }
 
 impl Visits {
+    /// The numbers of a tree's planes that walks go by, if any.
+    #[inline(always)]
+    fn planes_of<'a>(&self, tree: &'a WideTree) -> Option<&'a Planes> {
+        tree.planes.known().filter(|_| !self.one_by_one)
+    }
+
     /// An empty stack of children to be visited.
     #[inline(always)]
     fn start(&mut self) -> Option<Waiting<'_>> {
