@@ -367,3 +367,11 @@ pub(crate) const CUT_MARGIN: f32 = 1.0 / 4096.0;
 /// size of the plane's normal: 2⁻¹⁸. The normal in `f32` is off by 2⁻²⁰ of itself, as is what is carried over into a mesh's
 /// own space; differences, products and sums add 6 roundings.
 pub(crate) const VIEW_MARGIN: f32 = 1.0 / (1 << 18) as f32;
+
+/// Size of the cells that normals, whose largest coordinate is 1, and distances of planes are sorted into, those in parts of the
+/// mesh: 2⁻³². Equal planes of triangles that are not [thin](PLANE_THIN) are computed to a thousandth of it.
+pub(crate) const PLANE_CELL: f64 = 1.0 / (1_u64 << 32) as f64;
+
+/// How small the largest coordinate of a triangle's normal is against the square of its largest extent where it counts as thin:
+/// 2⁻⁸, which leaves 2⁻⁴⁴ of the normal as the error of a few roundings.
+pub(crate) const PLANE_THIN: f64 = 1.0 / 256.0;

@@ -203,15 +203,31 @@ pub struct Skip {
     pub blank: bool,
     /// Trees of meshes are not walked by each packet of rays alone where rays side by side have a common origin.
     pub walks: bool,
+    /// Of masses of a mesh's triangles in one plane, those in a plane that a ray leaves or has met are not each held against it.
+    pub planes: bool,
 }
 
 impl Skip {
     /// Everything that can be left out is.
-    pub const ALL: Self =
-        Self { hidden: true, shafts: true, beams: true, unreached: true, blank: true, walks: true };
+    pub const ALL: Self = Self {
+        hidden: true,
+        shafts: true,
+        beams: true,
+        unreached: true,
+        blank: true,
+        walks: true,
+        planes: true,
+    };
     /// Nothing is left out.
-    pub const NOTHING: Self =
-        Self { hidden: false, shafts: false, beams: false, unreached: false, blank: false, walks: false };
+    pub const NOTHING: Self = Self {
+        hidden: false,
+        shafts: false,
+        beams: false,
+        unreached: false,
+        blank: false,
+        walks: false,
+        planes: false,
+    };
 }
 
 impl View {

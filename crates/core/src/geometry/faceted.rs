@@ -200,7 +200,7 @@ impl Faceted {
         }
         let passage = crossings.passage()?;
         match leaving.filter(|&left| left < self.count()) {
-            Some(left) => passage.after_leaving(left, self.side_of::<N>(left, own)?),
+            Some(left) => passage.after_leaving(|facet| facet == left, self.side_of::<N>(left, own)?),
             None => Ok(passage),
         }
     }

@@ -115,12 +115,17 @@ impl Mesh {
         span: Span,
         leaving: Option<u32>,
     ) -> Option<f64> {
-        if !own.is_valid() || leaving.is_some_and(|left| self.triangles.lie_in_one_place(left, triangle)) {
+        if !own.is_valid() || self.leaves(leaving, triangle) {
             return None;
         }
         let [corners, of_held] = [triangle, held].map(|triangle| self.triangles.corners(triangle));
         let (met, order) = met_beside(&corners, &of_held, own, span)?;
         order.then(triangle.cmp(&held)).is_lt().then_some(met.t)
+    }
+
+    /// Whether a ray that leaves a triangle leaves another with it, as they lie in one plane.
+    fn leaves(&self, left: Option<u32>, triangle: u32) -> bool {
+        left.is_some_and(|left| self.triangles.lies_in_plane(left, triangle))
     }
 
     /// How much each corner of a triangle counts at a point.
@@ -147,10 +152,12 @@ impl Geometry for Mesh {
         span: Span,
         leaving: Option<u32>,
     ) -> Verdict<Option<FacetRoot<N>>> {
-        if leaving.is_some_and(|left| self.triangles.lie_in_one_place(left, triangle)) {
+        if leaving == Some(triangle) {
             return Ok(None);
         }
-        meet_triangle(&self.triangles.corners(triangle), own, span, triangle)
+        let met = meet_triangle(&self.triangles.corners(triangle), own, span, triangle);
+        // Planes are asked about last, as most triangles are missed.
+        if !matches!(met, Ok(None)) && self.leaves(leaving, triangle) { Ok(None) } else { met }
     }
 
     fn crossing(&self, own: &Ray, at: Located, triangle: u32) -> Option<Crossing> {
@@ -216,7 +223,7 @@ impl Geometry for Mesh {
         match leaving.filter(|&left| left < self.pieces()) {
             Some(left) => {
                 let side = area::<N>(&mesh.corners(left)).dot(&Vector::of(own.direction)).sign()?;
-                passage.after_leaving(left, side)
+                passage.after_leaving(|facet| mesh.lies_in_plane(left, facet), side)
             }
             None => Ok(passage),
         }
@@ -224,5 +231,46 @@ impl Geometry for Mesh {
 
     fn as_mesh(&self) -> Option<&Mesh> {
         Some(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn a_ray_that_leaves_a_triangle_leaves_its_plane_and_nothing_else(
+            base in prop::array::uniform3([-9_i16..10, -9..10, -9..10]),
+            weights in [0.0..1.0_f64, 0.0..1.0], along in [-1.0..1.0_f64, -1.0..1.0],
+            steepness in -16.0..0.0_f64, side in prop::sample::select(vec![-1.0, 1.0]),
+        ) {
+            // A quadrilateral of two triangles, in a plane that its corners lie in exactly, between two that stand beside it.
+            let [at, u, v] = base.map(|c| DVec3::from(c.map(f64::from)));
+            let normal = u.cross(v);
+            prop_assume!(normal.length() > 1.0);
+            let corners = [at, at + u, at + u + v, at + v];
+            let beside = [9.0, -9.0].map(|far| corners.map(|p| p + normal * far));
+            let positions = corners.into_iter().chain(beside.into_iter().flatten()).map(|p| p.as_vec3().to_array());
+            let halves = |first: u32| [[first, first + 1, first + 2], [first, first + 2, first + 3]];
+            let triangles = [0, 4, 8].into_iter().flat_map(halves).collect();
+            let mesh = TriangleMesh::new(positions.collect(), triangles, None, None).unwrap();
+            let mesh = Mesh::new(MeshSource { path: String::new(), mesh: mesh.into() });
+            let [x, y] = weights;
+            let start = at + u * x + v * y;
+            let flat = (u * along[0] + v * along[1]) / 100.0;
+            let ray = Ray::new(start, flat + normal * side * 10.0_f64.powf(steepness));
+            for left in [0, 1] {
+                let met = mesh.cross(&ray, Span::AHEAD, Some(left));
+                prop_assert!(met.is_none_or(|met| met.facet > 1), "{:?}", met);
+            }
+            let upright = Ray::new(start, normal * side);
+            let met = mesh.cross(&upright, Span::AHEAD, Some(0)).map(|met| met.facet / 2);
+            prop_assert_eq!(met, Some(if side > 0.0 { 1 } else { 2 }));
+        }
     }
 }

@@ -4,6 +4,7 @@
 
 mod capsule;
 mod cone;
+mod coplanar;
 mod crossings;
 mod cuboid;
 mod cylinder;
@@ -152,8 +153,8 @@ pub trait Geometry {
     /// [valid](Ray::is_valid) crosses nothing; one that runs within a flat surface does not cross it.
     ///
     /// `leaving` names the facet that the ray's origin lies on, if it leaves from this very shape: that meeting
-    /// (t ≈ 0) is not found again, while the far side of a solid is. A ray that leaves a convex solid outwards does not
-    /// meet it again, whatever rounding has made of its origin.
+    /// (t ≈ 0) is not found again, nor are triangles of the same mesh in the same plane, while the far side of a solid is. A ray
+    /// that leaves a convex solid outwards does not meet it again, whatever rounding has made of its origin.
     fn cross(&self, ray: &Ray, span: Span, leaving: Option<u32>) -> Option<Crossing> {
         let own = self.own_ray(ray);
         let mut best: Option<Crossing> = None;

@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use glam::{DVec2, DVec3};
 
+use super::coplanar::lies_in_plane;
 use super::parametrization::{BARYCENTRIC, in_triangle};
 use super::{FacetRoot, Geometry, Parametrization};
 use crate::exact::{
@@ -176,7 +177,7 @@ fn are_together(first: &[DVec3; 3], second: &[DVec3; 3], through: impl Fn(usize)
         [false, false, true] => through(0) && through(1),
         [false, false, false] => false,
     };
-    let together = at_edge_or_corner || second.iter().all(|p| common_plane(first, *p));
+    let together = at_edge_or_corner || lies_in_plane(second, first);
     if together {
         count_tie();
     }
@@ -213,20 +214,6 @@ fn locate<N: Number>(corners: &[DVec3; 3], ray: &Ray, span: Span) -> Verdict<Opt
         Some(root) => N::locate(&root, span),
         None => Ok(None),
     }
-}
-
-/// Whether a point lies in the plane of a triangle.
-fn common_plane(&[a, b, c]: &[DVec3; 3], p: DVec3) -> bool {
-    let [u, v, w] = [b, c, p].map(|to| to - a);
-    let reach = u.abs().max(v.abs()).max_element();
-    let size = w.abs().element_sum();
-    // That of a volume, and the rounding of the third difference.
-    let error = 2.0 * EDGE_VALUE_ERROR * reach * reach * size + f64::MIN_POSITIVE * (1.0 + size);
-    if u.cross(v).dot(w).abs() > error {
-        return false;
-    }
-    let from_a = |to: DVec3| Difference { from: a, to };
-    sign_of_determinant(&[from_a(b), from_a(c), from_a(p)]).is_eq()
 }
 
 /// `(q − p) × (r − p)` of a triangle with corners p, q and r: its normal, twice as long as its area is large.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::OpenEdge;
+use super::coplanar::lies_in_plane;
 use super::doubles::Doubles;
 use super::line_tree::LineTree;
 use super::parametrization::BARYCENTRIC;
@@ -211,12 +212,13 @@ impl TriangleMesh {
         self.doubles.firsts(self)
     }
 
-    /// Whether two triangles are one, or lie in the same place.
-    pub(super) fn lie_in_one_place(&self, a: u32, b: u32) -> bool {
-        let same = |firsts: &[u32]| {
-            firsts.get(a as usize).is_some_and(|first| firsts.get(b as usize) == Some(first))
-        };
-        a == b || self.firsts_in_place().is_some_and(same)
+    /// Whether a triangle lies exactly in the plane of another, as each does in its own; a ray that leaves the first does not meet
+    /// the other. In the plane of a triangle without area, which is never met, lie all.
+    #[must_use]
+    pub fn lies_in_plane(&self, triangle: u32, of: u32) -> bool {
+        let has = |triangle: u32| (triangle as usize) < self.triangles.len();
+        triangle == of
+            || has(triangle) && has(of) && lies_in_plane(&self.corners(triangle), &self.corners(of))
     }
 
     /// Shows `visit` each triangle that the line of a ray in the mesh's own space may meet, in any order, until an error.

@@ -35,18 +35,18 @@ impl<N> Passage<N> {
 }
 
 impl<N: Number> Passage<N> {
-    /// What of a whole line's passage is ahead of a ray that leaves a facet, of which is told whether the ray runs to the outer
-    /// side of it (`Greater`) or to the inner one.
+    /// What of a whole line's passage is ahead of a ray that leaves some facets in one plane, of which is told whether the ray
+    /// runs to the outer side of them (`Greater`) or to the inner one.
     ///
-    /// All up to where the line crosses that facet is behind the ray, and as rounding may have put its origin beside the surface,
+    /// All up to where the line crosses such a facet is behind the ray, and as rounding may have put its origin beside the surface,
     /// a first end that would not be one on the side that the ray runs to is none.
     ///
     /// # Errors
     /// When such numbers cannot decide what is ahead.
-    pub(crate) fn after_leaving(mut self, facet: u32, side: Ordering) -> Verdict<Self> {
+    pub(crate) fn after_leaving(mut self, leaves: impl Fn(u32) -> bool, side: Ordering) -> Verdict<Self> {
         let mut behind = 0;
         for (place, end) in self.ends.iter().enumerate() {
-            if end.facet == facet || end.root.side(&N::of(0.0), &N::of(1.0))?.is_le() {
+            if leaves(end.facet) || end.root.side(&N::of(0.0), &N::of(1.0))?.is_le() {
                 behind = place + 1;
             }
         }

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::bins::{Bins, Extent, Item, Plane, Scale, Set, weight};
 use super::pack::pack;
+use super::planes::AskedPlanes;
 use super::spatial::cheapest_cut;
 use super::wide_tree::{Node8, WIDTH, WideTree};
 use super::{MAX_DEPTH, Preset};
@@ -75,10 +76,10 @@ impl<S: Simd> Grower<'_, S> {
         let mut nodes = Vec::with_capacity(count / 8 + 1);
         self.node((&mut items, &mut scratch), 0, root, 0, &mut nodes);
         if self.control.is_cancelled() {
-            return WideTree { nodes: Vec::new(), blocks: Vec::new() };
+            return WideTree { nodes: Vec::new(), blocks: Vec::new(), planes: AskedPlanes::default() };
         }
         let blocks = pack(mesh, &mut nodes, &items);
-        WideTree { nodes, blocks }
+        WideTree { nodes, blocks, planes: AskedPlanes::default() }
     }
 
     /// Appends the node over `items`, which stand from `base` on in the order of all, and those below it.

@@ -42,6 +42,13 @@ impl MeshTree {
         &self.mesh
     }
 
+    /// The tree, to be walked by rays.
+    #[inline(always)]
+    pub(crate) fn to_walk(&self) -> &WideTree {
+        self.tree.planes.number_where_it_pays(&self.mesh, &self.tree.blocks);
+        &self.tree
+    }
+
     /// Bytes of the tree with its copies of the triangles, without the mesh.
     #[must_use]
     pub fn bytes(&self) -> usize {

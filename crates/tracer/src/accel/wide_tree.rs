@@ -3,6 +3,7 @@
 use catoptra_core::glam::DVec3;
 use catoptra_core::{Ray, Span};
 
+use super::planes::AskedPlanes;
 use super::{Box32, MAX_DEPTH};
 use crate::lanes::prefetch;
 
@@ -65,10 +66,11 @@ impl Block8 {
 }
 
 /// Nodes and blocks. Where a block holds no leaf's triangle it repeats its first, so that all of it may be tested.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct WideTree {
     pub(crate) nodes: Vec<Node8>,
     pub(crate) blocks: Vec<Block8>,
+    pub(crate) planes: AskedPlanes,
 }
 
 impl WideTree {

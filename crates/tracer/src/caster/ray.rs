@@ -52,8 +52,8 @@ impl WorldRay {
         Ok(Self { span: checked_span(ends)?, ..self })
     }
 
-    /// The same ray, leaving the surface that its origin lies on but for rounding: it does not meet that again there. A ball or
-    /// another convex solid that it leaves outwards it does not meet at all.
+    /// The same ray, leaving the surface that its origin lies on but for rounding: it does not meet that again there, nor triangles of
+    /// the same mesh in the same plane. A ball or another convex solid that it leaves outwards it does not meet at all.
     #[must_use]
     pub fn leaving(self, surface: SurfaceId) -> Self {
         Self { leaving: Leaving { surface: Some(surface), ..self.leaving }, ..self }

@@ -29,6 +29,10 @@ impl<S: Simd, P: PreciseRays<S>> ExactResolver for ClosestOfPackets<'_, '_, S, P
         Some((self.mesh.own_ray(&packet.ray(lane)), packet.span(lane)))
     }
 
+    fn leaves(&self, left: u32, facet: u32) -> bool {
+        self.mesh.triangles().lies_in_plane(left, facet)
+    }
+
     #[cold]
     #[inline(never)]
     fn decide(&mut self, lane: usize, facet: u32, held: Option<u32>) -> Option<f64> {
@@ -63,6 +67,10 @@ impl<S: Simd, G: Segments<S>> ExactResolver for AnyInTheWay<'_, '_, S, G> {
         let shadows = &self.shadows[lane / F::<S>::LANES];
         let (ray, span) = shadows.segments.segment(self.snapshot, lane % F::<S>::LANES)?;
         Some((self.mesh.own_ray(&ray), span))
+    }
+
+    fn leaves(&self, left: u32, facet: u32) -> bool {
+        self.mesh.triangles().lies_in_plane(left, facet)
     }
 
     #[cold]

@@ -90,7 +90,7 @@ impl<S: Simd> Searcher<'_, S> {
             rays.start(self.s, begin, end, packet.leaving.facets_of(self.s, instance.prim));
         }
         let mut exact = ClosestOfPackets { snapshot, mesh, prim: instance.prim, packets, before: &*best };
-        bundle.common_origin.search(self.s, &instance.tree.tree, self.visits, rays, &mut exact);
+        bundle.common_origin.search(self.s, instance.tree.to_walk(), self.visits, rays, &mut exact);
         self.count_visits();
         for ((rays, packet), best) in rays.iter().zip(packets).zip(best) {
             self.stats.settled += rays.decided;
@@ -132,7 +132,7 @@ impl<S: Simd> Searcher<'_, S> {
         let leaving = packet.leaving.facets_of(self.s, instance.prim);
         self.ray_setup(lines, instance).search(
             self.s,
-            TreeWalk { tree: &instance.tree.tree, visits: self.visits },
+            TreeWalk { tree: instance.tree.to_walk(), visits: self.visits },
             StartingRays { lanes: lines.live, leaving },
             #[inline(always)]
             |lane| {

@@ -49,7 +49,7 @@ impl<S: Simd> Searcher<'_, S> {
         let (setup, live) = segments.single_rays(self, rays, open, instance, mesh);
         let leaving = rays.leaving.facets_of(self.s, instance.prim);
         let begun = |lane| ClosestHit::nothing_on(segments.span(lane)).for_any(true);
-        let walk = TreeWalk { tree: &instance.tree.tree, visits: self.visits };
+        let walk = TreeWalk { tree: instance.tree.to_walk(), visits: self.visits };
         let slots = setup.search(self.s, walk, StartingRays { lanes: live, leaving }, begun, &mut exact);
         self.count_visits();
         open & slots.is(NONE)
@@ -75,7 +75,7 @@ impl<S: Simd> Searcher<'_, S> {
             }
         }
         let mut exact = AnyInTheWay { snapshot, mesh, prim: instance.prim, shadows: &*shadows };
-        bundle.search(self.s, &instance.tree.tree, self.visits, rays, &mut exact);
+        bundle.search(self.s, instance.tree.to_walk(), self.visits, rays, &mut exact);
         self.count_visits();
         for (rays, shadows) in rays.iter().zip(shadows) {
             self.stats.settled += rays.decided;

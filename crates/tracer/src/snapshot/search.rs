@@ -13,7 +13,8 @@ use super::origin::{is_exact, relative};
 use super::{Prim, Snapshot};
 use crate::accel::{MeshTree, WideTree};
 
-/// A facet of a shape. A ray that leaves from one does not meet it again at its origin.
+/// A facet of a shape. A ray that leaves from one does not meet it again at its origin, nor triangles of the same mesh in the same
+/// plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SurfaceId {
     /// Which shape of the snapshot.

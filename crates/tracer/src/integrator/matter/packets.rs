@@ -165,6 +165,7 @@ impl Work for FindFirst<'_> {
         let Self { frame, sample, tile, room } = self;
         let Room { camera: rays, visits, candidates: [all, visible], hits, .. } = room;
         let (snapshot, view) = (frame.snapshot, frame.view);
+        visits.one_by_one = !view.skip.planes;
         let mut search = Searcher::new(s, snapshot, visits, false);
         let region = Region::from(Size::new(tile.width, tile.height));
         all.all(snapshot.columns());
@@ -220,6 +221,7 @@ impl Work for FindNext<'_> {
         let Self { frame, room } = self;
         let Room { queue, visits, candidates: [all, _], found, rays, hits, .. } = room;
         let snapshot = frame.snapshot;
+        visits.one_by_one = !frame.view.skip.planes;
         let mut search = Searcher::new(s, snapshot, visits, false);
         queue.start(snapshot.origin_in_frame(), f64::INFINITY);
         for TileRay { path, pixel } in &*rays {

@@ -53,6 +53,7 @@ impl Work for TraceTile<'_> {
         let Self { frame, tile, room: Room { rays, queue, visits, all, visible } } = self;
         let (snapshot, view) = (frame.snapshot, frame.view);
         let outside = frame.outside_solids;
+        visits.one_by_one = !view.skip.planes;
         let mut tracer = OcclusionTracer { s, search: Searcher::new(s, snapshot, visits, outside), queue };
         let region = Region::from(Size::new(tile.width, tile.height));
         all.all(snapshot.columns());

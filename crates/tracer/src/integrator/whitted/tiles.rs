@@ -109,6 +109,7 @@ fn trace_with<S: Simd>(s: S, frame: &Frame<'_>, tile: &mut Tile, gathers: Gather
     }
     plan.start(snapshot);
     let outside = frame.outside_solids;
+    visits.one_by_one = !view.skip.planes;
     let search = Searcher::new(s, snapshot, visits, outside);
     let sample = Sample::new(view, 0);
     let shader =

@@ -10,9 +10,9 @@ use super::common::Common;
 use super::edges::Prepared;
 use super::planes::Crossing;
 use super::{Decision, Edges, ExactResolver, RayTriangle, decide};
-use crate::accel::{WIDTH, WideTree};
+use crate::accel::{Planes, WIDTH, WideTree};
 use crate::kernel::bound;
-use crate::lanes::{Bits, F, M, U, outlined};
+use crate::lanes::{Bits, F, M, MOST_LANES, U, outlined};
 use crate::numeric::BUNDLE_SLOPE;
 
 /// A triangle of a tree.
@@ -23,6 +23,8 @@ pub(super) struct TreeTriangle<'a> {
     pub(super) slot: u32,
     /// Its number in the mesh.
     pub(super) facet: u32,
+    /// The planes of the tree, where they are numbered.
+    pub(super) planes: Option<&'a Planes>,
 }
 
 impl TreeTriangle<'_> {
@@ -64,6 +66,51 @@ impl<S: Simd> BundledRays<S> {
             self.live = self.live & !lanes;
         }
     }
+
+    /// Names the planes that rays leave instead of triangles.
+    #[inline(always)]
+    pub(super) fn leave_planes(&mut self, s: S, planes: &Planes) {
+        let mut left = [u32::MAX; MOST_LANES];
+        for lane in (!self.leaving.is(u32::MAX)).lanes() {
+            left[lane % MOST_LANES] = planes.of_facet(self.leaving.lane(lane));
+        }
+        self.leaving = U::load(s, &left);
+    }
+
+    /// Takes over a triangle in lanes that pass within its edges and have met a later one in its plane; returns the lanes of
+    /// `candidate` that have met none in its plane, or may yet take it over.
+    #[inline(always)]
+    fn take_in_plane(
+        &mut self,
+        s: S,
+        triangle: &TreeTriangle<'_>,
+        planes: &Planes,
+        candidate: M<S>,
+        inside: M<S>,
+    ) -> M<S> {
+        let TreeTriangle { tree, slot, facet, .. } = *triangle;
+        let (plane, mut rest) = (planes.of_slot(slot), candidate);
+        for (held, lanes) in self.slot.groups(candidate & !self.slot.is(u32::MAX)) {
+            if planes.of_slot(held) != plane {
+                continue;
+            }
+            if tree.facet(held) <= facet {
+                rest = rest & !lanes;
+            } else {
+                // Both are met at one depth, which is known.
+                self.slot = U::pick(lanes & inside, U::splat(s, slot), self.slot);
+                rest = rest & !(lanes & inside);
+            }
+        }
+        rest
+    }
+
+    /// Which of some lanes, told by bits, leave the plane of a triangle.
+    fn leaving_plane_of(&self, facet: u32, lanes: u64, exact: &dyn ExactResolver) -> u64 {
+        let own = M::from_bits(self.slot.0.token(), lanes) & !self.leaving.is(u32::MAX);
+        let left = self.leaving.groups(own).filter(|(left, _)| exact.leaves(*left, facet));
+        left.fold(0, |all, (_, lanes)| all | lanes.bits())
+    }
 }
 
 impl<C: Common> Bundle<C> {
@@ -77,7 +124,8 @@ impl<C: Common> Bundle<C> {
         packet: PacketRays<'_, S>,
         exact: &mut dyn ExactResolver,
     ) -> bool {
-        let TreeTriangle { slot, facet, .. } = *triangle;
+        let TreeTriangle { slot, facet, planes, .. } = *triangle;
+        let left = planes.map_or(facet, |planes| planes.of_slot(slot));
         let PacketRays { rays, packet } = packet;
         let at = slot as usize % WIDTH;
         let edge = |[x, y, z]: &[[f32; WIDTH]; 3]| rays.value(s, [x[at], y[at], z[at]]);
@@ -85,11 +133,17 @@ impl<C: Common> Bundle<C> {
         let (a, b, c) = (edge(a), edge(b), edge(c));
         let error = bound(s, F::splat(s, prepared.edge_error[at]));
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        let candidate = rays.live & !(low.less(-error) & error.less(high)) & !rays.leaving.is(facet);
+        let mut candidate = rays.live & !(low.less(-error) & error.less(high)) & !rays.leaving.is(left);
         if !candidate.any() {
             return false;
         }
         let inside = error.less(low) | high.less(-error);
+        if let Some(planes) = planes {
+            candidate = rays.take_in_plane(s, triangle, planes, candidate, inside);
+            if !candidate.any() {
+                return false;
+            }
+        }
         let crossing = rays.cross(s, self, &prepared.plane(at));
         let take = candidate & inside & crossing.nearer;
         let open = candidate & !take & !crossing.beside;
@@ -115,6 +169,10 @@ impl<C: Common> Bundle<C> {
     ) {
         let PacketRays { rays, packet } = packet;
         let OpenLanes { open, inside } = lanes;
+        let left = open & rays.leaving_plane_of(triangle.facet, open, exact);
+        triangle.tree.planes.count(left.count_ones());
+        let open = open & !left;
+        let lanes = OpenLanes { open, inside };
         // Where only edges are open, depths have already been compared.
         let open = if open & inside == 0 { open } else { self.decide_by_depths(triangle, lanes, rays) };
         for lane in Bits(open) {
@@ -194,6 +252,7 @@ impl<C: Common> Bundle<C> {
             Decision::NotNearer => None,
             Decision::Nearer(t) => Some(t),
             Decision::Open => {
+                triangle.tree.planes.count(1);
                 exact.decide(in_group, triangle.facet, other.map(|slot| triangle.tree.facet(slot)))
             }
         }

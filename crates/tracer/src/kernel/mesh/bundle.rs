@@ -20,7 +20,7 @@ use super::edges::{Around, Prepared};
 use super::packets::{Packets, SeenBox};
 use super::ray_bundle::Aim;
 use super::{ExactResolver, GROUP, LeafBlock, Visit, Visits, Waiting};
-use crate::accel::{Block8, Node8, WIDTH, WideTree};
+use crate::accel::{Block8, Node8, Planes, WIDTH, WideTree};
 use crate::lanes::{Bits, F, outlined};
 use crate::numeric::{BUNDLE_PAD, SIDE_BY_SIDE};
 
@@ -80,13 +80,15 @@ struct SeenBlock<'a> {
     prepared: &'a Prepared,
     /// Triangles that rays may meet, bit by bit.
     seen: u64,
+    planes: Option<&'a Planes>,
 }
 
 impl<'a> SeenBlock<'a> {
     #[inline(always)]
     fn triangle(&self, at: usize) -> TreeTriangle<'a> {
         let LeafBlock { tree, block, .. } = self.leaf;
-        TreeTriangle { tree, slot: self.leaf.slot(at), facet: tree.blocks[block].facet[at] }
+        let facet = tree.blocks[block].facet[at];
+        TreeTriangle { tree, slot: self.leaf.slot(at), facet, planes: self.planes }
     }
 }
 
@@ -201,9 +203,13 @@ impl<C: Common> Bundle<C> {
         rays: &mut [BundledRays<S>],
         exact: &mut dyn ExactResolver,
     ) {
+        let planes = visits.planes_of(tree);
         let Some(mut waiting) = visits.start() else { return };
         let mut packets = Packets::NONE;
         for (at, rays) in rays.iter_mut().enumerate().take(GROUP) {
+            if let Some(planes) = planes {
+                rays.leave_planes(s, planes);
+            }
             rays.around = self.widened(rays.around);
             packets.set(at, rays.around, self.far(s, rays));
         }
@@ -223,7 +229,7 @@ impl<C: Common> Bundle<C> {
                 let Some((prepared, seen)) = self.common.prepare(s, self, &leaf, &ray_bounds) else {
                     continue;
                 };
-                let block = SeenBlock { leaf, prepared: &prepared, seen };
+                let block = SeenBlock { leaf, prepared: &prepared, seen, planes };
                 let changed = self.pass(s, &block, within, rays, exact);
                 for packet in Bits(changed) {
                     let rays = &mut rays[packet];

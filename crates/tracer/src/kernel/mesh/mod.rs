@@ -24,7 +24,7 @@ use catoptra_core::{Ray, Span};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8};
 
-use crate::accel::{MAX_DEPTH, Node8, WIDTH, WideTree};
+use crate::accel::{MAX_DEPTH, Node8, Planes, WIDTH, WideTree};
 use crate::numeric::CERTAIN;
 
 pub(crate) use bundle::{AnyBundle, Bundle};
@@ -47,6 +47,10 @@ fn bound_eight<S: Simd>(s: S, error: f32x8<S>) -> f32x8<S> {
 pub(crate) trait ExactResolver {
     /// The ray of a lane in the mesh's own space, and the span of it that is searched.
     fn ray(&mut self, lane: usize) -> Option<(Ray, Span)>;
+
+    /// Whether rays that leave a triangle leave another with it, as both lie in one plane. Their starts are rounded and stand
+    /// beside that plane by what `f64` may tell from zero, but `f32` never does: only what it leaves open is asked.
+    fn leaves(&self, left: u32, facet: u32) -> bool;
 
     /// The `t` at which the ray of a lane meets a triangle, if that lies before its nearest hit so far: the triangle
     /// `held`, or else the hit it came with.
@@ -177,6 +181,8 @@ pub(crate) struct Visits {
     /// Nodes and blocks that have been looked at.
     pub(crate) nodes: u64,
     pub(crate) blocks: u64,
+    /// Whether triangles in one plane are each held against a ray, even where their planes are numbered.
+    pub(crate) one_by_one: bool,
 }
 
 /// A tree to be walked, with the stack and counters for that.
@@ -186,6 +192,12 @@ pub(crate) struct TreeWalk<'a> {
 }
 
 impl Visits {
+    /// The numbers of a tree's planes that walks go by, if any.
+    #[inline(always)]
+    fn planes_of<'a>(&self, tree: &'a WideTree) -> Option<&'a Planes> {
+        tree.planes.known().filter(|_| !self.one_by_one)
+    }
+
     /// An empty stack of children to be visited.
     #[inline(always)]
     fn start(&mut self) -> Option<Waiting<'_>> {

@@ -119,9 +119,12 @@ impl RaySetup {
     ) -> U<S> {
         let mut slots = [u32::MAX; MOST_LANES];
         let TreeWalk { tree, visits } = walk;
+        let planes = visits.planes_of(tree);
         for lane in rays.lanes.lanes() {
             let mut found = begun(lane);
-            self.lane(lane, rays.leaving.lane(lane)).search(s, tree, visits, &mut found, exact);
+            let left = rays.leaving.lane(lane);
+            let left = planes.map_or(left, |planes| planes.of_facet(left));
+            self.lane(lane, left).search(s, tree, visits, &mut found, exact);
             slots[lane % MOST_LANES] = found.slot.unwrap_or(u32::MAX);
         }
         U::load(s, &slots)

@@ -5,19 +5,19 @@
 
 use catoptra_core::Span;
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x8};
+use fearless_simd::{Simd, f32x8, u32x8};
 
 use super::{
     Decision, Edges, ExactResolver, LeafBlock, RayTriangle, Visit, Visits, Waiting, bound_eight, decide,
 };
-use crate::accel::{Node8, WIDTH, WideTree};
+use crate::accel::{Node8, Planes, WIDTH, WideTree};
 use crate::lanes::{Bits, MulAdd8, outlined};
 use crate::numeric::{BOX_STRETCH, SINGLE_RAY_DEPTH, SINGLE_RAY_SPREAD, SINGLE_RAY_STEEP};
 
 /// A ray in a mesh's own space.
 pub(super) struct SingleRay {
     pub(super) lane: usize,
-    /// The triangle that the ray leaves from.
+    /// The triangle that the ray leaves from; where planes are numbered, the first in its plane.
     pub(super) leaving: u32,
     /// 1 along axes that it runs backwards, where upper ends of boxes are met first; else 0.
     pub(super) backwards: [usize; 3],
@@ -107,6 +107,7 @@ impl SingleRay {
         best: &mut ClosestHit,
         exact: &mut dyn ExactResolver,
     ) {
+        let planes = visits.planes_of(tree);
         let Some(mut waiting) = visits.start() else { return };
         let mut far = best.far();
         let mut visit = Visit { near: 0.0, link: 0, count: 0, packets: 1 };
@@ -121,9 +122,9 @@ impl SingleRay {
                 }
             } else {
                 let mut met = false;
-                for block in visit.blocks(tree) {
+                for leaf in visit.blocks(tree) {
                     *waiting.blocks += 1;
-                    met |= self.pass(s, &block, best, exact);
+                    met |= self.pass(s, &leaf, planes, best, exact);
                 }
                 if met {
                     far = best.far();
@@ -182,6 +183,7 @@ impl SingleRay {
         &self,
         s: S,
         leaf: &LeafBlock<'_>,
+        planes: Option<&Planes>,
         best: &mut ClosestHit,
         exact: &mut dyn ExactResolver,
     ) -> bool {
@@ -194,9 +196,16 @@ impl SingleRay {
         let spread = most.fused(f32x8::splat(s, SINGLE_RAY_SPREAD), slack);
         let error = bound_eight(s, most.fused(spread, floor));
         let (low, high) = (u.min(v).min(w), u.max(v).max(w));
-        let maybe = !(low.simd_lt(-error) & high.simd_gt(error)).to_bitmask() & leaf.own;
+        let mut maybe = !(low.simd_lt(-error) & high.simd_gt(error)).to_bitmask() & leaf.own;
         if maybe == 0 {
             return false;
+        }
+        if let Some(planes) = planes {
+            let inside = (low.simd_gt(error) | high.simd_lt(-error)).to_bitmask();
+            maybe = self.take_in_plane(s, leaf, planes, [maybe, inside], best);
+            if maybe == 0 {
+                return false;
+            }
         }
         let area = u + v + w;
         let inverse = f32x8::splat(s, 1.0) / area;
@@ -220,6 +229,33 @@ impl SingleRay {
             self.accept(leaf.tree, leaf.slot(at), crossing, best, exact);
         }
         true
+    }
+
+    /// Takes over the first triangle in the plane of the nearest one so far, of those that the ray passes within the edges of;
+    /// returns those of `maybe` that lie in another plane than that and the one that the ray leaves, or may yet be taken over.
+    #[inline(always)]
+    fn take_in_plane<S: Simd>(
+        &self,
+        s: S,
+        leaf: &LeafBlock<'_>,
+        planes: &Planes,
+        [maybe, inside]: [u64; 2],
+        best: &mut ClosestHit,
+    ) -> u64 {
+        let LeafBlock { tree, block, .. } = *leaf;
+        let own = u32x8::load_array_ref(s, planes.of_block(block));
+        let rest = maybe & !own.simd_eq(u32x8::splat(s, self.leaving)).to_bitmask();
+        let Some(held) = best.slot else { return rest };
+        let same = rest & own.simd_eq(u32x8::splat(s, planes.of_slot(held))).to_bitmask();
+        let mut first = tree.facet(held);
+        for at in Bits(same & inside) {
+            let facet = tree.facet(leaf.slot(at));
+            if facet < first {
+                (first, best.slot) = (facet, Some(leaf.slot(at)));
+            }
+        }
+        let facets = u32x8::load_array_ref(s, &tree.blocks[block].facet);
+        rest & !(same & facets.simd_ge(u32x8::splat(s, first)).to_bitmask())
     }
 
     /// Takes over a triangle where it is nearer; `crossing` is its `t` and the bound on that, if known.
@@ -256,6 +292,10 @@ impl SingleRay {
         if held.is_some_and(|held| tree.facet(held) == facet) {
             return;
         }
+        if exact.leaves(self.leaving, facet) {
+            tree.planes.count(1);
+            return;
+        }
         // A rounding of the difference, towards smaller numbers.
         let least = f64::from((best.t - best.error) * (1.0 - SINGLE_RAY_DEPTH));
         let before = if best.any { f64::INFINITY } else { least };
@@ -266,7 +306,10 @@ impl SingleRay {
         let t = match decide(&test, held_triangle, before) {
             Decision::NotNearer => None,
             Decision::Nearer(t) => Some(t),
-            Decision::Open => exact.decide(self.lane, facet, held.map(|slot| tree.facet(slot))),
+            Decision::Open => {
+                tree.planes.count(1);
+                exact.decide(self.lane, facet, held.map(|slot| tree.facet(slot)))
+            }
         };
         if let Some(t) = t {
             let t = t as f32;

@@ -153,7 +153,7 @@ impl<S: Simd> Searcher<'_, S> {
         }
         let mut exact = of.resolver(group.at);
         let common_origin = if of.any { bundle.common_origin.for_any() } else { bundle.common_origin };
-        common_origin.search(self.s, &of.instance.tree.tree, self.visits, rays, &mut exact);
+        common_origin.search(self.s, of.instance.tree.to_walk(), self.visits, rays, &mut exact);
         self.count_visits();
         for (slot, rays) in slots.iter_mut().zip(rays) {
             *slot = rays.slot;
@@ -214,7 +214,7 @@ impl<S: Simd> Searcher<'_, S> {
         let lines = of.query.own_lines(self.s, packet.at, of.instance, packet.live[0]);
         let slots = self.ray_setup(&lines, of.instance).search(
             self.s,
-            TreeWalk { tree: &of.instance.tree.tree, visits: self.visits },
+            TreeWalk { tree: of.instance.tree.to_walk(), visits: self.visits },
             StartingRays { lanes: lines.live, leaving },
             #[inline(always)]
             |lane| ClosestHit::nothing_on(of.query.span_at(packet.at + lane)).for_any(of.any),
@@ -277,6 +277,10 @@ impl ExactResolver for ClosestOfQuery<'_> {
     fn ray(&mut self, lane: usize) -> Option<(Ray, Span)> {
         let (ray, span, _) = self.of.query.segment(self.at + lane);
         Some((self.of.mesh.own_ray(&ray), span))
+    }
+
+    fn leaves(&self, left: u32, facet: u32) -> bool {
+        self.of.mesh.triangles().lies_in_plane(left, facet)
     }
 
     #[cold]

@@ -30,6 +30,10 @@ impl ExactResolver for Witness {
         Some((Ray::new(DVec3::NAN, DVec3::NAN), Span::AHEAD))
     }
 
+    fn leaves(&self, _: u32, _: u32) -> bool {
+        false
+    }
+
     fn decide(&mut self, lane: usize, _: u32, _: Option<u32>) -> Option<f64> {
         self.asked |= 1 << lane;
         None
