@@ -212,11 +212,12 @@ fn thicket(numbers: &mut Numbers, count: u32) -> TriangleMesh {
     TriangleMesh::new(positions, triangles, None, None).expect("a mesh")
 }
 
-/// Rays from one point, to one point, and without order; a third of them through corners, a third through edges.
+/// Rays from one point, to one point, side by side, and without order; a third of them through corners, a third through edges.
 fn aimed_rays(numbers: &mut Numbers, mesh: &Mesh, count: usize) -> RayList {
     let mut rays = RayList::new();
     let placed = |point: DVec3| mesh.placement().point(point);
     let [eye, lamp] = [DVec3::new(0.3, 0.5, 4.0), DVec3::new(-2.0, 3.0, 0.25)].map(placed);
+    let sunwards = mesh.placement().vector(DVec3::new(0.4, -1.0, 0.3));
     let triangles = mesh.triangles();
     for at in 0..count {
         // Rays of a group meet neighbouring triangles, so that they stay together.
@@ -227,9 +228,12 @@ fn aimed_rays(numbers: &mut Numbers, mesh: &Mesh, count: usize) -> RayList {
             1 => a.lerp(b, numbers.next().abs()),
             _ => a + numbers.vector() * 0.1,
         };
-        match at / 320 % 3 {
+        match at / 320 % 4 {
             0 => rays.push(&Ray::new(eye, target - eye), [0.0, f64::INFINITY], None),
             1 => rays.push(&Ray::new(target + numbers.vector() * 0.1, lamp - target), [0.0, 1.0], None),
+            2 => {
+                rays.push(&Ray::new(target - sunwards * numbers.next(), sunwards), [0.0, f64::INFINITY], None)
+            }
             _ => {
                 let from = placed(numbers.vector() * 3.0);
                 rays.push(&Ray::new(from, target - from), [0.1, 2.0], None);

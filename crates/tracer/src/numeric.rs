@@ -283,10 +283,6 @@ pub(crate) const BUNDLE_TOP: f32 = 8.0 * U;
 /// rounded up.
 pub(crate) const BUNDLE_DEPTH: f32 = 8.0 * U;
 
-/// Share of the room round all packets that each has at most where they lie side by side: 16 places that are strewn over the same
-/// room take some 0.8 of it, and an eighth where each packet has its own.
-pub(crate) const SIDE_BY_SIDE: f32 = 0.7;
-
 /// How far the places of rays that run side by side may be off from their rounding, u, and a box round them, relative to the
 /// largest; rounded up.
 pub(crate) const PARALLEL_PLACE: f32 = 4.0 * U;

@@ -45,10 +45,6 @@ impl<S: Simd, P: PreciseRays<S>> Segments<S> for ToLight<'_, S, P> {
         room: &mut [BundledRays<S>],
     ) -> Option<AnyBundle> {
         let (s, light) = (search.s, shadows.first()?.segments.light);
-        if light.at_infinity && shadows.len() == 1 {
-            // A packet alone is mostly one of bounces, whose rays are strewn.
-            return None;
-        }
         let mut starts: SmallVec<[(D3<S>, F<S>); GROUP]> = SmallVec::new();
         for Shadows { segments, rays, .. } in shadows {
             starts.push(segments.own_starts(search, rays, instance));
@@ -124,7 +120,7 @@ fn bundle_along<S: Simd, G>(
         all.push(Starts { origin, off, live: shadows.open, leaving });
     }
     let bundle = Bundle::along(search.s, room, &all, direction, instance.tree.reach)?;
-    bundle.is_side_by_side(room).then(|| AnyBundle::Along(bundle.for_any()))
+    Some(AnyBundle::Along(bundle.for_any()))
 }
 
 /// The segments of some packets as a bundle of rays from where all of them end, backwards to their starts; those are given in the
@@ -157,9 +153,6 @@ pub(super) fn bundle_backwards<S: Simd, G>(
         let steep = rays.error_where_off(s, *off);
         // Written so that NaN counts.
         steepest = if steep <= steepest { steepest } else { steep };
-    }
-    if room.len() > 1 && !bundle.common_origin.is_side_by_side(room) {
-        return None;
     }
     // So close to the end that the slopes have no useful bound, rays are traced one by one.
     (steepest < 2.0 - BUNDLE_STEEP)

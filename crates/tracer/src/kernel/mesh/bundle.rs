@@ -22,7 +22,7 @@ use super::ray_bundle::Aim;
 use super::{ExactResolver, GROUP, LeafBlock, Visit, Visits, Waiting};
 use crate::accel::{Block8, Node8, Planes, WIDTH, WideTree};
 use crate::lanes::{Bits, F, outlined};
-use crate::numeric::{BUNDLE_PAD, SIDE_BY_SIDE};
+use crate::numeric::BUNDLE_PAD;
 
 /// A bundle of rays.
 pub(crate) struct Bundle<C> {
@@ -118,16 +118,6 @@ impl<C> Bundle<C> {
     /// Searches for any crossing (occlusion) rather than the nearest.
     pub(crate) fn for_any(self) -> Self {
         Self { any: true, ..self }
-    }
-
-    /// Whether packets lie side by side, as those of a picture do, so that it pays to walk a tree together: boxes round the places of
-    /// packets that are strewn over the same room are about as large as the one round all.
-    #[inline(always)]
-    pub(crate) fn is_side_by_side<S: Simd>(&self, rays: &[BundledRays<S>]) -> bool {
-        let area = |[low, high]: [[f32; 2]; 2]| (high[0] - low[0]) * (high[1] - low[1]);
-        let live = || rays.iter().filter(|rays| rays.live.any());
-        let (all, count) = (area([self.low, self.high]), live().count() as f32);
-        live().map(|rays| area(rays.around)).sum::<f32>() <= SIDE_BY_SIDE * count * all
     }
 
     /// A corner of every triangle, axis by axis as in `axes`.

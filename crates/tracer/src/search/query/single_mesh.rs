@@ -4,14 +4,16 @@
 use catoptra_core::geometry::Mesh;
 use catoptra_core::{Geometry, LaneMask, Ray, Span};
 use fearless_simd::Simd;
+use smallvec::SmallVec;
 
 use super::{Answers, RayQuery};
 use crate::Snapshot;
 use crate::film::NOTHING;
 use crate::kernel::mesh::{
-    BundledRays, ClosestHit, ExactResolver, GROUP, Lines, RayBundle, StartingRays, TreeWalk,
+    AnyBundle, Bundle, BundledRays, ClosestHit, ExactResolver, GROUP, Lines, RayBundle, StartingRays, Starts,
+    TreeWalk,
 };
-use crate::lanes::{F, M, U, outlined};
+use crate::lanes::{D, F, M, U, outlined, splat_wide, vector_of};
 use crate::search::Searcher;
 use crate::search::mesh::{NONE, ends_of_segments};
 use crate::snapshot::{Instance, Row, leaving_facet};
@@ -119,7 +121,8 @@ impl<S: Simd> Searcher<'_, S> {
         }
     }
 
-    /// Finds triangles for all rays of a group at once, if they have a common origin; returns whether they do.
+    /// Finds triangles for all rays of a group at once, if they have a common origin or are to be tested for occlusion in one
+    /// direction; returns whether they are.
     #[inline(always)]
     fn find_together(
         &mut self,
@@ -141,7 +144,10 @@ impl<S: Simd> Searcher<'_, S> {
         } else {
             self.bundle_of_rays(of, group, rays)
         };
-        let Some(bundle) = bundle else { return false };
+        let Some(bundle) = bundle else {
+            let along = of.any.then(|| self.bundle_along(of, group, rays)).flatten();
+            return along.inspect(|along| self.search_bundle(of, group, along, rays, slots)).is_some();
+        };
         for (packet, rays) in rays.iter_mut().enumerate() {
             let at = group.start(packet);
             let [begin, end] = if of.any {
@@ -151,15 +157,58 @@ impl<S: Simd> Searcher<'_, S> {
             };
             rays.start(self.s, begin, end, of.query.leaving(self.s, at).facets_of(self.s, of.instance.prim));
         }
-        let mut exact = of.resolver(group.at);
         let common_origin = if of.any { bundle.common_origin.for_any() } else { bundle.common_origin };
-        common_origin.search(self.s, of.instance.tree.to_walk(), self.visits, rays, &mut exact);
+        self.search_bundle(of, group, &AnyBundle::Through(common_origin), rays, slots);
+        true
+    }
+
+    /// Finds triangles for the rays of a bundle.
+    #[inline(always)]
+    fn search_bundle(
+        &mut self,
+        of: &MeshQuery<'_>,
+        group: &Group<S>,
+        bundle: &AnyBundle,
+        rays: &mut [BundledRays<S>],
+        slots: &mut [U<S>],
+    ) {
+        let mut exact = of.resolver(group.at);
+        bundle.search(self.s, of.instance.tree.to_walk(), self.visits, rays, &mut exact);
         self.count_visits();
         for (slot, rays) in slots.iter_mut().zip(rays) {
             *slot = rays.slot;
             self.stats.settled += rays.decided;
         }
-        true
+    }
+
+    /// Unbounded rays in one direction, to the last bit.
+    #[inline(always)]
+    fn bundle_along(
+        &self,
+        of: &MeshQuery<'_>,
+        group: &Group<S>,
+        rays: &mut [BundledRays<S>],
+    ) -> Option<AnyBundle> {
+        let (s, mut direction) = (self.s, None);
+        let reach = self.reach(of.instance);
+        let mut all: SmallVec<[Starts<S>; GROUP]> = SmallVec::new();
+        for packet in 0..group.packets {
+            let (at, live) = (group.start(packet), group.live[packet % GROUP]);
+            let lines = of.query.own_lines(s, at, of.instance, live);
+            if direction.is_none() {
+                direction = live.lanes().next().map(|lane| vector_of(&lines.direction, lane));
+            }
+            let apart = lines.direction - splat_wide(s, direction.unwrap_or_default());
+            let apart = apart.x.abs().max(apart.y.abs()).max(apart.z.abs());
+            let same = apart.at_most(D::splat(s, 0.0));
+            if (live & !(same & of.query.runs_on(s, at))).any() {
+                return None;
+            }
+            let leaving = of.query.leaving(s, at).facets_of(s, of.instance.prim);
+            all.push(Starts { origin: lines.origin, off: F::splat(s, reach.off), live, leaving });
+        }
+        let bundle = Bundle::along(s, rays, &all, direction?, reach.mesh)?;
+        Some(AnyBundle::Along(bundle.for_any()))
     }
 
     #[inline(always)]
