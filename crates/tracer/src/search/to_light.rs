@@ -119,7 +119,16 @@ fn bundle_along<S: Simd, G>(
         let leaving = shadows.rays.leaving.facets_of(search.s, instance.prim);
         all.push(Starts { origin, off, live: shadows.open, leaving });
     }
-    let bundle = Bundle::along(search.s, room, &all, direction, instance.tree.reach)?;
+    let (zero, most) = (F::splat(search.s, 0.0), F::splat(search.s, f32::MAX));
+    let bundle = Bundle::along(
+        search.s,
+        room,
+        &all,
+        direction,
+        instance.tree.reach,
+        #[inline(always)]
+        |_, _| [[zero; 2], [most, zero]],
+    )?;
     Some(AnyBundle::Along(bundle.for_any()))
 }
 

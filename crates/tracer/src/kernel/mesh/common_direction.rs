@@ -59,8 +59,9 @@ pub(crate) struct PrecisePlane {
 }
 
 impl Bundle<CommonDirection> {
-    /// Of rays that begin there and run in one direction without an end, through a mesh whose corners' coordinates stay within
-    /// `reach`, if there are any. Stores their places in `rays`.
+    /// Of rays that begin there and run in one direction, through a mesh whose corners' coordinates stay within `reach`, if there are
+    /// any. Stores their places in `rays`. `spans` are those of a packet's rays as depths from their origins: between which
+    /// they begin, and where they end and how far that may be off; it gets the depth per length.
     #[inline(always)]
     pub(crate) fn along<S: Simd>(
         s: S,
@@ -68,6 +69,7 @@ impl Bundle<CommonDirection> {
         starts: &[Starts<S>],
         direction: DVec3,
         reach: f32,
+        spans: impl Fn(usize, F<S>) -> [[F<S>; 2]; 2],
     ) -> Option<Self> {
         let first = |starts: &Starts<S>| Some(vector_of(&starts.origin, starts.live.lanes().next()?));
         let (first, aim) = (starts.iter().find_map(first)?, Aim::of(direction));
@@ -77,7 +79,8 @@ impl Bundle<CommonDirection> {
         let zero = F::splat(s, 0.0);
         let (mut off, mut least) = (zero, F::splat(s, f32::MAX));
         let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
-        for (rays, starts) in rays.iter_mut().zip(starts) {
+        let scale = F::splat(s, direction[z].abs() as f32);
+        for (packet, (rays, starts)) in rays.iter_mut().zip(starts).enumerate() {
             let from = |which: usize| {
                 let own = component(&starts.origin, aim.axes[which]) * D::splat(s, aim.sign.into());
                 own - D::splat(s, origin[which].into())
@@ -93,8 +96,10 @@ impl Bundle<CommonDirection> {
             let error = starts.off.mul_add(F::splat(s, 2.5), largest * F::splat(s, PARALLEL_WIDE));
             let depth = depth.narrow();
             let depth_error = depth.abs().mul_add(F::splat(s, BUNDLE_DEPTH), error);
-            rays.begin = [depth - depth_error, depth + depth_error];
-            rays.end = [F::splat(s, f32::MAX); 2];
+            let [begin, [end, end_error]] = spans(packet, scale);
+            rays.begin = [depth - depth_error + begin[0], depth + depth_error + begin[1]];
+            let (end, end_error) = (depth + end, depth_error + end_error);
+            rays.end = [end - end_error, end + end_error];
             let most = F::splat(s, f32::MAX);
             let known = rays.u.abs().less(most) & rays.v.abs().less(most) & rays.begin[1].abs().less(most);
             if (starts.live & !known).any() {
@@ -102,7 +107,7 @@ impl Bundle<CommonDirection> {
             }
             off = F::pick(starts.live, off.max(error), off);
             least = F::pick(starts.live, least.min(rays.begin[0]), least);
-            rays.follow_from(s, starts, direction[z].abs() as f32);
+            rays.follow_from(s, starts, scale);
             for axis in 0..2 {
                 low[axis] = low[axis].min(rays.around[0][axis]);
                 high[axis] = high[axis].max(rays.around[1][axis]);
@@ -124,10 +129,10 @@ impl Bundle<CommonDirection> {
 impl<S: Simd> BundledRays<S> {
     /// Begins a search from there, with so much depth per length.
     #[inline(always)]
-    fn follow_from(&mut self, s: S, starts: &Starts<S>, scale: f32) {
+    fn follow_from(&mut self, s: S, starts: &Starts<S>, scale: F<S>) {
         let (u, v) = (self.u.0, self.v.0);
         self.around = [[u.reduce_min(), v.reduce_min()], [u.reduce_max(), v.reduce_max()]];
-        (self.live, self.leaving, self.scale) = (starts.live, starts.leaving, F::splat(s, scale));
+        (self.live, self.leaving, self.scale) = (starts.live, starts.leaving, scale);
         (self.slot, self.decided) = (U::splat(s, u32::MAX), 0);
     }
 }

@@ -77,14 +77,6 @@ impl RayQuery<'_> {
         [direction.scale_add(min, origin), direction.scale_add(max, origin)]
     }
 
-    /// Rays of the packet at ray `at` whose spans begin at their origins and do not end.
-    #[inline(always)]
-    fn runs_on<S: Simd>(&self, s: S, at: usize) -> M<S> {
-        let (rays, lane) = self.rays.block(at);
-        let (min, max) = (D::load(s, &rays.min[lane..]), D::load(s, &rays.max[lane..]));
-        min.at_most(D::splat(s, 0.0)) & D::splat(s, f64::INFINITY).at_most(max)
-    }
-
     /// Metres at which the spans end, within [`END_ERROR`] of themselves.
     #[inline(always)]
     fn ends_in_metres<S: Simd>(&self, s: S, at: usize) -> F<S> {

@@ -181,7 +181,7 @@ impl<S: Simd> Searcher<'_, S> {
         }
     }
 
-    /// Unbounded rays in one direction, to the last bit.
+    /// Rays in one direction, to the last bit.
     #[inline(always)]
     fn bundle_along(
         &self,
@@ -201,13 +201,21 @@ impl<S: Simd> Searcher<'_, S> {
             let apart = lines.direction - splat_wide(s, direction.unwrap_or_default());
             let apart = apart.x.abs().max(apart.y.abs()).max(apart.z.abs());
             let same = apart.at_most(D::splat(s, 0.0));
-            if (live & !(same & of.query.runs_on(s, at))).any() {
+            if (live & !same).any() {
                 return None;
             }
             let leaving = of.query.leaving(s, at).facets_of(s, of.instance.prim);
             all.push(Starts { origin: lines.origin, off: F::splat(s, reach.off), live, leaving });
         }
-        let bundle = Bundle::along(s, rays, &all, direction?, reach.mesh)?;
+        let bundle = Bundle::along(
+            s,
+            rays,
+            &all,
+            direction?,
+            reach.mesh,
+            #[inline(always)]
+            |packet, scale| of.query.depths(s, group.start(packet), scale),
+        )?;
         Some(AnyBundle::Along(bundle.for_any()))
     }
 

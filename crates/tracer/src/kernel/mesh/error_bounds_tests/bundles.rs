@@ -150,7 +150,9 @@ fn aimed_along<S: Simd>(s: S, random: &mut Random, target: &Target) -> Option<Ai
         leaving: U::splat(s, u32::MAX),
     };
     let mut bundled = [BundledRays::nothing(s)];
-    let bundle = Bundle::along(s, &mut bundled, &[starts], direction, target.tree.reach)?;
+    let (zero, most) = (F::splat(s, 0.0), F::splat(s, f32::MAX));
+    let spans = |_, _| [[zero; 2], [most, zero]];
+    let bundle = Bundle::along(s, &mut bundled, &[starts], direction, target.tree.reach, spans)?;
     let Bundle { axes, sign, origin, .. } = &bundle;
     let begin = |ray: &Ray| ray.origin[axes[2]] * f64::from(*sign) - f64::from(origin[2]);
     Some(Aimed { begins: rays.iter().map(begin).collect(), rays, bundle, bundled })
