@@ -1,8 +1,8 @@
 //! The sign of a determinant of three vectors: on which side of a line an edge passes, whether four points lie in one plane.
 //!
 //! Where `f64` cannot tell, whole numbers of 256 bits mostly can: they lie on the stack and take a hundredth of the time of
-//! numbers of any size, which are left with what spans more than [`WINDOW`] bits. Each vector has a scale of its own, which
-//! changes no sign.
+//! numbers of any size, which are left with what spans more than [`WINDOW`] bits. Between corners of meshes, which `f32` holds, 128
+//! bits mostly do. Each vector has a scale of its own, which changes no sign.
 
 use std::cmp::Ordering;
 
@@ -31,6 +31,24 @@ impl Difference {
         Vector::of(self.to).minus(&Vector::of(self.from))
     }
 
+    /// Its coordinates as whole numbers below 2^[`SHORT`] in units of one power of two, if they are and `f64` rounds none.
+    #[inline]
+    fn short(&self) -> Option<[i128; 3]> {
+        let Self { from, to } = *self;
+        let difference = to - from;
+        // Taking either away again gives the other: nothing was rounded (Dekker, Numerische Mathematik 18, 1971).
+        if to - difference != from || from + difference != to {
+            return None;
+        }
+        let exponent = difference.abs().max_element().to_bits() >> STORED;
+        // 2^SHORT over the power of two above the largest, if it is a number of at least 1, by which nothing underflows.
+        let scale = (2045 + u64::from(SHORT)).checked_sub(exponent);
+        let scale = scale.filter(|scale| (1023..2047).contains(scale))?;
+        let scaled = difference * f64::from_bits(scale << STORED);
+        let whole = scaled.to_array().map(|c| c as i64);
+        (whole.map(|c| c as f64) == scaled.to_array()).then_some(whole.map(i128::from))
+    }
+
     /// Its coordinates as whole numbers below 2⁸⁴ in units of one power of two, if they are.
     #[inline]
     fn whole(&self) -> Option<[i128; 3]> {
@@ -50,6 +68,12 @@ impl Difference {
 /// products, stay below 2²⁵⁵.
 const WINDOW: u32 = 83;
 
+/// Bits of an `f64` below its exponent.
+const STORED: u32 = f64::MANTISSA_DIGITS - 1;
+
+/// Bits of coordinates of which three multiplied, and sums of six such products, stay below 2¹²⁷.
+const SHORT: u32 = 40;
+
 /// `mantissa × 2^exponent`, an `f64`.
 struct Digits {
     mantissa: i64,
@@ -60,7 +84,6 @@ impl Digits {
     /// Of a finite number.
     #[inline]
     fn of(value: f64) -> Self {
-        const STORED: u32 = f64::MANTISSA_DIGITS - 1;
         let bits = value.abs().to_bits();
         let (fraction, exponent) = (bits & ((1 << STORED) - 1), (bits >> STORED) as i32);
         let normal = exponent > 0;
@@ -87,13 +110,26 @@ impl Digits {
 #[must_use]
 pub fn sign_of_determinant(rows: &[Difference; 3]) -> Ordering {
     count_side();
-    answer_exactly(|| match rows.each_ref().map(Difference::whole) {
+    answer_exactly(|| sign_of_short(rows).unwrap_or_else(|| sign_of_long(rows)))
+}
+
+/// The same of [short](Difference::short) vectors alone.
+#[inline]
+fn sign_of_short(rows: &[Difference; 3]) -> Option<Ordering> {
+    let [a, b, c] = [rows[0].short()?, rows[1].short()?, rows[2].short()?];
+    let minor = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
+    Some((minor(1, 2) * c[0] + minor(2, 0) * c[1] + minor(0, 1) * c[2]).cmp(&0))
+}
+
+/// The same of all others.
+fn sign_of_long(rows: &[Difference; 3]) -> Ordering {
+    match rows.each_ref().map(Difference::whole) {
         [Some(a), Some(b), Some(c)] => sign_of_whole(&a, &b, &c),
         _ => {
             let [a, b, c] = rows.each_ref().map(Difference::exact);
             a.cross(&b).dot(&c).signum()
         }
-    })
+    }
 }
 
 #[inline]
@@ -129,6 +165,7 @@ mod tests {
         prop_oneof![
             (-9_i32..10).prop_map(f64::from),
             -2.0..2.0_f64,
+            (-2.0..2.0_f32).prop_map(f64::from),
             (-1.0..1.0_f64, -90..40_i32).prop_map(|(m, e)| m * 2.0_f64.powi(e)),
             Just(0.0),
             Just(f64::from_bits(3)),
@@ -165,6 +202,20 @@ mod tests {
         let wide = Difference { from: DVec3::new(1e-12, 0.3, 0.0), to: DVec3::splat(1.0 / 3.0) };
         assert!(wide.whole().is_none());
         assert_eq!(Difference::of(DVec3::ZERO).whole(), Some([0; 3]));
+    }
+
+    #[test]
+    fn differences_of_corners_in_f32_are_short() {
+        let corner = |p: [f32; 3]| DVec3::from(p.map(f64::from));
+        let (from, to) = (corner([0.1, 1e-3, -7.3]), corner([1.7, 2e-4, 3.1]));
+        assert!(Difference { from, to }.short().is_some());
+        assert!(Difference { from: DVec3::ZERO, to: DVec3::splat(0.1) }.short().is_none());
+        let most = (1_u64 << SHORT) as f64 - 1.0;
+        assert_eq!(Difference::of(DVec3::splat(-most)).short(), Some([1 - (1 << SHORT); 3]));
+        assert_eq!(Difference::of(DVec3::new(1e300, f64::from_bits(1), 0.0)).short(), None);
+        let rows = [[1.0, -1.0, 1.0], [1.0, 1.0, -1.0], [-1.0, 1.0, 1.0]];
+        let rows = rows.map(|signs| Difference::of(DVec3::from(signs) * most));
+        assert_eq!(sign_of_short(&rows), Some(exact(&rows)));
     }
 
     #[test]
