@@ -232,7 +232,8 @@ fn aimed_rays(numbers: &mut Numbers, mesh: &Mesh, count: usize) -> RayList {
             0 => rays.push(&Ray::new(eye, target - eye), [0.0, f64::INFINITY], None),
             1 => rays.push(&Ray::new(target + numbers.vector() * 0.1, lamp - target), [0.0, 1.0], None),
             2 => {
-                rays.push(&Ray::new(target - sunwards * numbers.next(), sunwards), [0.0, f64::INFINITY], None)
+                let ends = [0.2 * numbers.next().max(0.0), [1.0, f64::INFINITY][at % 2]];
+                rays.push(&Ray::new(target - sunwards * numbers.next(), sunwards), ends, None);
             }
             _ => {
                 let from = placed(numbers.vector() * 3.0);

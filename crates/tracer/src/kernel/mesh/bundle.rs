@@ -133,7 +133,7 @@ impl<C> Bundle<C> {
 
     /// Corners relative to what depths are counted from, mirrored as the rays are.
     #[inline(always)]
-    pub(super) fn from_origin<S: Simd>(&self, s: S, p: Eight3<S>) -> Eight3<S> {
+    pub(super) fn seen<S: Simd>(&self, s: S, p: Eight3<S>) -> Eight3<S> {
         let sign = f32x8::splat(s, self.sign);
         [
             p[0].mul_sub_precise(sign, f32x8::splat(s, self.origin[0])),

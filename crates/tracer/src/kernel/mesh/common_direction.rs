@@ -185,10 +185,10 @@ impl Common for CommonDirection {
         let (a, b, c) = (bundle.corner(s, block, 0), bundle.corner(s, block, 1), bundle.corner(s, block, 2));
         let raw = [minus(c, b), minus(a, c), minus(b, a)];
         let edges = [self.sheared(s, raw[0]), self.sheared(s, raw[1]), self.sheared(s, raw[2])];
-        let from = bundle.from_origin(s, a);
+        let from = bundle.seen(s, a);
         let p = self.sheared(s, from);
-        let q = self.sheared(s, bundle.from_origin(s, b));
-        let r = self.sheared(s, bundle.from_origin(s, c));
+        let q = self.sheared(s, bundle.seen(s, b));
+        let r = self.sheared(s, bundle.seen(s, c));
         let lines = [line(edges[0], q), line(edges[1], r), line(edges[2], p)];
         // The sizes of edges, and how far places and corners lie from each other.
         let size = largest(raw);

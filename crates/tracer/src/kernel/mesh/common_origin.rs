@@ -137,7 +137,7 @@ impl Common for CommonOrigin {
         let block = &leaf.tree.blocks[leaf.block];
         let (a, b, c) = (bundle.corner(s, block, 0), bundle.corner(s, block, 1), bundle.corner(s, block, 2));
         let edges = [minus(c, b), minus(a, c), minus(b, a)];
-        let (p, q, r) = (bundle.from_origin(s, a), bundle.from_origin(s, b), bundle.from_origin(s, c));
+        let (p, q, r) = (bundle.seen(s, a), bundle.seen(s, b), bundle.seen(s, c));
         let planes = [cross(edges[0], q), cross(edges[1], r), cross(edges[2], p)];
         // Each axis counts with its own sizes: rays run mostly along one, and edges often along few.
         let size = largest(edges);

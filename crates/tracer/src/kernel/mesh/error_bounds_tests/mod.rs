@@ -1,7 +1,7 @@
 //! Do the bounds of the mesh kernels hold, and do they have to be as large as they are? Rays aimed at edges and corners,
 //! grazing planes, near ties, at all scales: what `f32` is certain of must be what exact arithmetic says, and depths must
-//! lie within their bounds. The tests fail when a bundle's bounds of edges are cut to an eighth, those of its
-//! depths to a tenth, and a single ray's bounds to an eighth.
+//! lie within their bounds. The tests fail when a bundle's bounds of edges are cut to an eighth (of rays side by side, whose roundings
+//! add up less badly, to a sixty-fourth), those of its depths to a tenth, and a single ray's bounds to an eighth.
 //!
 //! The resolver of these tests gives out rays of NaN, which `f64` cannot decide about: all that `f32` does not decide
 //! comes to the resolver, which records it and decides nothing.
