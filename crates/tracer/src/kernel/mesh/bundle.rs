@@ -80,6 +80,7 @@ struct SeenBlock<'a> {
     prepared: &'a Prepared,
     /// Triangles that rays may meet, bit by bit.
     seen: u64,
+    /// The numbers of planes, where known.
     planes: Option<&'a Planes>,
 }
 
@@ -93,8 +94,8 @@ impl<'a> SeenBlock<'a> {
 }
 
 impl<C> Bundle<C> {
-    /// Rays within a box of places that have something in common; through a mesh whose corners' coordinates, and that of what
-    /// depths are counted from, stay within `size` together. Boxes are widened by `pad` beside what `f32` rounds.
+    /// Rays within a box of places that have something in common; through a mesh whose corners' coordinates stay within `reach`.
+    /// Boxes are widened by `pad` beside what `f32` rounds.
     pub(super) fn new(
         aim: &Aim,
         origin: [f32; 3],

@@ -22,9 +22,10 @@ pub(crate) trait Common: Sized {
     /// How far the places of rays, and of a box round them, may be off.
     fn error(&self) -> f32;
 
-    /// Where boxes are seen, and the depths between which they lie; at most and at least.
+    /// Eight boxes, of which lower and upper sides along each axis are given, as the rays see them.
     fn sides<S: Simd>(&self, s: S, bundle: &Bundle<Self>, rows: &[[f32x8<S>; 2]; 3]) -> Sides<S>;
 
+    /// Those of a bundle.
     fn ray_bounds(&self, bundle: &Bundle<Self>) -> Self::RayBounds;
 
     /// A block as the rays see it, and which of a leaf's triangles in it they may meet, if any.
@@ -39,6 +40,7 @@ pub(crate) trait Common: Sized {
     /// Depths at which rays cross a plane, and how far those may be off.
     fn depths<S: Simd>(s: S, rays: &BundledRays<S>, plane: &Plane) -> [F<S>; 2];
 
+    /// The plane of a triangle.
     fn precise_plane(&self, bundle: &Bundle<Self>, corners: &[[f32; 3]; 3]) -> Self::PrecisePlane;
 
     /// A plane from `f64`.
