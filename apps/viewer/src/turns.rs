@@ -17,19 +17,19 @@ pub(crate) fn run(context: &Context, mut input: RawInput, mut show: impl FnMut(&
 
 /// What is met pass by pass: each event that moves the focus ends one, and begins one if it is met first.
 fn split(events: Vec<Event>) -> Vec<Vec<Event>> {
-    let mut turns = vec![Vec::new()];
+    let (mut turns, mut turn) = (Vec::new(), Vec::new());
     for event in events {
-        let (begins, ends) = (moves_at_once(&event), moves(&event));
-        if begins && turns.last().is_some_and(|turn| !turn.is_empty()) {
-            turns.push(Vec::new());
+        let ends = moves(&event);
+        if moves_at_once(&event) && !turn.is_empty() {
+            turns.push(std::mem::take(&mut turn));
         }
-        turns.last_mut().into_iter().for_each(|turn| turn.push(event.clone()));
+        turn.push(event);
         if ends {
-            turns.push(Vec::new());
+            turns.push(std::mem::take(&mut turn));
         }
     }
-    if turns.len() > 1 && turns.last().is_some_and(Vec::is_empty) {
-        turns.pop();
+    if turns.is_empty() || !turn.is_empty() {
+        turns.push(turn);
     }
     turns
 }

@@ -63,7 +63,9 @@ const FEW: u32 = 4096;
 impl AskedPlanes {
     /// Counts answers of exact arithmetic.
     pub(crate) fn count(&self, answers: u32) {
-        self.asked.fetch_add(answers, Ordering::Relaxed);
+        if answers > 0 {
+            self.asked.fetch_add(answers, Ordering::Relaxed);
+        }
     }
 
     /// The planes, if they have been numbered and any holds more than one triangle.

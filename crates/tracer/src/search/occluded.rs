@@ -67,8 +67,8 @@ pub(crate) trait Segments<S: Simd> {
         None
     }
 
-    /// The open ones of some packets as a bundle in the mesh's own space, if they have a common origin or direction. Fills `room`, which has
-    /// as many places as there are packets.
+    /// The open ones of some packets as a bundle in the mesh's own space, if they have a common origin or direction. Fills
+    /// `room`, which has as many places as there are packets.
     fn bundle(
         shadows: &[Shadows<'_, S, Self>],
         search: &Searcher<'_, S>,

@@ -16,7 +16,7 @@ use super::bundled_rays::BundledRays;
 use super::common::{Common, Eight3, Sides};
 use super::common_direction::CommonDirection;
 use super::common_origin::CommonOrigin;
-use super::edges::{Around, Prepared};
+use super::edges::{Around, Prepared, minus};
 use super::packets::{Packets, SeenBox};
 use super::ray_bundle::Aim;
 use super::{ExactResolver, GROUP, LeafBlock, Visit, Visits, Waiting};
@@ -121,9 +121,18 @@ impl<C> Bundle<C> {
         Self { any: true, ..self }
     }
 
+    /// The edges of a block's triangles, and their corners relative to what depths are counted from, mirrored as the rays are; axis
+    /// by axis as in `axes`.
+    #[inline(always)]
+    pub(super) fn triangles<S: Simd>(&self, s: S, leaf: &LeafBlock<'_>) -> [[Eight3<S>; 3]; 2] {
+        let block = &leaf.tree.blocks[leaf.block];
+        let (a, b, c) = (self.corner(s, block, 0), self.corner(s, block, 1), self.corner(s, block, 2));
+        [[minus(c, b), minus(a, c), minus(b, a)], [self.seen(s, a), self.seen(s, b), self.seen(s, c)]]
+    }
+
     /// A corner of every triangle, axis by axis as in `axes`.
     #[inline(always)]
-    pub(super) fn corner<S: Simd>(&self, s: S, block: &Block8, corner: usize) -> Eight3<S> {
+    fn corner<S: Simd>(&self, s: S, block: &Block8, corner: usize) -> Eight3<S> {
         let rows = &block.corners[corner];
         [
             f32x8::load_array_ref(s, &rows[self.axes[0]]),
@@ -134,7 +143,7 @@ impl<C> Bundle<C> {
 
     /// Corners relative to what depths are counted from, mirrored as the rays are.
     #[inline(always)]
-    pub(super) fn seen<S: Simd>(&self, s: S, p: Eight3<S>) -> Eight3<S> {
+    fn seen<S: Simd>(&self, s: S, p: Eight3<S>) -> Eight3<S> {
         let sign = f32x8::splat(s, self.sign);
         [
             p[0].mul_sub_precise(sign, f32x8::splat(s, self.origin[0])),

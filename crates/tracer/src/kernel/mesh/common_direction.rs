@@ -11,7 +11,7 @@ use fearless_simd::{Simd, f32x8};
 use super::bundle::Bundle;
 use super::bundled_rays::BundledRays;
 use super::common::{Common, Eight3, Sides};
-use super::edges::{Around, Prepared, cross, dot, largest, minus, seen, stored};
+use super::edges::{Around, Prepared, cross, dot, largest, seen, stored};
 use super::planes::Plane;
 use super::ray_bundle::{Aim, component};
 use super::{LeafBlock, bound_eight};
@@ -181,14 +181,9 @@ impl Common for CommonDirection {
         leaf: &LeafBlock<'_>,
         ray_bounds: &RayBounds,
     ) -> Option<(Prepared, u64)> {
-        let block = &leaf.tree.blocks[leaf.block];
-        let (a, b, c) = (bundle.corner(s, block, 0), bundle.corner(s, block, 1), bundle.corner(s, block, 2));
-        let raw = [minus(c, b), minus(a, c), minus(b, a)];
+        let [raw, [from, b, c]] = bundle.triangles(s, leaf);
         let edges = [self.sheared(s, raw[0]), self.sheared(s, raw[1]), self.sheared(s, raw[2])];
-        let from = bundle.seen(s, a);
-        let p = self.sheared(s, from);
-        let q = self.sheared(s, bundle.seen(s, b));
-        let r = self.sheared(s, bundle.seen(s, c));
+        let (p, q, r) = (self.sheared(s, from), self.sheared(s, b), self.sheared(s, c));
         let lines = [line(edges[0], q), line(edges[1], r), line(edges[2], p)];
         // The sizes of edges, and how far places and corners lie from each other.
         let size = largest(raw);

@@ -11,7 +11,7 @@ use fearless_simd::{Simd, f32x8};
 use super::bundle::Bundle;
 use super::bundled_rays::BundledRays;
 use super::common::{Common, Sides};
-use super::edges::{Around, Prepared, cross, dot, largest, minus, products, seen, stored, weighted};
+use super::edges::{Around, Prepared, cross, dot, largest, products, seen, stored, weighted};
 use super::planes::Plane;
 use super::ray_bundle::Aim;
 use super::{LeafBlock, bound_eight};
@@ -134,10 +134,7 @@ impl Common for CommonOrigin {
         leaf: &LeafBlock<'_>,
         ray_bounds: &RayBounds,
     ) -> Option<(Prepared, u64)> {
-        let block = &leaf.tree.blocks[leaf.block];
-        let (a, b, c) = (bundle.corner(s, block, 0), bundle.corner(s, block, 1), bundle.corner(s, block, 2));
-        let edges = [minus(c, b), minus(a, c), minus(b, a)];
-        let (p, q, r) = (bundle.seen(s, a), bundle.seen(s, b), bundle.seen(s, c));
+        let [edges, [p, q, r]] = bundle.triangles(s, leaf);
         let planes = [cross(edges[0], q), cross(edges[1], r), cross(edges[2], p)];
         // Each axis counts with its own sizes: rays run mostly along one, and edges often along few.
         let size = largest(edges);

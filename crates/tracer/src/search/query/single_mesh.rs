@@ -102,7 +102,7 @@ impl<S: Simd> Searcher<'_, S> {
         room: &mut GroupRoom<S>,
     ) {
         let mut slots = [U::splat(self.s, NONE); GROUP];
-        // A group without a common origin is halved; after one with, the next try is twice as large.
+        // A group without a common origin or direction is halved; after one with, the next try is twice as large.
         let (mut first, mut size) = (0, group.packets);
         while first < group.packets {
             let part = group.part(self.s, first, size.min(group.packets - first));
